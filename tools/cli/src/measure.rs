@@ -39,7 +39,7 @@ pub(crate) struct Edges {
 }
 
 impl Edges {
-    /// Those of a mesh with a face. The two lips of a torn edge are two.
+    /// Those of a mesh with a face. The two sides of a torn edge are two.
     pub(crate) fn of(mesh: &Mesh, positions: &Positions) -> Edges {
         let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
         let (mut sum, mut count) = (0.0, 0.0);

@@ -102,12 +102,12 @@ pub(crate) struct How {
     pub(crate) snap_move: Option<bool>,
 }
 
-/// How far apart the lips of cuts are written.
+/// How far apart the sides of cuts are written.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Gap {
     pub(crate) length: f64,
     pub(crate) vertices_moved: usize,
-    /// Those that moved by less than half of it, so that no face turns over.
+    /// Those that moved by less than half of it, so that no face flips.
     pub(crate) vertices_clamped: usize,
     pub(crate) pieces_moved: usize,
 }

@@ -53,7 +53,7 @@ pub(super) fn picture_size(text: &str) -> Result<PictureSize, String> {
         .ok_or_else(|| format!("expected from 1 to {PIXELS_MAX} pixels in all"))
 }
 
-/// How far apart the lips of a cut are to stand.
+/// The distance between the sides of a cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Gap {
     Length(f64),

@@ -1,5 +1,5 @@
-//! Pieces, and the lips of slits, apart from each other: for the eye, and for programs that join what lies at one
-//! place.
+//! The gap of `cut --gap`: pieces and the sides of slits, moved apart to be seen, and to stay apart
+//! in programs that merge coincident points.
 
 use std::collections::BTreeMap;
 
@@ -7,37 +7,41 @@ use tearmesh::{Components, FaceId, HalfEdgeId, Mesh, Point, Positions, Vector, V
 
 use crate::measure::Edges;
 
-/// Where vertices are shown.
+/// A mesh with a gap.
 pub(crate) struct Gapped {
     pub(crate) points: Vec<Point>,
-    /// How many are shown apart from where they are, and how many of these by less than was asked for.
+    /// The vertices that moved, and those of them that moved less than half the gap.
     pub(crate) moved: usize,
     pub(crate) clamped: usize,
-    /// How many pieces are moved as a whole.
+    /// The pieces that moved rigidly.
     pub(crate) pieces: usize,
-    /// How many vertices of lips move within their piece.
-    pub(crate) lips: usize,
+    /// The vertices on cut sides that moved within their piece.
+    pub(crate) side_vertices: usize,
 }
 
-/// How often a vertex is brought half way back before it is left where it is.
+/// How often the way of a vertex is halved before the vertex stays in place.
 const HALVINGS: u32 = 40;
 
-/// What is left of a face at least, by area.
-const LEAST: f64 = 0.1;
+/// The least part of its area that a face keeps.
+const AREA_MIN: f64 = 0.1;
 
-/// What is left of the length of a seam at least, added up square to it, where its two pieces move as a
-/// whole: one that goes round a piece leaves nothing.
-const STRAIGHT: f64 = 0.5;
+/// The least straightness of a seam whose pieces move rigidly: the length of the sum of its normals
+/// over its length. A seam around a piece has 0.
+const STRAIGHTNESS_MIN: f64 = 0.5;
 
-/// What is left of a gap at least where pieces round a vertex move by what each two of them need.
-const AGREED: f64 = 0.9;
+/// The least part of the gap between two pieces of a group that moves rigidly: where three pieces
+/// meet, the shifts that any two of them need can differ.
+const GAP_MIN: f64 = 0.9;
 
-/// Moves everything that is torn `gap` apart. Pieces that part wholly move as they are, each by half of
-/// it. Where both lips are of one piece, or the seam goes round a piece, each lip moves by half of it:
-/// within the surface, square to the lip, and along the boundary where the lip ends there. A vertex that both lips
-/// share, as the tip of a slit, stays; so the gap opens over one edge. Where a face would turn over, or
-/// lose nearly all of its area, its vertices are brought back by halves. Linear: a vertex is brought back
-/// so often at most, and then only its own faces are looked at again.
+/// Moves everything that is torn `gap` apart.
+///
+/// Two pieces that a seam separates move rigidly, each by half the gap. Where both sides of a seam
+/// are of one piece (a slit), or the seam goes around a piece, the vertices of each side move by
+/// half the gap within the surface: square to the side, or along the boundary where the side ends
+/// at it. A vertex of both sides, such as the tip of a slit, stays in place. Where a face would
+/// flip or lose nearly all of its area, the ways of its vertices are halved until it does not.
+/// Takes linear time: only the faces around such vertices are tested again, and each vertex has at
+/// most [`HALVINGS`].
 pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
     let pieces = Pieces::new(mesh, positions);
     let away = directions(mesh, positions, &pieces);
@@ -52,44 +56,28 @@ pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
         away[v.index()].map_or(positions.at(v), |away| positions.at(v) + away * part)
     };
     let moves = |v: VertexId| away[v.index()].is_some();
-    let moving = mesh
-        .faces()
-        .filter(|&f| mesh.face_vertices(f).into_iter().any(moves));
-    let mut left: Vec<FaceId> = moving.collect();
-    let mut faces_of = vec![Vec::new(); away.len()];
-    for &f in &left {
-        for v in mesh.face_vertices(f).into_iter().filter(|&v| moves(v)) {
-            faces_of[v.index()].push(f);
-        }
-    }
-    // Each round brings a vertex back, which can be done so often.
-    loop {
-        let mut back = Vec::new();
-        for &f in &left {
-            let corners = mesh.face_vertices(f);
+    let mut untested: Vec<FaceId> = mesh.faces().collect();
+    while !untested.is_empty() {
+        let is_spoiled = |f: &FaceId| {
+            let corners = mesh.face_vertices(*f);
             let before = normal(corners.map(|v| positions.at(v)));
             let after = normal(corners.map(|v| at(v, &halvings)));
-            let keeps = before.dot(&after) >= LEAST * before.norm_squared();
-            let mut moved = corners
-                .into_iter()
-                .filter(|&v| moves(v) && halvings[v.index()] < HALVINGS);
-            if !keeps && moved.clone().next().is_some() {
-                back.extend(moved.by_ref());
-            }
-        }
-        if back.is_empty() {
-            break;
-        }
-        back.sort();
-        back.dedup();
-        for &v in &back {
+            let keeps_area = before.dot(&after) >= AREA_MIN * before.norm_squared();
+            !keeps_area
+        };
+        let spoiled = untested.into_iter().filter(is_spoiled);
+        let corners = spoiled.flat_map(|f| mesh.face_vertices(f));
+        let can_halve = |v: &VertexId| moves(*v) && halvings[v.index()] < HALVINGS;
+        let mut halved: Vec<VertexId> = corners.filter(can_halve).collect();
+        halved.sort_unstable();
+        halved.dedup();
+        for v in &halved {
             halvings[v.index()] += 1;
         }
-        // A face that keeps its shape may lose it when a neighbour is brought back.
-        left.clear();
-        left.extend(back.iter().flat_map(|v| &faces_of[v.index()]));
-        left.sort_unstable();
-        left.dedup();
+        // A face that was not spoiled may be now.
+        untested = halved.iter().flat_map(|&v| mesh.faces_of(v)).collect();
+        untested.sort_unstable();
+        untested.dedup();
     }
     let with_piece = |v: VertexId| match pieces.shift(mesh, v).filter(|_| gap > 0.0) {
         Some(shift) => at(v, &halvings) + shift * gap,
@@ -105,15 +93,15 @@ pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
             true => pieces.shifts.iter().flatten().count(),
             false => 0,
         },
-        lips: mesh.vertices().filter(|&v| moves(v)).count(),
+        side_vertices: mesh.vertices().filter(|&v| moves(v)).count(),
         points,
     }
 }
 
-/// The pieces of a mesh, and how they part.
+/// The pieces of a mesh, and how they move.
 struct Pieces {
     of: Components,
-    /// By how much of the gap each piece moves as a whole, if it does.
+    /// For each piece that moves rigidly, how far it moves, in gaps.
     shifts: Vec<Option<Vector>>,
 }
 
@@ -122,34 +110,35 @@ impl Pieces {
         let of = mesh.components();
         let mut is_stuck = vec![false; of.count()];
         let mut of_vertex: Vec<Option<usize>> = vec![None; mesh.vertex_count()];
-        // Between two pieces: the way from the first to the second, and the length of their seam.
+        // For two pieces, the sum of the normals of their seam, from the lower to the higher, and
+        // its length.
         let mut seams: BTreeMap<[usize; 2], (Vector, f64)> = BTreeMap::new();
         for h in mesh.half_edges() {
             let piece = of.of(h.face());
             let known = *of_vertex[mesh.origin(h).index()].get_or_insert(piece);
             if known != piece {
+                // They share a vertex.
                 is_stuck[piece] = true;
                 is_stuck[known] = true;
             }
-            let Some(across) = mesh.ghost_pair(h).map(|across| of.of(across.face())) else {
+            let across = mesh.ghost_pair(h).map(|across| of.of(across.face()));
+            let Some(across) = across.filter(|&across| across != piece) else {
                 continue;
             };
-            let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
-            let away = inward(mesh, positions, h) * (b - a).norm();
-            if across != piece {
-                let seam = seams.entry([piece.min(across), piece.max(across)]);
-                let (way, length) = seam.or_insert((Vector::zeros(), 0.0));
-                *way += if piece > across { away } else { -away };
-                *length += (b - a).norm();
-            }
+            let edge_m = (positions.at(mesh.target(h)) - positions.at(mesh.origin(h))).norm();
+            let normal = inward(mesh, positions, h) * edge_m;
+            let seam = seams.entry([piece.min(across), piece.max(across)]);
+            let (sum, length) = seam.or_insert((Vector::zeros(), 0.0));
+            *sum += if piece > across { normal } else { -normal };
+            *length += edge_m;
         }
         let mut beside: Vec<Vec<(usize, Vector)>> = vec![Vec::new(); of.count()];
-        for (&[one, other], &(way, length)) in &seams {
-            if way.norm() < STRAIGHT * length || length == 0.0 {
+        for (&[one, other], &(sum, length)) in &seams {
+            if sum.norm() < STRAIGHTNESS_MIN * length || length == 0.0 {
                 is_stuck[one] = true;
             }
-            beside[one].push((other, unit(way)));
-            beside[other].push((one, -unit(way)));
+            beside[one].push((other, unit(sum)));
+            beside[other].push((one, -unit(sum)));
         }
         let mut pieces = Pieces {
             shifts: vec![None; of.count()],
@@ -158,56 +147,56 @@ impl Pieces {
         let mut is_seen = vec![false; beside.len()];
         for first in 0..beside.len() {
             if !is_seen[first] && !beside[first].is_empty() {
-                pieces.part(first, &beside, &is_stuck, &mut is_seen);
+                pieces.shift_group(first, &beside, &is_stuck, &mut is_seen);
             }
         }
         pieces
     }
 
-    /// Finds how far all pieces that hang together by seams move, unless one of them cannot move as a
-    /// whole.
-    fn part(
+    /// Shifts all pieces that are connected with `first` by seams, unless one of them cannot move
+    /// rigidly.
+    fn shift_group(
         &mut self,
         first: usize,
         beside: &[Vec<(usize, Vector)>],
         is_stuck: &[bool],
         is_seen: &mut [bool],
     ) {
-        let mut together = vec![first];
+        let mut group = vec![first];
         self.shifts[first] = Some(Vector::zeros());
         is_seen[first] = true;
         let mut next = 0;
-        while let Some(&piece) = together.get(next) {
+        while let Some(&piece) = group.get(next) {
             next += 1;
             let shift = self.shifts[piece].expect("it was reached");
             for &(other, way) in &beside[piece] {
                 if !std::mem::replace(&mut is_seen[other], true) {
                     self.shifts[other] = Some(shift + way);
-                    together.push(other);
+                    group.push(other);
                 }
             }
         }
         let at = |piece: usize| self.shifts[piece].expect("it was reached");
-        let parts = |&piece: &usize| {
+        let is_apart = |&piece: &usize| {
             let mut ways = beside[piece].iter();
             !is_stuck[piece]
-                && ways.all(|&(other, way)| (at(other) - at(piece)).dot(&way) >= AGREED)
+                && ways.all(|&(other, way)| (at(other) - at(piece)).dot(&way) >= GAP_MIN)
         };
-        let all_part = together.iter().all(parts);
-        let sum: Vector = together.iter().map(|&piece| at(piece)).sum();
-        let middle = sum / together.len() as f64;
-        for piece in together {
+        let all_are_apart = group.iter().all(is_apart);
+        let sum: Vector = group.iter().map(|&piece| at(piece)).sum();
+        let middle = sum / group.len() as f64;
+        for piece in group {
             let shift = &mut self.shifts[piece];
-            *shift = shift.filter(|_| all_part).map(|shift| shift - middle);
+            *shift = shift.filter(|_| all_are_apart).map(|shift| shift - middle);
         }
     }
 
-    /// By how much of the gap a vertex moves with its piece.
+    /// How far a vertex moves with its piece, in gaps.
     fn shift(&self, mesh: &Mesh, v: VertexId) -> Option<Vector> {
         self.shifts[self.of.of(mesh.half_edge_of(v)?.face())]
     }
 
-    /// What is across a torn edge, unless the two sides move apart as a whole.
+    /// The other side of a torn edge, unless its piece and this one move apart rigidly.
     fn across(&self, mesh: &Mesh, h: HalfEdgeId) -> Option<HalfEdgeId> {
         let across = mesh.ghost_pair(h)?;
         let [one, other] = [h, across].map(|h| self.of.of(h.face()));
@@ -215,10 +204,10 @@ impl Pieces {
     }
 }
 
-/// In which direction each vertex moves away from the other lip, if it does.
+/// The direction in which each vertex moves away from the other side of its slit, if it does.
 fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option<Vector>> {
     let mut away = vec![Vector::zeros(); mesh.vertex_count()];
-    let mut is_lip = vec![false; away.len()];
+    let mut is_side = vec![false; away.len()];
     let mut is_shared = vec![false; away.len()];
     for h in mesh.half_edges() {
         let Some(other) = pieces.across(mesh, h) else {
@@ -230,11 +219,11 @@ fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option
             (mesh.target(h), mesh.origin(other)),
         ] {
             away[v.index()] += inward;
-            is_lip[v.index()] = true;
+            is_side[v.index()] = true;
             is_shared[v.index()] |= v == across;
         }
     }
-    // What a lip ends at is the boundary that was there before the cut, or another piece.
+    // A side ends at the boundary that was there before the cut, or at another piece.
     let mut along = vec![Vector::zeros(); away.len()];
     for h in mesh
         .half_edges()
@@ -243,7 +232,7 @@ fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option
         let [a, b] = [mesh.origin(h), mesh.target(h)];
         let edge = positions.at(b) - positions.at(a);
         for (v, edge) in [(a, edge), (b, -edge)] {
-            if is_lip[v.index()] {
+            if is_side[v.index()] {
                 along[v.index()] += unit(edge);
             }
         }
@@ -255,19 +244,19 @@ fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option
         } else {
             at_end
         };
-        (is_lip[v] && !is_shared[v] && direction != Vector::zeros()).then_some(direction)
+        (is_side[v] && !is_shared[v] && direction != Vector::zeros()).then_some(direction)
     };
     (0..away.len()).map(direction).collect()
 }
 
-/// The direction from an edge into its face, in the plane of this.
+/// The unit vector in the plane of a face, square to one of its edges and pointing inward.
 fn inward(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> Vector {
     let [a, b, c] = [h, h.next(), h.prev()].map(|h| positions.at(mesh.origin(h)));
     let edge = unit(b - a);
     unit(unit(edge.cross(&(c - a))).cross(&edge))
 }
 
-/// The vector of this direction and of length 1; zero where there is none.
+/// The unit vector in this direction; zero for zero.
 fn unit(v: Vector) -> Vector {
     let largest = v.amax();
     if largest > 0.0 {

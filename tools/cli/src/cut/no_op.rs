@@ -19,9 +19,11 @@ pub(crate) enum NoOpReason {
     Unknown,
 }
 
-/// Finds the reason for which a cut split nothing; `snap` is that of the scissor. Takes linear time.
+/// Finds the reason for which a cut split nothing; `snap` is that of the scissor. Takes linear
+/// time.
 ///
-/// Cuts without the snap, and beyond the rays, are tried on a copy, so that the advice to make one works.
+/// Cuts without the snap, and beyond the rays, are tried on a copy, so that the advice to make one
+/// works.
 pub(super) fn reason(
     (scissor, method, snap): (&Scissor, CutMethod, f64),
     through: bool,
@@ -61,7 +63,8 @@ pub(super) fn reason(
     }
 }
 
-/// How far from the plane, in edges, a vertex may be that was inserted on it. It only chooses words.
+/// How far from the plane, in edges, a vertex may be that was inserted on it. It only chooses
+/// words.
 const ROUNDING: f64 = 1e-6;
 
 /// The faces crossed and the vertices split by another cut; `None` if it splits nothing either.
@@ -91,8 +94,8 @@ struct Slit<'a> {
 }
 
 impl Slit<'_> {
-    /// Whether a half-edge is torn, and its faces lie as those on a seam of this cut do: on two sides
-    /// of the plane, and between the rays.
+    /// Whether a half-edge is torn, and its faces lie as those on a seam of this cut do: on two
+    /// sides of the plane, and between the rays.
     fn follows(&self, h: HalfEdgeId) -> bool {
         let Some(ghost) = self.mesh.ghost_pair(h) else {
             return false;

@@ -28,8 +28,8 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
 /// The line of the summary on a gap.
 pub(crate) fn gap(gap: f64, gapped: &Gapped) -> String {
     let pieces = count(gapped.pieces, "piece", "pieces");
-    let vertices = count(gapped.lips, "vertex", "vertices") + " along the cut";
-    let what = match (gapped.pieces, gapped.lips) {
+    let vertices = count(gapped.side_vertices, "vertex", "vertices") + " along the cut";
+    let what = match (gapped.pieces, gapped.side_vertices) {
         (0, _) => vertices,
         (_, 0) => pieces,
         _ => format!("{pieces} and {vertices}"),
@@ -45,8 +45,9 @@ pub(crate) fn of_gap(gapped: &Gapped) -> Option<Fault> {
     (gapped.clamped > 0).then(|| Fault::warning("W-CUT-GAP", message))
 }
 
-/// The table of warnings about a cut, with its number where there are several: each row has the code, when it is due,
-/// and what is said. `reason` is why it split nothing, and `extent` that of the mesh, which helps if the cut missed it.
+/// The table of warnings about a cut, with its number where there are several: each row has the
+/// code, when it is due, and what is said. `reason` is why it split nothing, and `extent` that of
+/// the mesh, which helps if the cut missed it.
 pub(crate) fn warnings(
     number: Option<usize>,
     how: How,
