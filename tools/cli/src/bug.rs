@@ -61,7 +61,7 @@ fn reproducer(
     if let Some(input) = input {
         let mut bytes = input
             .open()
-            .map_err(|fault| io::Error::other(fault.message))?;
+            .map_err(|_| io::Error::other("the input cannot be read again"))?;
         io::copy(&mut bytes, out)?;
     }
     Ok(())

@@ -4,7 +4,6 @@ use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use cpu_time::ThreadTime;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use tearmesh_lab::cut::Cuts;
 use tearmesh_lab::experiment::{
@@ -19,15 +18,13 @@ use tearmesh_lab::stability::Stability;
 use tearmesh_lab::tear::{EnsembleScene, Tear};
 
 use crate::args::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
-use crate::exit::Exit;
+use crate::exit::{Exit, Stop};
+use crate::files::{unwritable, write_beside};
 use crate::input::cannot_read;
 use crate::interrupt::Guard;
 use crate::output;
 use crate::say::Fault;
 use crate::streams::Streams;
-
-/// How a part of the work ended.
-type Ended<T> = Result<T, (Exit, Fault)>;
 
 /// Runs an experiment, writes what is wanted of it, and returns the exit status.
 pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
@@ -54,10 +51,7 @@ pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
             (&args.draw, work(&Fig7 { cells }, &args.draw, streams))
         }
     };
-    match done {
-        Ok(exit) => exit,
-        Err((exit, fault)) => streams.fail(&fault, draw.color, exit),
-    }
+    done.unwrap_or_else(|stop| streams.conclude(Err(stop), Vec::new(), draw.color, true))
 }
 
 fn threads(draw: &DrawArgs) -> NonZero<usize> {
@@ -101,7 +95,7 @@ fn pareto(args: &ParetoArgs) -> Pareto {
     })
 }
 
-fn tear(args: &TearChartArgs) -> Ended<Tear> {
+fn tear(args: &TearChartArgs) -> Result<Tear, Stop> {
     let strips = if args.no_strips {
         &[][..]
     } else {
@@ -109,8 +103,7 @@ fn tear(args: &TearChartArgs) -> Ended<Tear> {
     };
     if strips.len() == 1 {
         let message = "`--strips` takes two numbers or more: forces are compared".to_owned();
-        let fault = Fault::error("E-USAGE", message).help("as in --strips 8,16");
-        return Err((Exit::Usage, fault));
+        return Err(Stop::usage(message, "as in --strips 8,16"));
     }
     let is_named = |scene: &EnsembleScene| args.scene.iter().any(|name| name == scene.name());
     let scenes = EnsembleScene::ALL.into_iter().filter(is_named);
@@ -129,10 +122,10 @@ fn tear(args: &TearChartArgs) -> Ended<Tear> {
 }
 
 /// The text of a file.
-fn read(path: &Path) -> Ended<String> {
+fn read(path: &Path) -> Result<String, Stop> {
     let text = std::fs::read_to_string(path);
     text.map_err(|error| {
-        (
+        Stop::new(
             Exit::Input,
             cannot_read(&path.display().to_string(), &error),
         )
@@ -140,7 +133,11 @@ fn read(path: &Path) -> Ended<String> {
 }
 
 /// Runs an experiment or reads its table, and writes chart, table and figures, as far as they are wanted.
-fn work<E: Chart>(experiment: &E, draw: &DrawArgs, streams: &mut Streams<'_>) -> Ended<Exit> {
+fn work<E: Chart>(
+    experiment: &E,
+    draw: &DrawArgs,
+    streams: &mut Streams<'_>,
+) -> Result<Exit, Stop> {
     let files = check(draw)?;
     let mut provenance = provenance(experiment);
     let (rows, missing) = match &draw.from {
@@ -151,7 +148,7 @@ fn work<E: Chart>(experiment: &E, draw: &DrawArgs, streams: &mut Streams<'_>) ->
                 let message = format!("{} is not a table of this chart: {why}", path.display());
                 let help = "give one that --csv of the same chart wrote";
                 let fault = Fault::error("E-CHART-TABLE", message).help(help);
-                (Exit::Input, fault)
+                Stop::new(Exit::Input, fault)
             };
             let rows = read_table(&read(path)?).map_err(|error| refused(&error.to_string()))?;
             if rows.is_empty() {
@@ -206,7 +203,7 @@ fn conducted<E: Experiment>(
     experiment: &E,
     draw: &DrawArgs,
     streams: &mut Streams<'_>,
-) -> Ended<(Vec<E::Row>, usize)> {
+) -> Result<(Vec<E::Row>, usize), Stop> {
     let plan = experiment.plan();
     let runs: usize = plan.iter().map(Vec::len).sum();
     let about_s = guess_s(experiment, &plan) / experiment.threads().get() as f64;
@@ -218,12 +215,7 @@ fn conducted<E: Experiment>(
             "{runs} runs, about {about} (Ctrl-C stops and keeps finished runs)"
         );
     }
-    let is_shown = streams.error_is_terminal && !draw.quiet;
-    let bar = bar(if is_shown {
-        ProgressDrawTarget::stderr()
-    } else {
-        ProgressDrawTarget::hidden()
-    });
+    let bar = streams.bar(BAR as u64, "{wide_bar} {percent} % {eta}", !draw.quiet);
     let guard = Guard::new();
     let bounds = Bounds {
         clock: experiment
@@ -239,21 +231,13 @@ fn conducted<E: Experiment>(
     if conducted.done == 0 && missing > 0 {
         let message = "interrupted before any run was done; nothing written".to_owned();
         let fault = Fault::warning("W-CHART-INTERRUPTED", message);
-        return Err((Exit::Interrupted, fault));
+        return Err(Stop::new(Exit::Interrupted, fault));
     }
     Ok((conducted.rows, missing))
 }
 
 /// The length of a progress bar.
 const BAR: f64 = 1000.0;
-
-fn bar(target: ProgressDrawTarget) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(BAR as u64), target);
-    match ProgressStyle::with_template("{wide_bar} {percent} % {eta}") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
-}
 
 /// A duration in words, rounded up.
 fn some_time(seconds: f64) -> String {
@@ -285,7 +269,7 @@ fn processor() -> String {
 
 /// The files that are wanted. All must be places of their own that can be written, and only the chart may be
 /// standard output.
-fn check(draw: &DrawArgs) -> Ended<Vec<&PathBuf>> {
+fn check(draw: &DrawArgs) -> Result<Vec<&PathBuf>, Stop> {
     let files = [draw.output.as_ref(), draw.csv.as_ref(), draw.json.as_ref()];
     let files: Vec<&PathBuf> = files.into_iter().flatten().collect();
     let is_output = |path: &PathBuf| path == Path::new("-") && draw.output.as_ref() == Some(path);
@@ -294,8 +278,7 @@ fn check(draw: &DrawArgs) -> Ended<Vec<&PathBuf>> {
         let is_twice = files[..i].iter().any(is_it);
         if is_twice || (*path == Path::new("-") && !(i == 0 && is_output(path))) {
             let message = format!("`{}` is named twice, or is not a file", path.display());
-            let fault = Fault::error("E-USAGE", message).help("name a file for each");
-            return Err((Exit::Usage, fault));
+            return Err(Stop::usage(message, "name a file for each"));
         }
     }
     for path in files.iter().filter(|path| **path != Path::new("-")) {
@@ -304,13 +287,14 @@ fn check(draw: &DrawArgs) -> Ended<Vec<&PathBuf>> {
     Ok(files)
 }
 
-fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Ended<()> {
+fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), Stop> {
     if path == Path::new("-") {
         let printed = output::print(streams.output, |out| out.write_all(text.as_bytes()));
-        return printed.map(|_| ()).map_err(|fault| (Exit::Output, fault));
+        return printed
+            .map(|_| ())
+            .map_err(|fault| Stop::new(Exit::Output, fault));
     }
-    let written = output::write(path, |out| out.write_all(text.as_bytes()));
-    written.map_err(|error| unwritable(path, &error))
+    write_beside(path, |out| out.write_all(text.as_bytes()))
 }
 
 /// Prints a summary and the names of the files, unless the chart is on standard output.
@@ -319,7 +303,7 @@ fn print_summary(
     files: &[&PathBuf],
     is_quiet: bool,
     streams: &mut Streams<'_>,
-) -> Ended<()> {
+) -> Result<(), Stop> {
     if is_quiet || files.first().is_some_and(|path| *path == Path::new("-")) {
         return Ok(());
     }
@@ -331,17 +315,12 @@ fn print_summary(
     let printed = output::print(streams.output, |out| {
         writeln!(out, "{summary}\nwrote {names}")
     });
-    let printed = printed.map_err(|fault| (Exit::Output, fault.help(format!("wrote {names}"))));
+    let printed =
+        printed.map_err(|fault| Stop::new(Exit::Output, fault.help(format!("wrote {names}"))));
     printed.map(|_| ())
 }
 
-fn bug(message: &str) -> (Exit, Fault) {
-    (
-        Exit::Bug,
-        Fault::error("E-BUG-INVARIANT", message.to_owned()),
-    )
-}
-
-fn unwritable(path: &Path, error: &std::io::Error) -> (Exit, Fault) {
-    (Exit::Output, output::cannot_write(path, error))
+fn bug(message: &str) -> Stop {
+    let fault = Fault::error("E-BUG-INVARIANT", message.to_owned());
+    Stop::new(Exit::Bug, fault)
 }

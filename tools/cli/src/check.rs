@@ -5,32 +5,37 @@ mod shown;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tearmesh::{Masses, Positions};
+use tearmesh::Masses;
 
 use self::shown::Shown;
 use crate::args::{CheckArgs, Format};
 use crate::exit::{Exit, Stop};
+use crate::files::one_stream;
 use crate::input::Input;
 use crate::input::named::named;
 use crate::measure::{Bounds, Edges, Piece};
-use crate::report::{Entry, File};
+use crate::output;
+use crate::report::{Entry, File, Timing};
 use crate::say::{Fault, Severity, count, place, short};
+use crate::session;
 use crate::streams::Streams;
-use crate::{defects, output, session};
 
 /// The code of an invariant that does not hold.
 const BROKEN: &str = "E-BUG-INVARIANT";
+
+/// The codes of files that cannot be opened or read.
+const UNREADABLE: [&str; 3] = ["E-IO-DIRECTORY", "E-IO-MISSING", "E-IO-READ"];
 
 /// How many pieces of a mesh are listed in words, the largest first.
 const SHOWN: usize = 8;
 
 /// Checks every file, whatever is wrong with those before it.
 pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
-    let is_stream = |path: &&PathBuf| path.as_path() == Path::new("-");
-    if args.inputs.iter().filter(is_stream).count() > 1 {
-        let message = "two inputs both come from standard input".to_owned();
-        let fault = Fault::error("E-USAGE", message).help("name a file for one of them");
-        return streams.fail(&fault, args.color, Exit::Usage);
+    let refuse = |stop, streams: &mut Streams<'_>| {
+        streams.conclude(Err(stop), Vec::new(), args.color, args.verbose)
+    };
+    if let Err(stop) = one_stream(&args.inputs) {
+        return refuse(stop, streams);
     }
     let files = named(&args.inputs, args.recursive);
     let names = files.iter().map(|file| match file {
@@ -39,15 +44,12 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
     let width = names.max().unwrap_or(0);
     let mut shown = match args.view.as_ref().map(|path| Shown::at(path, &files)) {
         Some(Ok(shown)) => Some(shown),
-        Some(Err(stop)) => return refuse(&stop, args, streams),
+        Some(Err(stop)) => return refuse(stop, streams),
         None => None,
     };
     let mut exit = Exit::Done;
     for file in files {
-        let found = match file {
-            Ok(path) => Found::of(&path, shown.as_mut(), streams),
-            Err((path, fault)) => Found::nothing(&path, fault),
-        };
+        let found = Found::of(file, shown.as_mut(), streams);
         exit = match (exit, found.exit()) {
             (Exit::Input, _) | (_, Exit::Input) => Exit::Input,
             (Exit::Bug, _) | (_, Exit::Bug) => Exit::Bug,
@@ -71,16 +73,8 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
             streams.show(&found.faults, args.color, true);
         }
     }
-    match shown.map_or(Ok(()), Shown::write) {
-        Ok(()) => exit,
-        Err(stop) => refuse(&stop, args, streams),
-    }
-}
-
-/// Says why a page cannot be made.
-fn refuse(stop: &Stop, args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
-    streams.show(&stop.faults, args.color, args.verbose);
-    stop.exit
+    let written = shown.map_or(Ok(()), Shown::write);
+    written.map_or_else(|stop| refuse(stop, streams), |()| exit)
 }
 
 fn name(path: &Path) -> String {
@@ -91,8 +85,6 @@ fn name(path: &Path) -> String {
 struct Found {
     path: String,
     mesh: Option<Measured>,
-    /// The file could not even be opened.
-    unreadable: bool,
     faults: Vec<Fault>,
 }
 
@@ -119,71 +111,30 @@ struct Line<'f> {
 }
 
 impl Found {
-    /// That there is no file, and why.
-    fn nothing(path: &Path, fault: Fault) -> Found {
-        Found {
-            path: name(path),
-            mesh: None,
-            unreadable: true,
-            faults: vec![fault],
-        }
-    }
-
-    fn of(path: &Path, shown: Option<&mut Shown>, streams: &mut Streams<'_>) -> Found {
-        let input = match Input::find(path, streams.input) {
-            Ok(input) => input,
-            Err(fault) if fault.code == "E-IO-DIRECTORY" => {
-                return Found::nothing(path, fault.help("add -r, to check the OBJ files in it"));
+    /// A file, or why there is none.
+    fn of(
+        file: Result<PathBuf, (PathBuf, Fault)>,
+        shown: Option<&mut Shown>,
+        streams: &mut Streams<'_>,
+    ) -> Found {
+        let mut faults = Vec::new();
+        let (path, measured) = match file {
+            Ok(path) => {
+                let measured = measure(&path, shown, &mut faults, streams);
+                (path, measured.map_err(|stop| stop.faults))
             }
-            Err(fault) => return Found::nothing(path, fault),
+            Err((path, fault)) => (path, Err(vec![fault])),
         };
-        let mut found = Found {
-            path: name(path),
-            mesh: None,
-            unreadable: false,
-            faults: Vec::new(),
+        let (mesh, why) = match measured {
+            Ok(measured) => (Some(measured), Vec::new()),
+            Err(why) => (None, why),
         };
-        let document = match input.document() {
-            Ok(document) => document,
-            Err(fault) => {
-                found.unreadable = fault.code == "E-IO-READ";
-                found.faults.push(fault);
-                return found;
-            }
-        };
-        let diagnostics = document.diagnostics().iter();
-        found
-            .faults
-            .extend(diagnostics.map(|one| Fault::of_file(&input.name, one)));
-        match document.mesh() {
-            Ok(mesh) => {
-                let points = document.positions().iter().copied();
-                let positions = Positions::new(points).expect("the reader accepts no others");
-                if let Some(shown) = shown {
-                    shown.add(&mesh, &positions, &input.name);
-                }
-                found.mesh = Some(Measured {
-                    file: File::of(Some(input.name.clone()), &mesh),
-                    bounds: Bounds::of(&mesh, &positions),
-                    edges: Edges::of(&mesh, &positions),
-                    pieces: Piece::all(&mesh, &positions),
-                });
-                // What no verb could weigh, none can cut.
-                if let Err(error) = Masses::area(&mesh, &positions, 1.0) {
-                    found.faults.push(session::no_masses(&error));
-                }
-                // For a mesh that was just built a violation would be a bug of ours.
-                let violations = mesh.check().into_iter();
-                found
-                    .faults
-                    .extend(violations.map(|broken| Fault::error(BROKEN, broken.to_string())));
-            }
-            Err(error) => {
-                let defects = defects::faults(&input, document, error, "or cut with");
-                found.faults.extend(defects);
-            }
-        }
-        found
+        faults.extend(why.into_iter().map(|fault| match fault.code {
+            "E-IO-DIRECTORY" => fault.help("add -r, to check the OBJ files in it"),
+            _ => fault,
+        }));
+        let path = name(&path);
+        Found { path, mesh, faults }
     }
 
     fn errors(&self) -> impl Iterator<Item = &Fault> {
@@ -193,10 +144,11 @@ impl Found {
     }
 
     fn exit(&self) -> Exit {
+        let has = |codes: &[&str]| self.errors().any(|fault| codes.contains(&fault.code));
         match self.errors().next() {
             None => Exit::Done,
-            Some(_) if self.unreadable => Exit::Input,
-            Some(_) if self.errors().any(|fault| fault.code == BROKEN) => Exit::Bug,
+            Some(_) if has(&UNREADABLE) => Exit::Input,
+            Some(_) if has(&[BROKEN]) => Exit::Bug,
             Some(_) => Exit::NothingCut,
         }
     }
@@ -264,6 +216,34 @@ impl Found {
         };
         serde_json::to_string(&line).expect("strings and numbers are JSON")
     }
+}
+
+/// Measures a mesh. What there is to say of it goes to `faults`.
+fn measure(
+    path: &Path,
+    shown: Option<&mut Shown>,
+    faults: &mut Vec<Fault>,
+    streams: &mut Streams<'_>,
+) -> Result<Measured, Stop> {
+    let input = Input::find(path, streams.input)?;
+    let timing = &mut Timing::default();
+    let opened = session::open(&input, None, "or cut with", faults, timing)?;
+    let (mesh, positions) = (&opened.mesh, &opened.positions);
+    if let Some(shown) = shown {
+        shown.add(mesh, positions, &input.name);
+    }
+    // What no verb could weigh, none can cut.
+    let masses = Masses::area(mesh, positions, 1.0);
+    faults.extend(masses.err().map(|error| session::no_masses(&error)));
+    // For a mesh that was just built a violation would be a bug of ours.
+    let violations = mesh.check().into_iter();
+    faults.extend(violations.map(|broken| Fault::error(BROKEN, broken.to_string())));
+    Ok(Measured {
+        bounds: Bounds::of(mesh, positions),
+        edges: Edges::of(mesh, positions),
+        pieces: Piece::all(mesh, positions),
+        file: File::of(Some(input.name), mesh),
+    })
 }
 
 /// Counts, and the codes of warnings and notes.

@@ -100,6 +100,18 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
     Ok(())
 }
 
+/// Refuses more than one input from standard input.
+pub(crate) fn one_stream<P: AsRef<Path>>(inputs: &[P]) -> Result<(), Stop> {
+    let is_stream = |path: &&P| path.as_ref() == Path::new("-");
+    match inputs.iter().filter(is_stream).count() {
+        0 | 1 => Ok(()),
+        _ => Err(Stop::usage(
+            "two inputs both come from standard input",
+            "name a file for one of them",
+        )),
+    }
+}
+
 /// That a file is named like one of another format than the only one that is written.
 fn only(format: &str, path: &Path, help: &str) -> Stop {
     let name = path.display();

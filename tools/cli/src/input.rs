@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use tearmesh_obj::Document;
 
 use self::foreign::{Format, OPENING};
+use crate::exit::{Exit, Stop};
 use crate::say::Fault;
 
 /// The input, and how it is called in messages and in the report.
@@ -26,52 +27,51 @@ enum Source {
 
 impl Input {
     /// Finds the input; `-` is standard input.
-    pub(crate) fn find(path: &Path, stdin: &mut dyn Read) -> Result<Input, Fault> {
+    pub(crate) fn find(path: &Path, stdin: &mut dyn Read) -> Result<Input, Stop> {
         let name = path.display().to_string();
         if path == Path::new("-") {
             let mut bytes = Vec::new();
             let read = stdin.read_to_end(&mut bytes);
-            read.map_err(|error| cannot_read("standard input", &error))?;
+            read.map_err(|error| refused(cannot_read("standard input", &error)))?;
             return Ok(Input {
                 name,
                 source: Source::Bytes(bytes),
             });
         }
-        match path.metadata() {
-            Ok(found) if found.is_dir() => Err(Fault::error(
-                "E-IO-DIRECTORY",
-                format!("`{name}` is a directory, not a file"),
-            )),
-            Ok(_) => Ok(Input {
-                name,
-                source: Source::File(path.to_owned()),
-            }),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Err(Fault {
-                code: "E-IO-MISSING",
-                message: format!("there is no file `{name}`"),
+        let fault = match path.metadata() {
+            Ok(found) if found.is_dir() => {
+                let message = format!("`{name}` is a directory, not a file");
+                Fault::error("E-IO-DIRECTORY", message)
+            }
+            Ok(_) => {
+                let source = Source::File(path.to_owned());
+                return Ok(Input { name, source });
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Fault {
                 help: similar(path).map(|near| format!("did you mean `{}`?", near.display())),
-                ..Fault::default()
-            }),
-            Err(error) => Err(cannot_read(&name, &error)),
-        }
+                ..Fault::error("E-IO-MISSING", format!("there is no file `{name}`"))
+            },
+            Err(error) => cannot_read(&name, &error),
+        };
+        Err(refused(fault))
     }
 
     /// The bytes, from the beginning.
-    pub(crate) fn open(&self) -> Result<Box<dyn Read + '_>, Fault> {
+    pub(crate) fn open(&self) -> Result<Box<dyn Read + '_>, Stop> {
         match &self.source {
             Source::Bytes(bytes) => Ok(Box::new(&bytes[..])),
             Source::File(path) => match File::open(path) {
                 Ok(file) => Ok(Box::new(BufReader::new(file))),
-                Err(error) => Err(cannot_read(&self.name, &error)),
+                Err(error) => Err(refused(cannot_read(&self.name, &error))),
             },
         }
     }
 
     /// The text in it, without a byte order mark.
-    pub(crate) fn text(&self) -> Result<String, Fault> {
+    pub(crate) fn text(&self) -> Result<String, Stop> {
         let mut text = String::new();
         let read = self.open()?.read_to_string(&mut text);
-        read.map_err(|error| cannot_read(&self.name, &error))?;
+        read.map_err(|error| refused(cannot_read(&self.name, &error)))?;
         match text.strip_prefix('\u{feff}') {
             Some(rest) => Ok(rest.to_owned()),
             None => Ok(text),
@@ -79,13 +79,17 @@ impl Input {
     }
 
     /// The document in it.
-    pub(crate) fn document(&self) -> Result<Document, Fault> {
-        Document::read(self.open()?).map_err(|error| match error.diagnostic() {
-            Some(diagnostic) => match self.foreign_format() {
-                Some(format) => self.is_foreign(format),
-                None => Fault::of_file(&self.name, diagnostic),
-            },
-            None => Fault::error("E-IO-READ", format!("`{}`: {error}", self.name)),
+    pub(crate) fn document(&self) -> Result<Document, Stop> {
+        let name = &self.name;
+        Document::read(self.open()?).map_err(|error| {
+            refused(match (error.diagnostic(), self.foreign_format()) {
+                (Some(_), Some(format)) => {
+                    let message = format!("`{name}` is {} file, not OBJ", format.name());
+                    Fault::error("E-IO-FORMAT", message).help(format.advice(name))
+                }
+                (Some(diagnostic), None) => Fault::of_file(name, diagnostic),
+                (None, _) => Fault::error("E-IO-READ", format!("`{name}`: {error}")),
+            })
         })
     }
 
@@ -103,11 +107,10 @@ impl Input {
             .read_to_end(&mut opening);
         Format::of(&opening, length).filter(|_| read.is_ok())
     }
+}
 
-    fn is_foreign(&self, format: Format) -> Fault {
-        let message = format!("`{}` is {} file, not OBJ", self.name, format.name());
-        Fault::error("E-IO-FORMAT", message).help(format.advice(&self.name))
-    }
+fn refused(fault: Fault) -> Stop {
+    Stop::new(Exit::Input, fault)
 }
 
 /// That something cannot be read.

@@ -178,10 +178,9 @@ fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
     if document.has_record() {
         let message =
             "`--coincident` is for a file without a record of its cuts, and this one has one";
-        let fault = Fault::error("E-USAGE", message.to_owned());
-        return Err(Stop::new(
-            Exit::Usage,
-            fault.help("leave it out: the record is more exact"),
+        return Err(Stop::usage(
+            message,
+            "leave it out: the record is more exact",
         ));
     }
     let pairs = document.coincident(mesh);
@@ -246,8 +245,7 @@ fn check(args: &MendArgs) -> Result<(), Stop> {
     ] {
         if let Some(number) = number.filter(|number| number.is_nan() || *number < 0.0) {
             let message = format!("`{name} {number}` is not a distance");
-            let fault = Fault::error("E-USAGE", message).help("write a number from 0 on");
-            return Err(Stop::new(Exit::Usage, fault));
+            return Err(Stop::usage(message, "write a number from 0 on"));
         }
     }
     Ok(())

@@ -49,11 +49,10 @@ fn work(
     let given = given.map_err(|error| Stop::new(Exit::Usage, picture::no_camera(error)))?;
     let mut options = options(args, faults)?;
 
-    let input = Input::find(&args.input, streams.input);
-    let input = input.map_err(|fault| Stop::new(Exit::Input, fault))?;
+    let input = Input::find(&args.input, streams.input)?;
     let mut timing = report::Timing::default();
     let repair = session::repair(args.look.repair, args.look.separate_fans);
-    let opened = session::open(&input, repair, faults, &mut timing)?;
+    let opened = session::open(&input, repair, "or add", faults, &mut timing)?;
     let Opened {
         document,
         mesh,

@@ -35,11 +35,10 @@ impl SceneFile {
             let help = format!("scenes are {scenes}, and files such as scene.toml");
             return Err(Stop::new(Exit::Usage, fault.help(help)));
         }
-        let unreadable = |fault| Stop::new(Exit::Input, fault);
-        let file = Input::find(Path::new(name), streams.input).map_err(unreadable)?;
+        let file = Input::find(Path::new(name), streams.input)?;
         let mut bytes = Vec::new();
-        let read = file.open().map_err(unreadable)?.read_to_end(&mut bytes);
-        read.map_err(|error| unreadable(cannot_read(&file.name, &error)))?;
+        let read = file.open()?.read_to_end(&mut bytes);
+        read.map_err(|error| Stop::new(Exit::Input, cannot_read(&file.name, &error)))?;
         let Ok(text) = String::from_utf8(bytes) else {
             let message = format!("`{name}` is not a text in UTF-8");
             let fault = Fault::error("E-SCENE-SYNTAX", message);

@@ -97,11 +97,10 @@ impl<'a> Session<'a> {
         repair: Option<Repair>,
         streams: &mut Streams<'_>,
     ) -> Result<Opened, Stop> {
-        let refused = |fault| Stop::new(Exit::Input, fault);
-        let input = Input::find(&self.files.input, streams.input).map_err(refused)?;
+        let input = Input::find(&self.files.input, streams.input)?;
         let input = &*self.input.insert(input);
         let timing = self.report.timing_ms.get_or_insert_default();
-        let opened = open(input, repair, &mut self.faults, timing)?;
+        let opened = open(input, repair, "or add", &mut self.faults, timing)?;
         self.report.input = Some(report::File::of(Some(input.name.clone()), &opened.mesh));
         Ok(opened)
     }
@@ -338,16 +337,16 @@ pub(crate) fn repair(all: bool, fans: bool) -> Option<Repair> {
     }
 }
 
-/// Reads a document and builds its mesh; says what there is to say of it.
+/// Reads a document and builds its mesh. `or` stands before the option that would repair it.
 pub(crate) fn open(
     input: &Input,
     repair: Option<Repair>,
+    or: &str,
     faults: &mut Vec<Fault>,
     timing: &mut report::Timing,
 ) -> Result<Opened, Stop> {
     let clock = Clock::start();
-    let document = input.document();
-    let mut document = document.map_err(|fault| Stop::new(Exit::Input, fault))?;
+    let mut document = input.document()?;
     if let Some(repair) = repair {
         document = document.repaired(repair);
     }
@@ -360,7 +359,7 @@ pub(crate) fn open(
         Err(error) => {
             return Err(Stop {
                 exit: Exit::Input,
-                faults: defects::faults(input, document, error, "or add"),
+                faults: defects::faults(input, document, error, or),
             });
         }
     };

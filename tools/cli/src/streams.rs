@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
 use crate::exit::{Exit, Stop};
 use crate::output;
 use crate::say::{Color, Fault, is_colored};
@@ -49,6 +51,17 @@ impl Streams<'_> {
             Ok(_) => exit,
             Err(fault) => self.fail(&fault, color, Exit::Output),
         }
+    }
+
+    /// A progress bar: on a terminal only, and only if it `is_wanted`.
+    pub(crate) fn bar(&self, length: u64, template: &str, is_wanted: bool) -> ProgressBar {
+        let target = match is_wanted && self.error_is_terminal {
+            true => ProgressDrawTarget::stderr(),
+            false => ProgressDrawTarget::hidden(),
+        };
+        let style = ProgressStyle::with_template(template);
+        let style = style.expect("templates are of this program");
+        ProgressBar::with_draw_target(Some(length), target).with_style(style)
     }
 
     /// Shows an error, and ends with this exit status.

@@ -13,7 +13,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use tearmesh::{Cursor, Scissor, VertexId};
 use tearmesh_cloth::scene::ensemble::Subject;
 use tearmesh_cloth::scene::{CutMade, Frame, Region, Run, Scene, TearLog, TimedCut};
@@ -23,7 +23,7 @@ use tearmesh_obj::{Document, TornDocument};
 use self::film::Film;
 use self::frames::{Frames, places};
 use self::still::Still;
-use crate::args::TearArgs;
+use crate::args::{Format, TearArgs};
 use crate::choice::{Choice as _, method_name};
 use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
@@ -410,21 +410,14 @@ impl Play<'_> {
         session.faults.extend(warnings);
     }
 
-    /// On a terminal only.
+    /// A progress bar, unless the words are to be few or JSON.
     fn bar(&self, length: u64, what: &str, streams: &Streams<'_>) -> ProgressBar {
         let files = &self.args.files;
-        let is_shown =
-            streams.error_is_terminal && !files.quiet && files.format == crate::args::Format::Text;
-        let target = if is_shown {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        };
-        let bar = ProgressBar::with_draw_target(Some(length), target);
-        let style = ProgressStyle::with_template(&format!("{{bar:40}} {what}, {{eta}} left"));
-        match style {
-            Ok(style) => bar.with_style(style),
-            Err(_) => bar, // Its own style does as well.
-        }
+        let is_wanted = !files.quiet && files.format == Format::Text;
+        streams.bar(
+            length,
+            &format!("{{bar:40}} {what}, {{eta}} left"),
+            is_wanted,
+        )
     }
 }

@@ -45,12 +45,11 @@ fn work(
     let (mut vertices, mut faces) = (Span::default(), Span::default());
     let mut pieces = 0;
     for path in &inputs {
-        let input = Input::find(path, streams.input);
-        let input = input.map_err(|fault| Stop::new(Exit::Input, fault))?;
+        let input = Input::find(path, streams.input)?;
         let mut timing = report::Timing::default();
         let Opened {
             mesh, positions, ..
-        } = session::open(&input, repair, faults, &mut timing)?;
+        } = session::open(&input, repair, "or add", faults, &mut timing)?;
         let moment = Moment {
             label: page::title(Some(&input.name)),
             time_s: None,
@@ -85,10 +84,7 @@ fn work(
 fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
     let files: Result<Vec<PathBuf>, _> = named(&args.inputs, true).into_iter().collect();
     let files = files.map_err(|(_, fault)| Stop::new(Exit::Input, fault))?;
-    if files.iter().filter(|path| *path == Path::new("-")).count() > 1 {
-        let message = "two inputs both come from standard input".to_owned();
-        return Err(Stop::usage(message, "name a file for one of them"));
-    }
+    files::one_stream(&files)?;
     Ok(files)
 }
 

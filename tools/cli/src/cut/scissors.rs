@@ -47,18 +47,16 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
         pairs.push(rays::pair(text, "--rays", 1).map_err(refused)?);
     }
     if let Some(path) = &args.rays_file {
-        let unreadable = |fault| Stop::new(Exit::Input, fault);
-        let file = Input::find(path, streams.input).map_err(unreadable)?;
-        let text = file.text().map_err(unreadable)?;
+        let file = Input::find(path, streams.input)?;
+        let text = file.text()?;
         pairs.extend(rays::file(&text, &file.name).map_err(refused)?);
     }
     if pairs.is_empty() {
-        return Err(refused(Fault {
-            code: "E-RAY-COUNT",
-            message: "nothing to cut with: give --rays A B, --plane P:N or --camera".to_owned(),
-            help: Some("for example --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1".to_owned()),
-            ..Fault::default()
-        }));
+        let message = "nothing to cut with: give --rays A B, --plane P:N or --camera";
+        let fault = Fault::error("E-RAY-COUNT", message.to_owned());
+        return Err(refused(
+            fault.help("for example --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1"),
+        ));
     }
     Ok(pairs.into_iter().map(Along::Rays).collect())
 }
@@ -104,13 +102,8 @@ pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Stop {
     let eye = format!("{x},{y},{z}");
     let help =
         format!("move one origin, or aim at two points: {eye}@{left},{y},0 {eye}@{right},{y},0");
-    let fault = Fault {
-        code: "E-RAY-ONE-LINE",
-        message: error.to_string(),
-        help: Some(help),
-        ..Fault::default()
-    };
-    Stop::new(Exit::NoPlane, fault)
+    let fault = Fault::error("E-RAY-ONE-LINE", error.to_string());
+    Stop::new(Exit::NoPlane, fault.help(help))
 }
 
 /// Says how far the second ray leaves the plane, if it does.

@@ -47,16 +47,10 @@ pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
         "seconds of the simulation, as in --cut-at 1.5",
     )?;
     let dash = Path::new("-");
-    let scene = args.scene == "-";
-    let strength = args.strength.as_deref() == Some(dash);
-    let streams = [args.files.input == dash, scene, strength];
-    if streams.into_iter().filter(|&wanted| wanted).count() > 1 {
-        let message = "two inputs both come from standard input".to_owned();
-        return refuse(message, "name a file for one of them");
-    }
     let scene = PathBuf::from(&args.scene);
     let mut taken = vec![&args.files.input, &scene];
     taken.extend(&args.strength);
+    files::one_stream(&taken)?;
     for (option, what, path) in [
         ("--forces", "the table of forces", &args.forces),
         ("--cache", "the point cache", &args.cache),

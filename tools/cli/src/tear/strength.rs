@@ -17,9 +17,8 @@ pub(super) fn read(
     document: &Document,
     streams: &mut Streams<'_>,
 ) -> Result<Vec<(Region, f64)>, Stop> {
-    let unreadable = |fault| Stop::new(Exit::Input, fault);
-    let file = Input::find(path, streams.input).map_err(unreadable)?;
-    let text = file.text().map_err(unreadable)?;
+    let file = Input::find(path, streams.input)?;
+    let text = file.text()?;
     let mut strengths = Vec::new();
     for (i, line) in text.lines().enumerate() {
         let words = line.split('#').next().unwrap_or_default();
