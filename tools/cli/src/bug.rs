@@ -1,7 +1,5 @@
-//! A reproducer for a bug of ours.
-//!
-//! It is an OBJ file that begins with the story in comments, so that the same command on this
-//! file shows the bug again.
+//! The reproducer of a bug of ours: the input as OBJ, with the command and the broken invariants in
+//! comments. The same command on this file shows the bug again.
 
 use std::ffi::OsString;
 use std::io::{self, Write};

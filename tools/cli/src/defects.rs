@@ -1,7 +1,7 @@
-//! What is wrong with a mesh, shown with the text of the faces concerned.
+//! Diagnostics of the defects of a mesh, with the text of the faces concerned.
 //!
-//! The OBJ library knows the lines of the faces, but does not keep their text. Once a
-//! file has been refused there is time to read it again.
+//! The OBJ library knows the lines of the faces, but does not keep their text. The file is read
+//! again once it has been refused.
 
 use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader};
@@ -115,37 +115,26 @@ fn read(input: &Input, mut texts: BTreeMap<usize, String>) -> BTreeMap<usize, St
     let Ok(bytes) = input.open() else {
         return texts;
     };
-    let mut bytes = BufReader::new(bytes);
     let last = texts.keys().next_back().copied().unwrap_or(0);
     let mut number = 0;
-    let mut line = Vec::new();
-    while number < last && matches!(bytes.read_until(b'\n', &mut line), Ok(1..)) {
-        let end = if line.ends_with(b"\n") {
-            line.len() - 1
-        } else {
-            line.len()
-        };
-        let end = if line[..end].ends_with(b"\r") {
-            end - 1
-        } else {
-            end
-        };
+    let lines = BufReader::new(bytes).split(b'\n').map_while(Result::ok);
+    for line in lines {
         // A lone CR ends a line too.
-        for part in line[..end].split(|&byte| byte == b'\r') {
+        let line = line.strip_suffix(b"\r").unwrap_or(&line);
+        for part in line.split(|&byte| byte == b'\r') {
             number += 1;
             if let Some(text) = texts.get_mut(&number) {
                 let all = String::from_utf8_lossy(part);
-                let clean = |c: char| {
-                    if c.is_control() && c != '\t' {
-                        '\u{fffd}'
-                    } else {
-                        c
-                    }
+                let clean = |c: char| match c.is_control() && c != '\t' {
+                    true => '\u{fffd}',
+                    false => c,
                 };
                 *text = all.chars().take(WIDTH).map(clean).collect();
             }
         }
-        line.clear();
+        if number >= last {
+            break;
+        }
     }
     texts
 }

@@ -1,4 +1,4 @@
-//! How a run ends: the exit statuses, and what stops a verb before its work is done.
+//! Exit statuses, and the early end of a verb.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! Where a verb reads and writes, and what it refuses to write over.
+//! The paths that a verb reads and writes, and the files that it refuses to replace.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Where the mesh comes from.
+//! Input files and standard input.
 
 mod foreign;
 pub(crate) mod named;

@@ -1,5 +1,4 @@
-//! Ctrl-C while a simulation runs or is written: it ends after the step or the frame that it is in,
-//! and keeps what was done.
+//! Ctrl-C during a simulation: it ends after the present step or frame, and its results are kept.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 

@@ -5,7 +5,7 @@
 //! [`guide`] is the guide to the command: how to cut a file, all codes, and all keys of its report and
 //! of scene files.
 //!
-//! Map: `args` defines the arguments, `rays` reads rays, and `scene` reads scenes. `cut`, `tear`, `mend`,
+//! Map: `args` defines the arguments, `choice` the words in them, `rays` reads rays, and `scene` reads scenes. `cut`, `tear`, `mend`,
 //! `check`, `render`, `view` and `chart` carry out the verbs, and `shell` prints completions and manual
 //! pages. `session` is shared by the verbs that change a mesh, `report` is their JSON report, and `picture`
 //! and `page` show their results. `defects` describes the defects of a mesh, `measure` measures it, and

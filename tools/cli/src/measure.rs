@@ -1,4 +1,4 @@
-//! How large a mesh is, and of what pieces it is made.
+//! The size of a mesh, and its pieces.
 
 use serde::Serialize;
 use tearmesh::{Mesh, Point, Positions};

@@ -1,7 +1,7 @@
 //! Files that appear whole or not at all, and standard output.
 //!
-//! Whoever looks at a regular file sees the old one or the new one: a draft beside it is renamed to it once
-//! it is whole. Links are resolved first, so the link stays. A pipe or a device is written directly: it
+//! A reader of a regular file sees the old one or the new one: a complete draft beside it is renamed
+//! to it. Links are resolved first, so the link stays. A pipe or a device is written directly, since it
 //! cannot be replaced.
 
 use std::fs::{self, File};

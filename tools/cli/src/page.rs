@@ -1,4 +1,4 @@
-//! Pages: of the verb `view`, and those that other verbs leave beside a mesh.
+//! Pages of the verb `view`, and pages that other verbs write beside a mesh.
 
 use std::path::Path;
 

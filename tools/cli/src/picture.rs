@@ -1,4 +1,4 @@
-//! Pictures: of the verb `render`, and those that other verbs leave beside a mesh.
+//! Pictures of the verb `render`, and pictures that other verbs write beside a mesh.
 
 use std::path::Path;
 

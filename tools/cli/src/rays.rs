@@ -1,4 +1,4 @@
-//! Rays and planes as people write them.
+//! Rays and planes as users write them.
 //!
 //! `ox,oy,oz:dx,dy,dz` is an origin and a direction, `ox,oy,oz@tx,ty,tz` an origin and a target;
 //! `->` means the same as `@`. Two rays are separated by blanks or a semicolon; blanks beside a comma, a
@@ -125,116 +125,115 @@ pub(crate) struct Unreadable {
 
 /// Reads one ray.
 pub(crate) fn ray(text: &str) -> Result<Ray, Unreadable> {
-    let separator = [("->", true), ("@", true), (":", false)]
-        .into_iter()
-        .find_map(|(mark, aimed)| Some((text.find(mark)?, mark.len(), aimed)));
-    let Some((at, width, aimed)) = separator else {
-        return Err(Unreadable {
-            code: "E-RAY-SYNTAX",
-            message: format!("cannot read the ray `{text}`"),
-            part: 0..text.len(),
-            label: "expected `:` and a direction, or `@` and a target",
-        });
-    };
-    let origin = triple(text, 0..at, "ray")?;
-    let second = triple(text, at + width..text.len(), "ray")?;
-    let origin = Point::from(origin);
-    let direction = if aimed {
-        Point::from(second) - origin
-    } else {
-        Vector::from(second)
+    let label = "expected `:` and a direction, or `@` and a target";
+    let halves = Halves::read(text, "ray", &["->", "@", ":"], label)?;
+    let [origin, second] = halves.numbers;
+    let (origin, is_aimed) = (Point::from(origin), halves.mark != ":");
+    let direction = match is_aimed {
+        true => Point::from(second) - origin,
+        false => Vector::from(second),
     };
     Ray::new(origin, direction).map_err(|error| {
-        let (part, label) = match error {
-            RayError::Origin { .. } => (0..at, "expected an origin that is less far away"),
-            RayError::Direction { .. } => {
-                let label = if aimed {
-                    "expected a point other than the origin"
-                } else {
-                    "expected a direction"
-                };
-                (at + width..text.len(), label)
-            }
+        let message = error.to_string();
+        let (half, label) = match error {
+            RayError::Origin { .. } => (0, "expected an origin that is less far away"),
+            RayError::Direction { .. } if is_aimed => (1, "expected a point other than the origin"),
+            RayError::Direction { .. } => (1, "expected a direction"),
         };
-        Unreadable {
-            code: "E-RAY-ZERO",
-            message: error.to_string(),
-            part,
-            label,
-        }
+        halves.refused(half, "E-RAY-ZERO", message, label)
     })
 }
 
 /// Reads a plane; its text stood at `origin`.
 pub(crate) fn plane(text: &str, origin: &str) -> Result<Plane, Fault> {
     let read = || {
-        let at = text.find(':').ok_or_else(|| Unreadable {
-            code: "E-PLANE-SYNTAX",
-            message: format!("cannot read the plane `{text}`"),
-            part: 0..text.len(),
-            label: "expected `:` and a normal",
-        })?;
-        let point = triple(text, 0..at, "plane")?;
-        let normal = triple(text, at + 1..text.len(), "plane")?;
+        let halves = Halves::read(text, "plane", &[":"], "expected `:` and a normal")?;
+        let [point, normal] = halves.numbers;
         Plane::new(point.into(), normal.into()).map_err(|error| {
-            let (part, label) = match error {
-                PlaneError::Point { .. } => (0..at, "expected a point that is less far away"),
-                PlaneError::Normal { .. } => (at + 1..text.len(), "expected a normal"),
+            let message = error.to_string();
+            let (half, label) = match error {
+                PlaneError::Point { .. } => (0, "expected a point that is less far away"),
+                PlaneError::Normal { .. } => (1, "expected a normal"),
             };
-            Unreadable {
-                code: "E-PLANE-ZERO",
-                message: error.to_string(),
-                part,
-                label,
-            }
+            halves.refused(half, "E-PLANE-ZERO", message, label)
         })
     };
-    read().map_err(|wrong| {
+    read().map_err(|wrong: Unreadable| {
         let fault = Fault::error(wrong.code, wrong.message);
         let fault = fault.at((origin, 1), text, wrong.part, wrong.label);
         fault.help("write point:normal, as in --plane 0,0.5,0:0,1,0")
     })
 }
 
-fn triple(text: &str, part: Range<usize>, what: &str) -> Result<[f64; 3], Unreadable> {
-    let code = if what == "ray" {
-        "E-RAY-SYNTAX"
-    } else {
-        "E-PLANE-SYNTAX"
-    };
-    let mut numbers = [0.0; 3];
-    let mut count = 0;
-    let mut at = part.start;
-    for number in text[part.clone()].split(',') {
-        let blanks = number.len() - number.trim_start().len();
-        let span = at + blanks..at + blanks + number.trim().len();
-        at += number.len() + 1;
-        let parsed = number.trim().parse().ok().filter(|x: &f64| x.is_finite());
-        let (Some(slot), Some(x)) = (numbers.get_mut(count), parsed) else {
-            let label = if count < 3 {
-                "expected a finite number"
-            } else {
-                "a fourth number"
-            };
-            return Err(Unreadable {
-                code,
-                message: format!("cannot read the {what} `{text}`"),
-                part: span,
-                label,
-            });
-        };
-        *slot = x;
-        count += 1;
-    }
-    if count < 3 {
-        return Err(Unreadable {
-            code,
-            message: format!("cannot read the {what} `{text}`"),
+/// Two triples of numbers, and the mark between them.
+struct Halves {
+    numbers: [[f64; 3]; 2],
+    parts: [Range<usize>; 2],
+    mark: &'static str,
+}
+
+impl Halves {
+    /// Reads the text of a ray or a plane. `label` is what to say where it has none of the marks.
+    fn read(
+        text: &str,
+        kind: &str,
+        marks: &[&'static str],
+        label: &'static str,
+    ) -> Result<Halves, Unreadable> {
+        let unreadable = |part, label| Unreadable {
+            code: match kind {
+                "ray" => "E-RAY-SYNTAX",
+                _ => "E-PLANE-SYNTAX",
+            },
+            message: format!("cannot read the {kind} `{text}`"),
             part,
-            label: "expected three numbers with commas between them",
-        });
+            label,
+        };
+        let triple = |part: &Range<usize>| {
+            let mut numbers = Vec::new();
+            let mut at = part.start;
+            for word in text[part.clone()].split(',') {
+                let start = at + word.len() - word.trim_start().len();
+                let span = start..start + word.trim().len();
+                at += word.len() + 1;
+                let number = word.trim().parse().ok().filter(|x: &f64| x.is_finite());
+                match (number, numbers.len()) {
+                    (Some(number), 0..3) => numbers.push(number),
+                    (None, 0..3) => return Err(unreadable(span, "expected a finite number")),
+                    _ => return Err(unreadable(span, "a fourth number")),
+                }
+            }
+            let label = "expected three numbers with commas between them";
+            <[f64; 3]>::try_from(numbers).map_err(|_| unreadable(part.clone(), label))
+        };
+        let mut marks = marks.iter();
+        let found = marks.find_map(|&mark| Some((text.find(mark)?, mark)));
+        let (at, mark) = found.ok_or_else(|| unreadable(0..text.len(), label))?;
+        let parts = [0..at, at + mark.len()..text.len()];
+        let numbers = [triple(&parts[0])?, triple(&parts[1])?];
+        Ok(Halves {
+            numbers,
+            parts,
+            mark,
+        })
     }
-    Ok(numbers)
+
+    /// Numbers that make no ray or plane, because of one half.
+    fn refused(
+        &self,
+        half: usize,
+        code: &'static str,
+        message: String,
+        label: &'static str,
+    ) -> Unreadable {
+        let part = self.parts[half].clone();
+        Unreadable {
+            code,
+            message,
+            part,
+            label,
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Scenes: those that stand ready, and scene files.
+//! Built-in scenes and scene files.
 
 mod apply;
 mod fabric;

@@ -1,5 +1,5 @@
-//! What the verbs that change a mesh have in common: an input, an output, a report, and the
-//! promise that nothing is written that breaks an invariant.
+//! The common part of the verbs that change a mesh: an input, an output, a report, and the promise
+//! that no mesh is written that breaks an invariant.
 
 use std::ffi::OsString;
 use std::io::{self, Write};

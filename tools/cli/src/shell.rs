@@ -1,4 +1,4 @@
-//! The verbs `completions` and `man`: made of what can be typed, by clap's own generators.
+//! The verbs `completions` and `man`, by clap's generators.
 
 use clap::{Command, CommandFactory as _};
 

@@ -42,7 +42,7 @@ fn work(
     };
     let first = &args.inputs[0].display().to_string();
     let mut shown = Page::new(page::title(Some(first)), args.up.coords);
-    let (mut vertices, mut faces) = (Span::default(), Span::default());
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let mut pieces = 0;
     for path in &inputs {
         let input = Input::find(path, streams.input)?;
@@ -57,8 +57,8 @@ fn work(
             torn_at_rest_m: None,
         };
         page::add(&mut shown, &mesh, &positions, moment)?;
-        vertices.note(mesh.vertex_count());
-        faces.note(mesh.face_count());
+        vertices.push(mesh.vertex_count());
+        faces.push(mesh.face_count());
         pieces = mesh.components().count();
     }
     let Some(path) = output else {
@@ -73,8 +73,8 @@ fn work(
     };
     Ok(format!(
         "view: {moments}{}, {}, {} · wrote {}",
-        vertices.told("vertex", "vertices"),
-        faces.told("face", "faces"),
+        span(&vertices, "vertex", "vertices"),
+        span(&faces, "face", "faces"),
         count(pieces, "piece", "pieces"),
         path.display(),
     ))
@@ -133,20 +133,12 @@ fn is_page_there(path: &Path) -> bool {
     read.is_ok() && is_page(&start)
 }
 
-/// How many there were of something: the fewest and the most.
-#[derive(Default)]
-struct Span(Option<[usize; 2]>);
-
-impl Span {
-    fn note(&mut self, n: usize) {
-        let [fewest, most] = self.0.unwrap_or([n, n]);
-        self.0 = Some([fewest.min(n), most.max(n)]);
-    }
-
-    fn told(&self, one: &str, many: &str) -> String {
-        match self.0.unwrap_or_default() {
-            [fewest, most] if fewest == most => count(most, one, many),
-            [fewest, most] => format!("{fewest} to {most} {many}"),
-        }
+/// The fewest and the most of something.
+fn span(counts: &[usize], one: &str, many: &str) -> String {
+    let fewest = counts.iter().min().copied().unwrap_or(0);
+    let most = counts.iter().max().copied().unwrap_or(0);
+    match fewest == most {
+        true => count(most, one, many),
+        false => format!("{fewest} to {most} {many}"),
     }
 }

@@ -1,4 +1,4 @@
-//! The page of what was checked.
+//! The page of `check --view`.
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,5 @@
-//! Where everything in a mesh comes from, for what other programs keep beside it: weights, bones,
-//! colours, materials.
+//! The source of each vertex, corner and face of a mesh, to carry over weights, bones, colours and
+//! materials.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,4 @@
-//! From what was typed to scissors.
+//! The rays and planes of cuts, from the arguments.
 
 use tearmesh::{Plane, Point, Ray, Scissor, ScissorError};
 use tearmesh_view::Camera;

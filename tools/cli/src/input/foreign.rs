@@ -1,4 +1,4 @@
-//! Files of other formats, told by how they begin.
+//! Files of other formats, recognized by their first bytes.
 
 /// How much of a file tells its format.
 pub(super) const OPENING: usize = 1024;

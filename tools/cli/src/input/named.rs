@@ -1,5 +1,5 @@
-//! The files that inputs name: folders are looked into, and patterns that no shell has expanded are
-//! expanded here, since those of Windows expand none.
+//! The files that inputs name: those of folders, and those of patterns, which the shells of Windows
+//! do not expand.
 
 use std::path::{Component, Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! From what a scene file says to the scene.
+//! The scene that a scene file describes.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! What `[fabric]` says: its weight, and what resists stretch and bending.
+//! The keys of `[fabric]`: density, and the resistance to stretch and bending.
 
 use tearmesh::Vector;
 use tearmesh_cloth::Method;

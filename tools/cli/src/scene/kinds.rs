@@ -1,5 +1,5 @@
-//! The kinds of values that a scene file can hold. Each says what it admits: in the error of a value that it
-//! does not, behind the code of that error.
+//! The kinds of values in a scene file. The error of a wrong value is its code, and the values that
+//! its kind admits.
 
 use serde::de::{Deserialize, Deserializer, Error};
 use tearmesh::{Point, Vector};

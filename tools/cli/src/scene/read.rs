@@ -1,4 +1,4 @@
-//! A scene file as it is read: its tables, and where everything in it stands, for those who find fault with it.
+//! A scene file as it is read: its tables, and the place of each key, for diagnostics.
 
 use std::collections::BTreeMap;
 use std::ops::{Deref, Range};

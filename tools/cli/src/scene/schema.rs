@@ -1,5 +1,5 @@
-//! Every key that a scene file can have. What each means, and what holds without it, stands in
-//! [the guide](crate::guide::scenes), from which `--help` takes it.
+//! Every key of a scene file. Meanings and defaults are in [the guide](crate::guide::scenes), from
+//! which `--help` takes them.
 
 use std::fmt::Write as _;
 

@@ -1,6 +1,5 @@
-//! The table of what a user is told of a simulation beside what was asked for: before its first step, when
-//! it has ended, and where it failed. What each warning is about, and when it is due, is said by
-//! [`Warning`].
+//! The table of the warnings and errors of a simulation: before its first step, at its end, and where
+//! it failed. [`Warning`] documents the subject of each warning, and when it is due.
 
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{EnergyGain, Frame, Run, Warning};

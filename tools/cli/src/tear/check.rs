@@ -1,4 +1,4 @@
-//! What is refused before a simulation.
+//! Checks before a simulation.
 
 use std::path::{Path, PathBuf};
 

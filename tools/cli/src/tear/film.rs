@@ -1,4 +1,4 @@
-//! The page of a simulation: all of it, 30 moments a second, and what happened over time.
+//! The page of a simulation: 30 moments a second, and plots over time.
 
 use tearmesh::geometry::length;
 use tearmesh_cloth::scene::{Run, TearLog};

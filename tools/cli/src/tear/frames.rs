@@ -1,10 +1,9 @@
-//! Frames: numbered OBJ files of a simulation, with their own faces or those of the last one, and a point
-//! cache, which has those of the last one.
+//! Frames of a simulation: numbered OBJ files, with their own faces or those of the last frame, and a
+//! point cache, with those of the last frame.
 //!
-//! A split adds no face, so the faces of the last frame serve all, where a vertex that is
-//! not yet born stands where its ancestor is. A vertex that a cut inserts is born on an edge or in
-//! a face: before, it stands there, on the same part of the edge, so that surfaces
-//! are the same although faces are divided.
+//! A split adds no face, so the faces of the last frame fit all frames. A vertex that does not exist
+//! yet is at the position of its source. A vertex that a cut will insert is on its edge or in its face,
+//! at the same fraction: the surface is the same although faces are divided.
 
 use std::fs;
 use std::io::{self, Write};

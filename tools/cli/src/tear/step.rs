@@ -1,4 +1,4 @@
-//! `--check-step`: whether the step decides what tears.
+//! `--check-step`: whether the result depends on the step.
 
 use std::num::NonZero;
 

@@ -1,4 +1,4 @@
-//! A file of strengths: `vertex strength` a line, vertices counted from 1 as in the OBJ file.
+//! A file of strengths: a line `vertex strength` each. Vertices count from 1, as in OBJ.
 
 use std::path::Path;
 
