@@ -2,8 +2,8 @@
 
 pub(crate) mod advice;
 pub(crate) mod check;
-mod film;
 mod frames;
+mod recorder;
 mod step;
 mod still;
 mod strength;
@@ -20,8 +20,8 @@ use tearmesh_cloth::scene::{CutMade, Frame, Region, Run, Scene, TearLog, TimedCu
 use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::{Document, TornDocument};
 
-use self::film::Film;
 use self::frames::{Frames, places};
+use self::recorder::Recorder;
 use self::still::Still;
 use crate::args::{Format, TearArgs};
 use crate::choice::{Choice as _, method_name};
@@ -127,14 +127,24 @@ struct Play<'a> {
     guard: Guard,
 }
 
-/// Who looks on while steps are taken.
-type Followers<'f, 'd> = (
-    &'f mut TornDocument<'d>,
-    &'f mut Frames,
-    &'f mut TearLog,
-    &'f mut Option<Film>,
-    Option<&'f mut Still>,
-);
+/// The records of a run, which are kept up step by step.
+struct Records<'d> {
+    torn: TornDocument<'d>,
+    frames: Frames,
+    tear_log: TearLog,
+    recorder: Option<Recorder>,
+    still: Option<Still>,
+}
+
+impl Records<'_> {
+    /// Records a frame and a moment of the page, if it is time for them.
+    fn record(&mut self, run: &Run) -> Result<(), Stop> {
+        self.frames.record(run, &self.torn)?;
+        self.still.iter_mut().for_each(|still| still.record(run));
+        let recorder = self.recorder.as_mut();
+        recorder.map_or(Ok(()), |recorder| recorder.record(run))
+    }
+}
 
 /// How the steps ended.
 enum Ended {
@@ -155,16 +165,16 @@ impl Play<'_> {
         let pieces_before = run.mesh().components().count();
         let vertices_before = run.mesh().vertex_count();
         let torn_before_m = run.torn_length_m();
-        let mut torn = TornDocument::new(&self.opened.document);
-        let mut frames = Frames::open(self.args, &run)?;
+        let mut records = Records {
+            torn: TornDocument::new(&self.opened.document),
+            frames: Frames::open(self.args, &run)?,
+            tear_log: TearLog::new(&run),
+            recorder: self.recorder(),
+            still: self.still(),
+        };
         session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
-        let mut tear_log = TearLog::new(&run);
-        let mut film = self.film();
-        let mut still = Still::new(self.args.picture_at);
-        let watching = self.args.files.picture.is_some().then_some(&mut still);
-        let followers = (&mut torn, &mut frames, &mut tear_log, &mut film, watching);
-        let ended = self.steps(&mut run, followers, session, streams)?;
+        let ended = self.steps(&mut run, &mut records, session, streams)?;
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
 
@@ -207,14 +217,17 @@ impl Play<'_> {
                 counters: run.cloth().system().counters(),
                 features: summary::features(&run),
             },
-            largest_force_n: tear_log.largest_force_n(),
-            first_tear: tear_log.first_tear().map(|first| report::FirstTear {
-                time_s: first.event.time_s,
-                place: first.event.place,
-                place_at_rest: first.event.place_at_rest,
-                force_n: first.force_n,
-            }),
-            tears: tear_log.events().to_vec(),
+            largest_force_n: records.tear_log.largest_force_n(),
+            first_tear: records
+                .tear_log
+                .first_tear()
+                .map(|first| report::FirstTear {
+                    time_s: first.event.time_s,
+                    place: first.event.place,
+                    place_at_rest: first.event.place_at_rest,
+                    force_n: first.force_n,
+                }),
+            tears: records.tear_log.events().to_vec(),
             step_check: match ended {
                 Ended::Done if self.args.check_step => Some(self.check_step(&run, streams)?),
                 _ => None,
@@ -224,7 +237,7 @@ impl Play<'_> {
         };
         session.faults.extend(advice::after(&run));
         session.words.push(summary::simulation(&tear));
-        session.words.extend(summary::first_tear(&tear_log));
+        session.words.extend(summary::first_tear(&records.tear_log));
         session.words.push(summary::balance(&run));
         if self.args.files.verbose {
             session.words.push(summary::cost(&tear.counters.features));
@@ -245,77 +258,71 @@ impl Play<'_> {
                 session.faults.push(advice::failure(&error, &run));
                 if tally.steps == 0 && run.edits().cursor() == Cursor::START {
                     session.words.clear();
-                    self.play_page(film, &run, &tear_log, session)?;
-                    return self.show(frames, &run, &torn, session);
+                    return self.finish(records, &run, session);
                 }
             }
         }
         let positions = places(&run)?;
-        let fill = |mut out: &mut dyn Write| torn.write(run.mesh(), &positions, &mut out);
+        let fill = |mut out: &mut dyn Write| records.torn.write(run.mesh(), &positions, &mut out);
         session.write(run.mesh(), fill, streams)?;
         let end = (run.mesh(), positions.as_slice());
-        let (mesh, points) = still.kept().unwrap_or(end);
+        let kept = records.still.as_ref().and_then(Still::kept);
+        let (mesh, points) = kept.unwrap_or(end);
         let document = &self.opened.document;
         session.show_mesh(document, mesh, points, self.frame.up.vector())?;
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {
-            files::write_beside(path, |out| summary::write_forces(&run, &tear_log, out))?;
+            files::write_beside(path, |out| {
+                summary::write_forces(&run, &records.tear_log, out)
+            })?;
         }
         let mesh = run.mesh();
         let ending = files::ending(vertices_before, mesh, mass, &session.destination);
         session.words.push(ending);
-        self.play_page(film, &run, &tear_log, session)?;
-        self.show(frames, &run, &torn, session)
+        self.finish(records, &run, session)
     }
 
     /// A page to play it on, if one is wanted.
-    fn film(&self) -> Option<Film> {
+    fn recorder(&self) -> Option<Recorder> {
         let files = &self.args.files;
         let name = files.input.display().to_string();
         let title = format!("{}: {}", crate::page::title(Some(&name)), self.name);
         let is_wanted = files.view.is_some() && !files.dry_run;
-        is_wanted.then(|| Film::new(&title, self.frame.up.vector()))
+        is_wanted.then(|| Recorder::new(&title, self.frame.up.vector()))
     }
 
-    /// Writes the page, which ends with the mesh as it was written.
-    fn play_page(
-        &self,
-        film: Option<Film>,
-        run: &Run,
-        tear_log: &TearLog,
-        session: &Session<'_>,
-    ) -> Result<(), Stop> {
-        let Some((film, path)) = film.zip(self.args.files.view.as_ref()) else {
-            return Ok(());
-        };
-        // A run that did nothing has written nothing.
-        let name = session
-            .report
-            .output
-            .as_ref()
-            .and_then(|file| file.path.clone());
-        let facts = [
-            ("scene", self.name.clone()),
-            ("method", run.scene().solver.name().to_owned()),
-            ("steps", run.tally().steps.to_string()),
-            ("vertices split", run.tally().splits.to_string()),
-        ];
-        let page = film.finish(run, tear_log, name.as_deref(), &facts)?;
-        crate::page::write(path, &page)
+    /// The moment of the picture, if one is wanted.
+    fn still(&self) -> Option<Still> {
+        let files = &self.args.files;
+        let is_wanted = files.picture.is_some() && !files.dry_run;
+        is_wanted.then(|| Still::new(self.args.picture_at))
     }
 
-    /// Writes the frames that waited. That may take as long as the steps, so it comes last, and
-    /// an interruption that did not end the steps ends this.
-    fn show(
+    /// Writes the page, which ends with the mesh as it was written, and then the frames that waited.
+    /// These may take as long as the steps, so they come last, and an interruption that did not end
+    /// the steps ends them.
+    fn finish(
         &self,
-        frames: Frames,
+        records: Records<'_>,
         run: &Run,
-        torn: &TornDocument<'_>,
         session: &mut Session<'_>,
     ) -> Result<(), Stop> {
+        if let Some((recorder, path)) = records.recorder.zip(self.args.files.view.as_ref()) {
+            // A run that did nothing has written nothing.
+            let output = session.report.output.as_ref();
+            let name = output.and_then(|file| file.path.as_deref());
+            let facts = [
+                ("scene", self.name.clone()),
+                ("method", method_name(&run.scene().solver).to_owned()),
+                ("steps", run.tally().steps.to_string()),
+                ("vertices split", run.tally().splits.to_string()),
+            ];
+            let page = recorder.finish(run, &records.tear_log, name, &facts)?;
+            crate::page::write(path, &page)?;
+        }
         let was_interrupted = session.exit == Exit::Interrupted;
         let is_enough = || !was_interrupted && self.guard.is_interrupted();
-        let shown = frames.finish(run, torn, is_enough)?;
+        let shown = records.frames.finish(run, &records.torn, is_enough)?;
         session.faults.extend(shown.warnings);
         if let Some(tear) = &mut session.report.tear {
             tear.frames = shown.report;
@@ -331,32 +338,29 @@ impl Play<'_> {
     fn steps(
         &self,
         run: &mut Run,
-        (torn, frames, tear_log, film, mut still): Followers<'_, '_>,
+        records: &mut Records<'_>,
         session: &mut Session<'_>,
         streams: &Streams<'_>,
     ) -> Result<Ended, Stop> {
         let bar = self.bar(run.steps_planned(), "step {pos} of {len}", streams);
         let mut ended = Ended::Done;
-        frames.shoot(run, torn)?;
-        film.as_mut().map_or(Ok(()), |film| film.shoot(run))?;
+        records.record(run)?;
         while !run.is_over() {
             if self.guard.is_interrupted() {
                 ended = Ended::Interrupted;
                 break;
             }
             let step = run.step();
-            run.edits().replay(torn);
-            frames.follow(run.edits());
+            run.edits().replay(&mut records.torn);
+            records.frames.follow(run.edits());
             for cut in run.cuts_made() {
                 self.note_cut(run.scene(), cut, session);
-                torn.next_cut();
+                records.torn.next_cut();
             }
             match step {
                 Ok(step) => {
-                    tear_log.note(run, &step);
-                    frames.shoot(run, torn)?;
-                    film.as_mut().map_or(Ok(()), |film| film.shoot(run))?;
-                    still.iter_mut().for_each(|still| still.follow(run));
+                    records.tear_log.note(run, &step);
+                    records.record(run)?;
                 }
                 Err(error) => {
                     ended = Ended::Failed(error);

@@ -44,22 +44,22 @@ pub(super) struct Frames {
     /// The number of frames so far.
     count: usize,
     /// Frames that wait for the last one's faces.
-    waiting: Vec<Shot>,
-    /// What each vertex was born from, and so is before it is born.
-    births: Vec<Mix<VertexId>>,
+    waiting: Vec<Frame>,
+    /// For each vertex that was added, what it was made from, where it is in earlier frames.
+    sources: Vec<Mix<VertexId>>,
     /// Faces that were divided, by their index.
     divided: Vec<bool>,
-    /// The vertices before any birth.
+    /// The vertices at the beginning.
     first: usize,
 }
 
-/// A moment.
-struct Shot {
+/// A recorded frame.
+struct Frame {
     points: Vec<Point>,
     /// Shared by frames between which nothing tore.
     indices: Rc<Vec<u32>>,
-    /// How many births came before.
-    births: usize,
+    /// How many vertices had been added.
+    sources: usize,
 }
 
 /// What there is to say of the frames.
@@ -79,7 +79,7 @@ impl Frames {
             topology: args.frames_topology,
             count: 0,
             waiting: Vec::new(),
-            births: Vec::new(),
+            sources: Vec::new(),
             divided: vec![false; run.mesh().face_count()],
             first: run.mesh().vertex_count(),
         };
@@ -105,13 +105,13 @@ impl Frames {
         Ok(frames)
     }
 
-    /// Notes where vertices were born.
+    /// Notes where vertices are added.
     pub(super) fn follow(&mut self, edits: &Edits) {
         for edit in edits.iter() {
             for op in edit.vertex_ops() {
                 match op {
-                    VertexOp::Push { from, .. } => self.births.push(from),
-                    // A slide bears nobody, and a simulation never merges.
+                    VertexOp::Push { from, .. } => self.sources.push(from),
+                    // A slide adds no vertex, and a simulation never merges.
                     VertexOp::Set { .. } | VertexOp::SwapRemove { .. } => {}
                 }
             }
@@ -125,8 +125,8 @@ impl Frames {
         }
     }
 
-    /// Takes a frame if it is time for one.
-    pub(super) fn shoot(&mut self, run: &Run, torn: &TornDocument<'_>) -> Result<(), Stop> {
+    /// Records a frame if it is time for one.
+    pub(super) fn record(&mut self, run: &Run, torn: &TornDocument<'_>) -> Result<(), Stop> {
         let step = (self.count as f64 / RATE_PER_S / run.step_s()).round();
         let (has_folder, has_cache) = (self.folder.is_some(), self.cache.is_some());
         if !(has_folder || has_cache) || (run.tally().steps as f64) < step {
@@ -134,22 +134,22 @@ impl Frames {
         }
         if has_folder && self.topology == Topology::Own {
             let positions = places(run)?;
-            // Fans stay together: the number of a copy is that of the vertex born next.
+            // Fans stay together: the number of a copy is that of the vertex that is added next.
             self.write(self.count, |mut out| {
                 torn.write_unseparated(run.mesh(), &positions, &mut out)
             })?;
         }
         if has_cache || self.topology == Topology::Final {
             let now = run.mesh().indices();
-            let last = self.waiting.last().filter(|shot| *shot.indices == now);
+            let last = self.waiting.last().filter(|frame| *frame.indices == now);
             let indices = match last {
                 Some(last) => Rc::clone(&last.indices),
                 None => Rc::new(now.to_vec()),
             };
-            self.waiting.push(Shot {
+            self.waiting.push(Frame {
                 points: run.cloth().positions().to_vec(),
                 indices,
-                births: self.births.len(),
+                sources: self.sources.len(),
             });
         }
         self.count += 1;
@@ -177,13 +177,13 @@ impl Frames {
         let is_final = self.topology == Topology::Final;
         let waiting = if is_final { &self.waiting[..] } else { &[] };
         let (mut checked, mut warnings) = (0, Vec::new());
-        for (number, shot) in waiting.iter().enumerate() {
+        for (number, frame) in waiting.iter().enumerate() {
             if is_enough() {
                 warnings.push(interrupted(&folder, number, self.count));
                 self.count = number;
                 break;
             }
-            let (points, corners) = self.checked(number, shot, run.mesh())?;
+            let (points, corners) = self.checked(number, frame, run.mesh())?;
             checked += corners;
             let positions = finite(points)?;
             self.write(number, |mut out| {
@@ -211,11 +211,11 @@ impl Frames {
         torn: &TornDocument<'_>,
     ) -> Result<report::Cache, Stop> {
         let statements = torn.statements_in_order(run.mesh());
-        for (number, shot) in self.waiting.iter().enumerate() {
-            self.checked(number, shot, run.mesh())?;
+        for (number, frame) in self.waiting.iter().enumerate() {
+            self.checked(number, frame, run.mesh())?;
         }
-        let samples = self.waiting.iter().map(|shot| {
-            let points = self.grown(shot);
+        let samples = self.waiting.iter().map(|frame| {
+            let points = self.grown(frame);
             statements.iter().map(move |v| points[v.index()])
         });
         files::write_beside(path, |out| write_pc2(out, statements.len(), samples))?;
@@ -227,39 +227,44 @@ impl Frames {
     }
 
     /// The points of a frame, and how many corners of its own mesh they were compared with.
-    fn checked(&self, number: usize, shot: &Shot, mesh: &Mesh) -> Result<(Vec<Point>, u64), Stop> {
-        let points = self.grown(shot);
-        let checked = self.check(shot, &points, mesh).map_err(|broken| {
+    fn checked(
+        &self,
+        number: usize,
+        frame: &Frame,
+        mesh: &Mesh,
+    ) -> Result<(Vec<Point>, u64), Stop> {
+        let points = self.grown(frame);
+        let checked = self.check(frame, &points, mesh).map_err(|broken| {
             let message = format!("frame {number} is not its own mesh: {broken}");
             Stop::new(Exit::Bug, Fault::error("E-BUG-INVARIANT", message))
         })?;
         Ok((points, checked))
     }
 
-    /// The points of a frame, and of all that were born later.
-    fn grown(&self, shot: &Shot) -> Vec<Point> {
-        let mut points = shot.points.clone();
+    /// The points of a frame, and of all vertices that were added later.
+    fn grown(&self, frame: &Frame) -> Vec<Point> {
+        let mut points = frame.points.clone();
         debug_assert_eq!(
             points.len(),
-            self.first + shot.births,
-            "each birth a vertex"
+            self.first + frame.sources,
+            "a source for each added vertex"
         );
-        for birth in &self.births[shot.births..] {
-            points.push(Point::blend(birth.map(|v| &points[v.index()])));
+        for source in &self.sources[frame.sources..] {
+            points.push(Point::blend(source.map(|v| &points[v.index()])));
         }
         points
     }
 
     /// Compares a frame that has the faces of the last one with its own mesh: each corner of each
     /// face that was never divided, to the last bit. Gives how many there were.
-    fn check(&self, shot: &Shot, points: &[Point], mesh: &Mesh) -> Result<u64, String> {
-        let own = shot.indices.as_chunks::<3>().0.iter();
+    fn check(&self, frame: &Frame, points: &[Point], mesh: &Mesh) -> Result<u64, String> {
+        let own = frame.indices.as_chunks::<3>().0.iter();
         let last = mesh.indices().as_chunks::<3>().0.iter();
         let faces = own.zip(last).zip(&self.divided).enumerate();
         let mut checked = 0;
         for (face, ((own, last), _)) in faces.filter(|(_, (_, divided))| !**divided) {
             for (&was, &is) in own.iter().zip(last) {
-                let [was, is] = [shot.points[was as usize], points[is as usize]];
+                let [was, is] = [frame.points[was as usize], points[is as usize]];
                 let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
                 if bits(is) != bits(was) {
                     return Err(format!(

@@ -27,7 +27,7 @@ impl Still {
     }
 
     /// Looks at a run after a step.
-    pub(super) fn follow(&mut self, run: &Run) {
+    pub(super) fn record(&mut self, run: &Run) {
         let now_s = run.elapsed_s();
         if let Some(at_s) = self.at_s {
             if self.kept.is_none() && now_s >= at_s {

@@ -8,8 +8,8 @@ use super::frames::{RATE_PER_S, places};
 use crate::exit::Stop;
 use crate::page;
 
-/// A page that is being made.
-pub(super) struct Film {
+/// The page of a run, as far as it is recorded.
+pub(super) struct Recorder {
     page: Page,
     /// The largest stretch of each moment.
     stretch: Vec<[f64; 2]>,
@@ -17,17 +17,17 @@ pub(super) struct Film {
     step: Option<u64>,
 }
 
-impl Film {
-    pub(super) fn new(title: &str, up: tearmesh::Vector) -> Film {
-        Film {
+impl Recorder {
+    pub(super) fn new(title: &str, up: tearmesh::Vector) -> Recorder {
+        Recorder {
             page: Page::new(title, up),
             stretch: Vec::new(),
             step: None,
         }
     }
 
-    /// Takes a moment if it is time for one.
-    pub(super) fn shoot(&mut self, run: &Run) -> Result<(), Stop> {
+    /// Records a moment if it is time for one.
+    pub(super) fn record(&mut self, run: &Run) -> Result<(), Stop> {
         let due = (self.page.moment_count() as f64 / RATE_PER_S / run.step_s()).round();
         if (run.tally().steps as f64) < due {
             return Ok(());
