@@ -80,21 +80,12 @@ pub(crate) struct Solver(pub(crate) fn() -> Method);
 
 impl Choice for Solver {
     const ALL: &'static [(&'static str, Solver)] = &[
-        ("provot", Solver(Method::provot)),
-        ("pbd", Solver(Method::pbd)),
-        ("verlet", Solver(|| Method::Verlet)),
-        ("xpbd", Solver(Method::xpbd)),
-        ("implicit", Solver(Method::implicit)),
+        (Method::NAMES[0], Solver(Method::provot)),
+        (Method::NAMES[1], Solver(Method::pbd)),
+        (Method::NAMES[2], Solver(|| Method::Verlet)),
+        (Method::NAMES[3], Solver(Method::xpbd)),
+        (Method::NAMES[4], Solver(Method::implicit)),
     ];
-}
-
-/// The word for a method of simulation, whatever its settings.
-pub(crate) fn method_name(method: &Method) -> &'static str {
-    use std::mem::discriminant;
-    let is_it = |solver: &Solver| discriminant(&(solver.0)()) == discriminant(method);
-    let mut all = Solver::ALL.iter();
-    all.find(|(_, solver)| is_it(solver))
-        .map_or("", |(word, _)| word)
 }
 
 /// A scene that is built in.

@@ -24,7 +24,7 @@ use self::frames::{Frames, places};
 use self::recorder::Recorder;
 use self::still::Still;
 use crate::args::{Format, TearArgs};
-use crate::choice::{Choice as _, method_name};
+use crate::choice::Choice as _;
 use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
@@ -51,7 +51,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let opened = session.open(None, streams)?;
     let up = args.up.unwrap_or_else(|| source.up());
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
-    let mut scene = source.scene(&frame, args.solver.as_deref())?;
+    let mut scene = source.scene(&frame, args.solver)?;
     settle(args, cuts, &mut scene);
     name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
@@ -313,7 +313,7 @@ impl Play<'_> {
             let name = output.and_then(|file| file.path.as_deref());
             let facts = [
                 ("scene", self.name.clone()),
-                ("method", method_name(&run.scene().solver).to_owned()),
+                ("method", run.scene().solver.name().to_owned()),
                 ("steps", run.tally().steps.to_string()),
                 ("vertices split", run.tally().splits.to_string()),
             ];

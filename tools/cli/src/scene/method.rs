@@ -5,7 +5,7 @@ use tearmesh_cloth::scene::Scene;
 
 use super::kinds::{Count, Word, set};
 use super::read::SceneFile;
-use crate::choice::{Solver, method_name};
+use crate::choice::Solver;
 use crate::say::Fault;
 
 impl SceneFile {
@@ -15,7 +15,7 @@ impl SceneFile {
         if let Some(Word(Solver(method))) = named {
             scene.solver = method();
         }
-        let method = method_name(&scene.solver);
+        let method = scene.solver.name();
         if let Some(Solver(typed)) = typed {
             scene.solver = typed();
         }
@@ -24,7 +24,7 @@ impl SceneFile {
         };
         scene.step_s = table.dt_s.map(f64::from).or(scene.step_s);
         for (key, readers) in OF_METHODS {
-            let is_read = |reader: &&str| [method, method_name(&scene.solver)].contains(reader);
+            let is_read = |reader: &&str| [method, scene.solver.name()].contains(reader);
             if table.place.values.contains_key(key) && !readers.iter().any(is_read) {
                 let readers = readers.join(" or ");
                 let message = format!("`{key}` goes with {readers}, and the method is {method}");

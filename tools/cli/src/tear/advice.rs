@@ -8,7 +8,6 @@ use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError};
 use super::frames::RATE_PER_S;
 use super::summary::has_limited;
 use crate::args::TearArgs;
-use crate::choice::method_name;
 use crate::say::{Fault, Severity, count, short, three_digits, two_digits};
 
 /// What is known before the first step. `number` is that of a vertex in its file.

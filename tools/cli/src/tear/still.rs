@@ -15,6 +15,7 @@ pub(super) struct Still {
     /// The most splits of a frame so far, by tearing and by cuts, and all splits before this frame.
     most: [u64; 2],
     before: [u64; 2],
+    cut_splits: u64,
     frames: u64,
 }
 
@@ -28,6 +29,8 @@ impl Still {
 
     /// Looks at a run after a step.
     pub(super) fn record(&mut self, run: &Run) {
+        let cuts = run.cuts_made().iter().map(|cut| cut.report.splits as u64);
+        self.cut_splits += cuts.sum::<u64>();
         let now_s = run.elapsed_s();
         if let Some(at_s) = self.at_s {
             if self.kept.is_none() && now_s >= at_s {
@@ -39,8 +42,7 @@ impl Still {
             return;
         }
         self.frames += 1;
-        let tally = run.tally();
-        let splits = [tally.splits, tally.cut_splits];
+        let splits = [run.tally().splits, self.cut_splits];
         let now = [0, 1].map(|kind| splits[kind] - self.before[kind]);
         if now > self.most {
             self.most = now;
