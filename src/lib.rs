@@ -17,7 +17,7 @@
 //! // Four triangles round the vertex 4.
 //! let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
 //! let points = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.], [0.5, 0.5, 0.]];
-//! let mut mesh = Mesh::build(points.len(), &triangles)?; // an error lists every offender
+//! let mut mesh = Mesh::build(points.len(), &triangles)?; // an error lists the offenders
 //! let mut positions = Positions::new(points)?;
 //! let mut edits = Edits::new();
 //!

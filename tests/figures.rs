@@ -2,7 +2,8 @@
 
 use tearmesh::script::Script;
 use tearmesh::{
-    Defect, Edits, FaceId, HalfEdgeId, Mesh, Plane, Positions, Vector, VertexId, shapes, split,
+    BuildError, Defect, Edits, FaceId, HalfEdgeId, Mesh, Plane, Positions, Vector, VertexId,
+    shapes, split,
 };
 
 use crate::lockstep;
@@ -231,7 +232,7 @@ fn a_split_of_a_bow_tie_tears_nothing() {
 /// Builds triangles that are wrong; `expected` has a line for each defect.
 fn refuses(vertices: usize, triangles: &[[u32; 3]], expected: &[&str]) {
     let error = Mesh::build(vertices, triangles).expect_err("not a manifold");
-    let said: Vec<String> = error.defects().map(|defect| defect.to_string()).collect();
+    let said: Vec<String> = error.defects().iter().map(Defect::to_string).collect();
     assert_eq!(said, expected, "{triangles:?}");
 }
 
@@ -298,26 +299,49 @@ fn more_vertices_than_ids_are_refused() {
     );
 }
 
-/// One million faces on an edge are a number, not an allocation each; so are their distances.
+/// Of many defects and faces an error lists the first and counts all; who asks for all gets all.
 #[test]
-fn long_lists_of_faces_are_read_as_they_are() {
+fn long_lists_are_capped_and_counted() {
     let triangles: Vec<[u32; 3]> = (0..100_000u32)
         .map(|i| [0, 1, if i % 1000 == 0 { 2 } else { i + 3 }])
         .collect();
     let error = Mesh::build(100_003, &triangles).expect_err("a crowded edge");
-    let lists: Vec<Vec<usize>> = error
-        .defects()
-        .map(|defect| match defect {
-            Defect::DuplicateFaces { faces, .. } | Defect::CrowdedEdge { faces, .. } => {
-                assert_eq!(faces.iter().len(), faces.len());
-                assert_eq!(faces.iter().next(), Some(faces.first()));
-                faces.iter().map(|face| face.index()).collect()
-            }
-            other => panic!("{other}"),
-        })
-        .collect();
+    let list = |defect: &Defect| match defect {
+        Defect::DuplicateFaces { faces, .. } | Defect::CrowdedEdge { faces, .. } => {
+            assert_eq!(faces.iter().next(), Some(faces.first()));
+            let list = faces.iter().map(|face| face.index()).collect();
+            (faces.len(), list)
+        }
+        other => panic!("{other}"),
+    };
     let rare: Vec<usize> = (0..100_000).step_by(1000).collect();
+    let first: Vec<usize> = (0..99).chain([99_999]).collect();
+    let lists: Vec<(usize, Vec<usize>)> = error.defects().iter().map(list).collect();
+    assert_eq!(lists, [(100, rare.clone()), (100_000, first)]);
+    assert_eq!((error.count(), error.is_capped()), (2, false));
+    let mut lists = Vec::new();
+    Mesh::diagnose(100_003, &triangles, usize::MAX, |defect| {
+        lists.push(list(&defect).1);
+    });
     assert_eq!(lists, [rare, (0..100_000).collect()]);
+
+    // Bow-ties come last, and both ends of a pair of triangles are flipped against each other.
+    let flipped: Vec<[u32; 3]> = (0..3000u32)
+        .flat_map(|i| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 1, 4 * i + 3]])
+        .chain([[0, 12_001, 12_002]])
+        .collect();
+    let error = Mesh::build(12_003, &flipped).expect_err("flipped faces");
+    assert_eq!((error.count(), error.is_capped()), (3001, true));
+    let (bow_tie, flips) = error.defects().split_last().expect("there are some");
+    assert!(matches!(bow_tie, Defect::BowTie { .. }));
+    assert_eq!(flips.len(), BuildError::LISTED_MAX);
+    for (i, flip) in flips.iter().enumerate() {
+        let faces = [2 * i, 2 * i + 1].map(f);
+        assert!(
+            matches!(flip, Defect::FlippedFace { faces: it, .. } if *it == faces),
+            "{flip}"
+        );
+    }
 }
 
 #[test]

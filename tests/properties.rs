@@ -143,7 +143,7 @@ fn building_agrees_with_the_oracle(vertices: usize, triangles: &[[u32; 3]]) {
             assert_eq!(mesh.check(), []);
         }
         Err(error) => {
-            let mut named: Vec<Fault> = error.defects().map(plain).collect();
+            let mut named: Vec<Fault> = error.defects().iter().map(plain).collect();
             named.sort();
             assert_eq!(named, known, "what is wrong");
         }
@@ -151,9 +151,9 @@ fn building_agrees_with_the_oracle(vertices: usize, triangles: &[[u32; 3]]) {
 }
 
 /// A defect, in the words of the oracle.
-fn plain(defect: Defect<'_>) -> Fault {
-    let numbers = |faces: Faces<'_>| faces.iter().map(|f| f.index()).collect();
-    match defect {
+fn plain(defect: &Defect) -> Fault {
+    let numbers = |faces: &Faces| faces.iter().map(|f| f.index()).collect();
+    match *defect {
         Defect::IndexOutOfRange { face, corner, .. } => Fault::OutOfRange {
             face: face.index(),
             corner,
@@ -162,13 +162,13 @@ fn plain(defect: Defect<'_>) -> Fault {
             face: face.index(),
             vertex: vertex.into(),
         },
-        Defect::DuplicateFaces { faces, .. } => Fault::Duplicate {
+        Defect::DuplicateFaces { ref faces, .. } => Fault::Duplicate {
             faces: numbers(faces),
         },
         Defect::Pillow { faces, .. } => Fault::Pillow {
             faces: faces.map(|f| f.index()).to_vec(),
         },
-        Defect::CrowdedEdge { ends, faces } => Fault::Crowded {
+        Defect::CrowdedEdge { ends, ref faces } => Fault::Crowded {
             ends: ends.map(u32::from),
             faces: numbers(faces),
         },
@@ -177,11 +177,11 @@ fn plain(defect: Defect<'_>) -> Fault {
             to: to.into(),
             faces: faces.map(|f| f.index()).to_vec(),
         },
-        Defect::BowTie { vertex, fans } => Fault::BowTie {
+        Defect::BowTie { vertex, ref fans } => Fault::BowTie {
             vertex: vertex.into(),
             fans: fans.iter().map(numbers).collect(),
         },
-        other => panic!("no small mesh has {other}"),
+        ref other => panic!("no small mesh has {other}"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Builds half-edges from triangles, or an error that lists every defect.
+//! Builds half-edges from triangles, or an error that lists the defects.
 //!
 //! The half-edges of an edge find each other by a counting sort into a bucket for the
 //! smaller of its two vertices; within the bucket, which has a handful of entries, those with
@@ -9,8 +9,7 @@
 //! The fast path only notices *that* something is wrong; what exactly is
 //! worked out by `diagnose.rs`, which may take its time.
 
-use super::defect::BuildError;
-use super::diagnose::diagnose;
+use super::defect::{BuildError, Faces};
 use super::{Link, Mesh, NO_HALF_EDGE};
 use crate::id::HalfEdgeId;
 
@@ -24,8 +23,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`BuildError`] lists every [`Defect`](super::Defect), each with the ids concerned. Listing the
-    /// defects takes O(n log n) time and up to twelve bytes per face in addition to the error itself.
+    /// [`BuildError`] lists each [`Defect`](super::Defect) with the ids concerned, up to a thousand of a
+    /// kind, and counts the others. That takes O(n log n) time and up to eight bytes per face.
     ///
     /// ```
     /// use tearmesh::{Defect, Mesh};
@@ -42,7 +41,10 @@ impl Mesh {
     )]
     pub fn build(vertices: usize, triangles: &[[u32; 3]]) -> Result<Mesh, BuildError> {
         build(vertices, triangles).ok_or_else(|| {
-            diagnose(vertices, triangles).expect("a refused mesh has a defect that can be named")
+            BuildError::collect(|visit| {
+                Mesh::diagnose(vertices, triangles, Faces::LISTED_MAX, visit)
+            })
+            .expect("a refused mesh has a defect that can be named")
         })
     }
 }

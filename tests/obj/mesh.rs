@@ -65,11 +65,11 @@ fn all_defects_are_in_the_value_and_twenty_in_the_message() {
     }
     let document = read(file.as_bytes());
     let error = document.mesh().expect_err("duplicates");
-    assert_eq!((error.defects().len(), error.shown().len()), (30, 20));
+    assert_eq!((error.error().count(), error.shown().len()), (30, 20));
     let message = error.to_string();
     assert_eq!(message.lines().count(), 21);
     assert!(message.ends_with("and 10 more"), "{message}");
-    let last = error.defects().next_back().expect("thirty");
+    let last = error.error().defects().last().expect("thirty");
     let last = document.describe(last);
     assert_eq!(
         last.to_string(),

@@ -326,8 +326,8 @@ proptest! {
         }
         let Ok(mesh) = repaired.mesh() else {
             let error = repaired.mesh().expect_err("a flip");
-            let is_flip = |defect: Defect<'_>| matches!(defect, Defect::FlippedFace { .. });
-            prop_assert!(error.defects().all(is_flip), "{error}\n{file}");
+            let is_flip = |defect: &Defect| matches!(defect, Defect::FlippedFace { .. });
+            prop_assert!(error.error().defects().iter().all(is_flip), "{error}\n{file}");
             return Ok(());
         };
         let written = write_as(&repaired, &mesh, &positions(&repaired));

@@ -22,7 +22,7 @@ const WIDTH: usize = 160;
 /// repair them all, if one does: "or add --repair", with `or` in front.
 pub(crate) fn faults(input: &Input, document: Document, error: MeshError, or: &str) -> Vec<Fault> {
     let lines_of = |defect| lines_of(defect, |face| document.line_of_triangle(face.index()));
-    let shown = || error.defects().zip(error.shown());
+    let shown = || error.error().defects().iter().zip(error.shown());
     let wanted = shown()
         .flat_map(|(defect, _)| lines_of(defect))
         .map(|line| (line, String::new()));
@@ -51,8 +51,7 @@ pub(crate) fn faults(input: &Input, document: Document, error: MeshError, or: &s
             }
         })
         .collect();
-    let more = error.defects().len() - faults.len();
-    drop(error); // It may be as large as the document, which is about to be repaired.
+    let more = error.error().count() - faults.len();
     if let Some(last) = faults.last_mut() {
         if more > 0 {
             last.message.push_str(&format!(
@@ -82,7 +81,7 @@ fn option_that_repairs(document: Document) -> Option<&'static str> {
 }
 
 /// The lines of a defect that are shown: the first ones, and the last.
-fn lines_of(defect: Defect<'_>, line_of: impl Fn(FaceId) -> usize) -> Vec<usize> {
+fn lines_of(defect: &Defect, line_of: impl Fn(FaceId) -> usize) -> Vec<usize> {
     let mut lines = Vec::new();
     let visit = |face| {
         let line = line_of(face);
@@ -94,17 +93,17 @@ fn lines_of(defect: Defect<'_>, line_of: impl Fn(FaceId) -> usize) -> Vec<usize>
         }
         lines.push(line);
     };
-    match defect {
+    match *defect {
         Defect::IndexOutOfRange { face, .. } | Defect::RepeatedVertex { face, .. } => {
             [face].into_iter().for_each(visit);
         }
-        Defect::DuplicateFaces { faces, .. } | Defect::CrowdedEdge { faces, .. } => {
+        Defect::DuplicateFaces { ref faces, .. } | Defect::CrowdedEdge { ref faces, .. } => {
             faces.iter().for_each(visit);
         }
         Defect::Pillow { faces, .. } | Defect::FlippedFace { faces, .. } => {
             faces.into_iter().for_each(visit);
         }
-        Defect::BowTie { fans, .. } => fans.iter().map(Faces::first).for_each(visit),
+        Defect::BowTie { ref fans, .. } => fans.iter().map(Faces::first).for_each(visit),
         _ => {}
     }
     lines

@@ -21,7 +21,7 @@ impl Document {
     ///
     /// # Errors
     ///
-    /// [`MeshError`] lists every defect if the triangles do not form an oriented 2-manifold.
+    /// [`MeshError`] lists the defects if the triangles do not form an oriented 2-manifold.
     ///
     /// ```
     /// use tearmesh_obj::Document;
@@ -39,6 +39,7 @@ impl Document {
         built.map_err(|error| {
             let shown = error
                 .defects()
+                .iter()
                 .take(SHOWN)
                 .map(|defect| self.describe(defect))
                 .collect();
@@ -60,12 +61,14 @@ impl Document {
     ///
     /// If the defect names a face or vertex that is not in this document.
     #[must_use]
-    pub fn describe(&self, defect: Defect<'_>) -> Diagnostic {
+    pub fn describe(&self, defect: &Defect) -> Diagnostic {
         let number = |vertex: VertexId| self.number_of_vertex(vertex.index());
-        let (code, face, message, help) = match defect {
+        let lines = |faces: &Faces| self.lines(faces.len(), faces.iter());
+        let lines_of_two = |faces: [FaceId; 2]| self.lines(2, faces.into_iter());
+        let (code, face, message, help) = match *defect {
             Defect::CrowdedEdge {
                 ends: [a, b],
-                faces,
+                ref faces,
             } => (
                 "E-MESH-EDGE",
                 faces.iter().last(),
@@ -74,7 +77,7 @@ impl Document {
                     number(a),
                     number(b),
                     faces.len(),
-                    self.lines(faces.iter())
+                    lines(faces)
                 ),
                 "an edge of a surface has at most two faces: delete the surplus ones",
             ),
@@ -85,12 +88,12 @@ impl Document {
                     "two faces run from vertex {} to vertex {} ({}): one of them is flipped",
                     number(from),
                     number(to),
-                    self.lines(faces.into_iter())
+                    lines_of_two(faces)
                 ),
                 "make the orientation consistent: neighbours run along their common edge in \
                  opposite directions",
             ),
-            Defect::BowTie { vertex, fans } => (
+            Defect::BowTie { vertex, ref fans } => (
                 "E-MESH-BOWTIE",
                 fans.iter().last().map(Faces::first),
                 format!(
@@ -104,7 +107,7 @@ impl Document {
             ),
             Defect::DuplicateFaces {
                 vertices: [a, b, c],
-                faces,
+                ref faces,
             } => (
                 "E-MESH-DUPLICATE",
                 faces.iter().last(),
@@ -114,7 +117,7 @@ impl Document {
                     number(a),
                     number(b),
                     number(c),
-                    self.lines(faces.iter())
+                    lines(faces)
                 ),
                 "delete all of these faces but one",
             ),
@@ -129,7 +132,7 @@ impl Document {
                     number(a),
                     number(b),
                     number(c),
-                    self.lines(faces.into_iter())
+                    lines_of_two(faces)
                 ),
                 "delete one of the two: cloth is drawn from both sides, but modelled once",
             ),
@@ -185,8 +188,8 @@ impl Document {
     }
 
     /// `lines 3, 4, 9`, each once: triangles of one polygon stand on one line.
-    fn lines(&self, faces: impl ExactSizeIterator<Item = FaceId>) -> String {
-        let more = match faces.len().saturating_sub(SHOWN) {
+    fn lines(&self, count: usize, faces: impl Iterator<Item = FaceId>) -> String {
+        let more = match count.saturating_sub(SHOWN) {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
@@ -197,9 +200,9 @@ impl Document {
         format!("line{plural} {}{more}", list.join(", "))
     }
 
-    fn lines_of_fans(&self, fans: Fans<'_>) -> String {
+    fn lines_of_fans(&self, fans: &Fans) -> String {
         let shown = fans.iter().take(SHOWN);
-        let shown: Vec<String> = shown.map(|fan| self.lines(fan.iter())).collect();
+        let shown: Vec<String> = shown.map(|fan| self.lines(fan.len(), fan.iter())).collect();
         let more = if fans.len() > SHOWN { " | …" } else { "" };
         format!("{}{more}", shown.join(" | "))
     }
@@ -213,13 +216,12 @@ pub struct MeshError {
 }
 
 impl MeshError {
-    /// Returns all defects. Face `i` of a defect is triangle `i` of the document, and vertex `i` is its
-    /// vertex `i`. [`Document::describe`] describes a defect with the line numbers of the file.
+    /// Returns what is wrong with the triangles. Face `i` of a defect is triangle `i` of the document, and
+    /// vertex `i` is its vertex `i`. [`Document::describe`] describes a defect with the line numbers of the
+    /// file.
     #[must_use]
-    pub fn defects(
-        &self,
-    ) -> impl ExactSizeIterator<Item = Defect<'_>> + DoubleEndedIterator + Clone {
-        self.error.defects()
+    pub fn error(&self) -> &BuildError {
+        &self.error
     }
 
     /// Returns descriptions of the first twenty defects, with the line and vertex numbers of the file.
@@ -236,7 +238,7 @@ impl fmt::Display for MeshError {
             let separator = if i == 0 { "" } else { "\n" };
             write!(f, "{separator}{diagnostic}  [{}]", diagnostic.code)?;
         }
-        match self.defects().len() - self.shown.len() {
+        match self.error.count() - self.shown.len() {
             0 => Ok(()),
             more => write!(f, "\nand {more} more"),
         }

@@ -21,7 +21,7 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::{BuildError, Defect, FaceId, Fans, Mesh, VertexId};
+use tearmesh::{Defect, FaceId, Fans, Mesh, VertexId};
 
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
@@ -74,69 +74,62 @@ impl Document {
         if self.record.is_some() {
             return self; // What would be a bow-tie without its record is none.
         }
-        let Err(mut error) = self.build() else {
+        if Mesh::build(self.positions.len(), self.triangles()).is_ok() {
             return self;
-        };
+        }
         if repair == Repair::All {
             for choose in [Document::on_the_same_vertices, Document::superfluous] {
-                let dropped = choose(&self, &error);
-                if dropped.is_empty() {
-                    continue;
-                }
-                drop(error);
-                self.drop_triangles(dropped);
-                match self.build() {
-                    Ok(_) => return self,
-                    Err(left) => error = left,
+                let dropped = choose(&self);
+                if !dropped.is_empty() {
+                    self.drop_triangles(dropped);
                 }
             }
         }
-        self.separate_fans(&error);
+        self.separate_fans();
         self
     }
 
-    fn build(&self) -> Result<Mesh, BuildError> {
-        Mesh::build(self.positions.len(), self.triangles())
+    /// Calls `visit` for each defect, with at most `listed` faces of each.
+    fn diagnose(&self, listed: usize, visit: impl FnMut(Defect)) {
+        Mesh::diagnose(self.positions.len(), self.triangles(), listed, visit);
     }
 
     /// All triangles but the first on the same three vertices.
-    fn on_the_same_vertices(&self, error: &BuildError) -> Dropped {
+    fn on_the_same_vertices(&self) -> Dropped {
         let mut dropped = Dropped::none(self.triangles().len());
-        for defect in error.defects() {
-            match defect {
-                Defect::DuplicateFaces { faces, .. } => {
-                    let kept = faces.first();
-                    for face in faces.iter().skip(1) {
-                        dropped.add(Drop {
-                            face,
-                            kept,
-                            reason: Reason::Duplicate,
-                        });
-                    }
+        self.diagnose(usize::MAX, |defect| match defect {
+            Defect::DuplicateFaces { faces, .. } => {
+                let kept = faces.first();
+                for face in faces.iter().skip(1) {
+                    dropped.add(Drop {
+                        face,
+                        kept,
+                        reason: Reason::Duplicate,
+                    });
                 }
-                Defect::Pillow {
-                    faces: [kept, face],
-                    ..
-                } => dropped.add(Drop {
-                    face,
-                    kept,
-                    reason: Reason::Pillow,
-                }),
-                _ => {}
             }
-        }
+            Defect::Pillow {
+                faces: [kept, face],
+                ..
+            } => dropped.add(Drop {
+                face,
+                kept,
+                reason: Reason::Pillow,
+            }),
+            _ => {}
+        });
         dropped
     }
 
     /// The triangles for which a crowded edge has no room.
-    fn superfluous(&self, error: &BuildError) -> Dropped {
+    fn superfluous(&self) -> Dropped {
         // Crowded edges, ascending, each with the face that stays for each direction.
         let mut edges = Vec::new();
-        for defect in error.defects() {
+        self.diagnose(1, |defect| {
             if let Defect::CrowdedEdge { ends, .. } = defect {
                 push(&mut edges, (ends.map(u32::from), [None::<FaceId>; 2]));
             }
-        }
+        });
         let mut dropped = Dropped::none(self.triangles().len());
         if edges.is_empty() {
             return dropped;
@@ -247,36 +240,48 @@ impl Document {
     }
 
     /// Gives a vertex to each fan of a bow-tie but the first, and says so.
-    fn separate_fans(&mut self, error: &BuildError) {
-        let bow_ties: Vec<(VertexId, Fans<'_>)> = error
-            .defects()
-            .filter_map(|defect| match defect {
-                Defect::BowTie { vertex, fans } => Some((vertex, fans)),
-                _ => None,
-            })
-            .collect();
-        let copies: usize = bow_ties.iter().map(|(_, fans)| fans.len() - 1).sum();
-        if copies == 0 || self.positions.len() + copies > Mesh::MAX_VERTICES {
+    fn separate_fans(&mut self) {
+        // The vertex of each copy; each face that gets one, with its number; and what is reported.
+        let (mut sources, mut moves): (Vec<VertexId>, Vec<(FaceId, u32)>) = Default::default();
+        let mut first: Vec<(VertexId, Fans)> = Vec::new();
+        self.diagnose(usize::MAX, |defect| {
+            let Defect::BowTie { vertex, fans } = defect else {
+                return;
+            };
+            for fan in fans.iter().skip(1) {
+                let copy = sources.len() as u32;
+                fan.iter().for_each(|face| push(&mut moves, (face, copy)));
+                push(&mut sources, vertex);
+            }
+            if first.len() <= REPORTED {
+                first.push((vertex, fans));
+            }
+        });
+        let copies = self.positions.len();
+        if sources.is_empty() || copies + sources.len() > Mesh::MAX_VERTICES {
             return; // Too many vertices for a mesh: it stays refused.
         }
-        self.report_fans(&bow_ties);
-        let vertices: Vec<usize> = bow_ties.iter().map(|(vertex, _)| vertex.index()).collect();
-        let lines = self.lines_of(bow_ties.iter().map(|(vertex, _)| vertex.index()));
-        let mut added = Vec::with_capacity(copies);
-        self.positions.reserve_exact(copies); // To double them would be the peak of a repair.
-        for (&(vertex, fans), &line) in bow_ties.iter().zip(&lines) {
-            for fan in fans.iter().skip(1) {
-                let copy = self.positions.len();
-                self.positions.push(self.positions[vertex.index()]);
-                let extra = self.extras.row(vertex.index()).to_vec();
-                if !extra.is_empty() {
-                    self.extras.set(copy, &extra);
-                }
-                for face in fan.iter() {
-                    self.move_corner(face.index(), vertex.index() as u32, copy as u32);
-                }
-                added.push(line);
+        let mut vertices: Vec<usize> = sources.iter().map(|vertex| vertex.index()).collect();
+        vertices.dedup();
+        self.report_fans(&first, vertices.len());
+        drop(first);
+        let lines = self.lines_of(vertices.iter().copied());
+        let line_of = |vertex: &VertexId| {
+            let at = vertices.binary_search(&vertex.index());
+            lines[at.expect("a copy has a line")]
+        };
+        let added: Vec<u32> = sources.iter().map(line_of).collect();
+        self.positions.reserve_exact(sources.len()); // To double them would be the peak of a repair.
+        for vertex in &sources {
+            let extra = self.extras.row(vertex.index()).to_vec();
+            if !extra.is_empty() {
+                self.extras.set(self.positions.len(), &extra);
             }
+            self.positions.push(self.positions[vertex.index()]);
+        }
+        for (face, copy) in moves {
+            let vertex = sources[copy as usize].index() as u32;
+            self.move_corner(face.index(), vertex, copies as u32 + copy);
         }
         self.lay_out_vertices(&added);
         self.report_unspoken(&vertices);
@@ -355,10 +360,10 @@ impl Document {
             .push(Diagnostic::warning("W-OBJ-FOREIGN", line, message));
     }
 
-    fn report_fans(&mut self, bow_ties: &[(VertexId, Fans<'_>)]) {
+    fn report_fans(&mut self, first: &[(VertexId, Fans)], count: usize) {
         const CODE: &str = "W-OBJ-REPAIR-BOWTIE";
         let mut copy = self.positions.len();
-        for (vertex, fans) in bow_ties.iter().take(REPORTED) {
+        for (vertex, fans) in first.iter().take(REPORTED) {
             let new: Vec<String> = fans
                 .iter()
                 .skip(1)
@@ -381,11 +386,11 @@ impl Document {
             self.diagnostics
                 .push(Diagnostic::warning(CODE, line, message));
         }
-        if let Some((next, _)) = bow_ties.get(REPORTED) {
+        if let Some((next, _)) = first.get(REPORTED) {
             let line = self.line_of_vertex(next.index());
             let message = format!(
                 "and {} more vertices with several fans get new vertices (the first here)",
-                bow_ties.len() - REPORTED
+                count - REPORTED
             );
             self.diagnostics
                 .push(Diagnostic::warning(CODE, line, message));

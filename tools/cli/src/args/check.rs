@@ -12,7 +12,8 @@ Examples:
   tearmesh check models/*.obj
       a line for each file: ok, or the first defect, with its line
   tearmesh check -v shirt.obj
-      every defect, with the text of its line, and the size of the mesh";
+      the first twenty defects, with the text of their lines, how many more
+      there are, and the size of the mesh";
 
 /// Check that OBJ files can be read and cut.
 #[derive(Debug, Parser)]
