@@ -59,6 +59,8 @@ pub struct Edits {
     inserts: Vec<InsertEnds>,
     merges: Vec<MergeRest>,
     slides: Vec<SlideRest>,
+    /// How many faces the mesh had after the last record, once that is known.
+    faces: Option<u32>,
 }
 
 /// What was done, and where the record's lists end; they start where those of the record
@@ -68,8 +70,17 @@ struct Record {
     kind: Kind,
     corners_end: usize,
     links_end: usize,
+    /// Of the mesh before this record.
+    size: MeshSize,
     /// That of the cursor after this record.
     hash: u64,
+}
+
+/// How many vertices and faces a mesh has. A log that begins with a merge does not know the faces.
+#[derive(Clone, Copy, Debug, Default)]
+struct MeshSize {
+    vertices: u32,
+    faces: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -107,6 +118,19 @@ struct SlideRest {
     toward: VertexId,
     t: f64,
     along: [Option<[HalfEdgeId; 2]>; 2],
+}
+
+impl MeshSize {
+    fn new(vertices: usize, faces: usize) -> MeshSize {
+        MeshSize {
+            vertices: vertices as u32,
+            faces: Some(faces as u32),
+        }
+    }
+
+    fn corners(self) -> Option<u32> {
+        self.faces.map(|faces| 3 * faces)
+    }
 }
 
 impl Edits {
@@ -172,6 +196,11 @@ impl Edits {
         let (first, end) = (self.first.number(), self.cursor().number());
         let seen = cursor.number();
         assert!(
+            cursor != Cursor::HALF_WAY,
+            "half way: this follower panicked while it replayed, and some of its values may be those \
+             from before an edit. Make them anew"
+        );
+        assert!(
             seen >= first,
             "late: this follower has seen {seen} edits of this log, and the first {first} were \
              cleared. Replay before `clear`. One whose values are those of the mesh as it is now \
@@ -233,10 +262,14 @@ impl Edits {
         values: &mut Vec<T>,
         mut mix: impl FnMut(Mix<&T>) -> T,
     ) {
-        for edit in self.since(*seen) {
-            edit.vertex_ops().for_each(|op| op.apply(values, &mut mix));
-        }
-        *seen = self.cursor();
+        self.replay_list(
+            seen,
+            values,
+            |size| Some(size.vertices),
+            |edit, values| {
+                edit.vertex_ops().for_each(|op| op.apply(values, &mut mix));
+            },
+        );
     }
 
     /// Replays the log on a list of corner values, three per face, and advances `seen` to the end
@@ -254,10 +287,9 @@ impl Edits {
         values: &mut Vec<T>,
         mut mix: impl FnMut(Mix<&T>) -> T,
     ) {
-        for edit in self.since(*seen) {
+        self.replay_list(seen, values, MeshSize::corners, |edit, values| {
             edit.corner_ops().for_each(|op| op.apply(values, &mut mix));
-        }
-        *seen = self.cursor();
+        });
     }
 
     /// Replays the log on an index buffer, and advances `seen` to the end of the log. The buffer holds
@@ -267,11 +299,10 @@ impl Edits {
     ///
     /// For the same reasons as [`Edits::replay`], or if `indices` does not have three entries for each face.
     pub fn replay_indices(&self, seen: &mut Cursor, indices: &mut Vec<u32>) {
-        for edit in self.since(*seen) {
+        self.replay_list(seen, indices, MeshSize::corners, |edit, indices| {
             edit.corner_ops()
                 .for_each(|op| op.apply_to_indices(indices));
-        }
-        *seen = self.cursor();
+        });
     }
 
     /// Replays the log on a list of face values, and advances `seen` to the end of the log. Each
@@ -281,10 +312,35 @@ impl Edits {
     ///
     /// For the same reasons as [`Edits::replay`], or if `values` does not have one value for each face.
     pub fn replay_faces<T: Clone>(&self, seen: &mut Cursor, values: &mut Vec<T>) {
-        for edit in self.since(*seen) {
-            edit.families()
-                .for_each(|family| family.apply_to_faces(values));
-        }
+        self.replay_list(
+            seen,
+            values,
+            |size| size.faces,
+            |edit, values| {
+                edit.families()
+                    .for_each(|family| family.apply_to_faces(values));
+            },
+        );
+    }
+
+    /// Replays the log on a list that has as many values as `length` says of the mesh.
+    fn replay_list<T>(
+        &self,
+        seen: &mut Cursor,
+        values: &mut Vec<T>,
+        length: impl Fn(MeshSize) -> Option<u32>,
+        mut follow: impl FnMut(&Edit<'_>, &mut Vec<T>),
+    ) {
+        let edits = self.since(*seen);
+        let first = self.records.len() - edits.len();
+        let length = self.records.get(first).and_then(|next| length(next.size));
+        assert!(
+            length.is_none_or(|length| values.len() == length as usize),
+            "values are in step with the mesh: there are {}, not {length:?}",
+            values.len()
+        );
+        *seen = Cursor::HALF_WAY;
+        edits.for_each(|edit| follow(&edit, values));
         *seen = self.cursor();
     }
 
@@ -436,14 +492,21 @@ impl Edits {
     }
 
     /// Makes a record of what was noted since the last one.
-    pub(crate) fn finish_split(&mut self, old: VertexId, new: VertexId) -> Split<'_> {
-        self.finish(Kind::Split { old, new });
+    pub(crate) fn finish_split(
+        &mut self,
+        old: VertexId,
+        new: VertexId,
+        face_count: usize,
+    ) -> Split<'_> {
+        let size = MeshSize::new(new.index(), face_count);
+        self.finish(Kind::Split { old, new }, size);
         self.split(self.records.len() - 1, old, new)
     }
 
-    /// Makes a record of an insertion.
+    /// Makes a record of an insertion into a mesh that had this many vertices and faces.
     pub(crate) fn finish_insert(
         &mut self,
+        [vertices, faces]: [usize; 2],
         points: impl IntoIterator<Item = InsertedPoint>,
         children: impl IntoIterator<Item = ChildFace>,
     ) -> Insert<'_> {
@@ -454,7 +517,10 @@ impl Edits {
             points_end: self.points.len(),
             children_end: self.children.len(),
         });
-        self.finish(Kind::Insert(j as u32));
+        self.finish(Kind::Insert(j as u32), MeshSize::new(vertices, faces));
+        let is_new = |child: &&ChildFace| child.face != child.parent;
+        let made = self.insert(self.records.len() - 1, j).children.iter();
+        self.faces = Some((faces + made.filter(is_new).count()) as u32);
         self.insert(self.records.len() - 1, j)
     }
 
@@ -473,13 +539,20 @@ impl Edits {
             share,
             renumbered,
         });
-        self.finish(Kind::Merge(j as u32));
+        let last = renumbered.map_or(gone, |(last, _)| last);
+        let size = MeshSize {
+            vertices: last.index() as u32 + 1,
+            faces: self.faces,
+        };
+        self.finish(Kind::Merge(j as u32), size);
         self.merge(self.records.len() - 1, j)
     }
 
-    /// Makes a record of a slide, with the corners noted since the last one.
+    /// Makes a record of a slide in a mesh of this many vertices and faces, with the corners noted since
+    /// the last one.
     pub(crate) fn finish_slide(
         &mut self,
+        [vertices, faces]: [usize; 2],
         vertex: VertexId,
         toward: VertexId,
         t: f64,
@@ -492,16 +565,18 @@ impl Edits {
             t,
             along,
         });
-        self.finish(Kind::Slide(j as u32));
+        self.finish(Kind::Slide(j as u32), MeshSize::new(vertices, faces));
         self.slide(self.records.len() - 1, j)
     }
 
-    fn finish(&mut self, kind: Kind) {
+    fn finish(&mut self, kind: Kind, size: MeshSize) {
+        self.faces = size.faces;
         let i = self.records.len();
         self.records.push(Record {
             kind,
             corners_end: self.corners.len(),
             links_end: self.links.len(),
+            size,
             hash: 0,
         });
         self.records[i].hash = self.record(i).after().hash();
@@ -574,6 +649,7 @@ impl Edit<'_> {
             "a follower that has seen {} edits was shown edit {number}, or one of another log",
             seen.number()
         );
+        *follower.cursor() = Cursor::HALF_WAY;
         follower.follow(self);
         *follower.cursor() = self.after();
     }
@@ -587,7 +663,9 @@ pub trait Followers {
 
 impl<F: Follower + ?Sized> Followers for F {
     fn see(&mut self, edits: &Edits) {
-        for edit in edits.since(*self.cursor()) {
+        let unseen = edits.since(*self.cursor());
+        *self.cursor() = Cursor::HALF_WAY;
+        for edit in unseen {
             self.follow(&edit);
         }
         *self.cursor() = edits.cursor();

@@ -320,8 +320,9 @@ impl Work {
 
     /// Inserts the points.
     pub(crate) fn carry_out<'e>(self, mesh: &mut Mesh, edits: &'e mut Edits) -> Insert<'e> {
+        let size = [mesh.vertex_count(), mesh.face_count()];
         self.change(mesh);
-        edits.finish_insert(self.placed, self.children)
+        edits.finish_insert(size, self.placed, self.children)
     }
 
     fn change(&self, mesh: &mut Mesh) {

@@ -71,7 +71,13 @@ pub fn toward<'e>(
     for h in mesh.corners_of(vertex) {
         edits.note_corner(h);
     }
-    Ok(edits.finish_slide(vertex, toward, t, along))
+    Ok(edits.finish_slide(
+        [mesh.vertex_count(), mesh.face_count()],
+        vertex,
+        toward,
+        t,
+        along,
+    ))
 }
 
 /// The reason why a slide was refused. Nothing has changed.

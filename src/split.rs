@@ -229,7 +229,7 @@ fn commit<'e>(mesh: &mut Mesh, v: VertexId, stays: HalfEdgeId, edits: &'e mut Ed
             }
         }
     }
-    edits.finish_split(v, new)
+    edits.finish_split(v, new, mesh.face_count())
 }
 
 /// Undoes the relabelling of faces that turned out not to move.

@@ -8,8 +8,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    Blend, Cursor, Edit, Edits, FaceId, HalfEdgeId, Masses, Mesh, Mix, PerCorner, PerFace,
-    PerVertex, Positions, VertexId, mend, shapes, slide, split,
+    Blend, Cursor, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix, PerCorner,
+    PerFace, PerVertex, Positions, VertexId, mend, shapes, slide, split,
 };
 
 use crate::cases::cases;
@@ -286,7 +286,10 @@ fn three_splits() -> (Mesh, Edits, PerVertex<f64>) {
 
 fn panic_of(act: impl FnOnce()) -> String {
     let panic = catch_unwind(AssertUnwindSafe(act)).expect_err("a panic");
-    *panic.downcast::<String>().expect("words")
+    match panic.downcast::<String>() {
+        Ok(words) => *words,
+        Err(panic) => String::from(*panic.downcast::<&str>().expect("words")),
+    }
 }
 
 #[test]
@@ -470,4 +473,111 @@ fn families_are_named_by_their_parent() {
         }
     }
     assert!(edit.families().count() > 0);
+}
+
+/// A log with one record for each kind of edit, the numbers of vertices and faces before that, and the
+/// name of the kind.
+fn one_edit_of_each_kind() -> Vec<(&'static str, Edits, [usize; 2])> {
+    let mut logs = Vec::new();
+    let face = FaceId::new(1).expect("small");
+    let (mut mesh, _) = shapes::fan(5, true);
+    let mut edits = Edits::new();
+    let mut log = |name, mesh: &Mesh, act: &mut dyn FnMut(&mut Edits)| {
+        let size = [mesh.vertex_count(), mesh.face_count()];
+        edits.clear();
+        act(&mut edits);
+        assert_eq!(edits.len(), 1, "{name}");
+        logs.push((name, edits.clone(), size));
+    };
+    let at = mesh.clone();
+    log("slide", &at, &mut |edits| {
+        slide::toward(&mesh, vertex(0), vertex(1), 0.25, edits).expect("an edge");
+    });
+    log("split", &at, &mut |edits| {
+        split::vertex(&mut mesh, vertex(0), &[face], edits).expect("others stay");
+    });
+    let at = mesh.clone();
+    log("merge", &at, &mut |edits| {
+        mend::merge(&mut mesh, vertex(0), vertex(6), [1.0; 2], edits).expect("copies");
+    });
+    let at = mesh.clone();
+    log("insertion", &at, &mut |edits| {
+        let mut plan = Plan::new();
+        plan.in_face(face, [1.0; 3]);
+        plan.apply(&mut mesh, edits).expect("a point");
+    });
+    logs
+}
+
+#[test]
+fn lists_of_the_wrong_length_are_refused_for_every_kind_of_edit() {
+    for (name, edits, [vertices, faces]) in one_edit_of_each_kind() {
+        let start = {
+            let first = edits.iter().next().expect("one edit");
+            first.before()
+        };
+        type Replay<'e> = &'e dyn Fn(&mut Cursor, &mut Vec<u32>);
+        let replays: [(&str, usize, Replay<'_>); 4] = [
+            ("vertices", vertices, &|seen, list| {
+                edits.replay_vertices(seen, list, |mix| *mix.nearest());
+            }),
+            ("corners", 3 * faces, &|seen, list| {
+                edits.replay_corners(seen, list, |mix| *mix.nearest());
+            }),
+            ("faces", faces, &|seen, list| edits.replay_faces(seen, list)),
+            ("indices", 3 * faces, &|seen, list| {
+                edits.replay_indices(seen, list)
+            }),
+        ];
+        for (of, right, replay) in replays {
+            for length in [right - 1, right + 1, right] {
+                let (mut seen, mut list) = (start, vec![0; length]);
+                let replayed = catch_unwind(AssertUnwindSafe(|| replay(&mut seen, &mut list)));
+                assert_eq!(replayed.is_ok(), length == right, "{name}: {length} {of}");
+                if length != right {
+                    assert_eq!((seen, list.len()), (start, length), "{name}: {of} stay");
+                }
+            }
+        }
+    }
+}
+
+/// What panics half way may have changed some values and not others: that is told, not guessed.
+#[test]
+fn after_a_panic_half_way_the_next_replay_says_so() {
+    let (_, edits, _) = three_splits();
+    let (mut seen, mut list) = (Cursor::START, vec![1.0; 6]);
+    let mut calls = 0;
+    let mix = |mix: Mix<&f64>| {
+        calls += 1;
+        assert!(calls < 2, "{}", "a mix fails");
+        *mix.nearest()
+    };
+    assert_eq!(
+        panic_of(|| edits.replay_vertices(&mut seen, &mut list, mix)),
+        "a mix fails"
+    );
+    let told = panic_of(|| edits.replay_vertices(&mut seen, &mut list, |mix| *mix.nearest()));
+    assert!(told.starts_with("half way: "), "{told}");
+
+    struct Fails(PerVertex<f64>, usize);
+    impl Follower for Fails {
+        fn cursor(&mut self) -> &mut Cursor {
+            self.0.cursor()
+        }
+        fn follow(&mut self, edit: &Edit<'_>) {
+            self.1 += 1;
+            assert!(self.1 != 2, "{}", "a follower fails");
+            self.0.follow(edit);
+        }
+    }
+    let mut fails = Fails(PerVertex::new(vec![1.0; 6]), 0);
+    assert_eq!(panic_of(|| edits.replay(&mut fails)), "a follower fails");
+    let told = panic_of(|| edits.replay(&mut fails));
+    assert!(told.starts_with("half way: "), "{told}");
+    let first = edits.iter().next().expect("three splits");
+    let mut fails = Fails(PerVertex::new(vec![1.0; 6]), 1);
+    assert_eq!(panic_of(|| first.pass_on(&mut fails)), "a follower fails");
+    let told = panic_of(|| edits.replay(&mut fails.0));
+    assert!(told.starts_with("half way: "), "{told}");
 }

@@ -22,6 +22,12 @@ impl Cursor {
         hash: 0x243f_6a88_85a3_08d3,
     };
 
+    /// The place of a follower whose replay a panic interrupted.
+    pub(super) const HALF_WAY: Cursor = Cursor {
+        number: u64::MAX,
+        hash: 0,
+    };
+
     pub(super) const fn new(number: u64, hash: u64) -> Cursor {
         Cursor { number, hash }
     }

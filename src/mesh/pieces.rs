@@ -57,6 +57,10 @@ impl Mesh {
     /// If `components` belong to another mesh (I2).
     #[must_use]
     pub fn pieces(&self, components: &Components) -> Vec<DerivedMesh> {
+        assert!(
+            *components == self.components(),
+            "I2: the components are those of this mesh"
+        );
         let mut faces: Vec<Vec<FaceId>> = vec![Vec::new(); components.count()];
         let mut local = Vec::with_capacity(self.face_count());
         for f in self.faces() {
