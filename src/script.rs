@@ -108,7 +108,9 @@
 //! }
 //! ```
 //!
-//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. If
+//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. With the
+//! features `arbitrary` and `proptest`, [`Script`] is `Arbitrary` for these crates: a target may take a
+//! script, from the same bytes, and a property test `any::<Script>()`. If
 //! it fails, [`Script::shrink`] reduces the script to the few lines that matter. The message ends
 //! with the script as text, which a regression test can parse with `text.parse::<Script>()`. The
 //! folder `fuzz` of this library's repository runs its targets on the stable toolchain
@@ -167,6 +169,7 @@
 //! ```
 
 mod bytes;
+mod grammar;
 mod shape;
 mod shrink;
 mod text;
@@ -274,9 +277,6 @@ pub enum Operation {
 
 /// The largest number of spots of an insertion that scripts from bytes or text may have.
 pub const SPOTS_MAX: usize = 4;
-
-/// The offsets of spots are below this: the half-edges of four faces.
-const OFFSETS: u8 = 12;
 
 /// A place at which to insert a vertex. One invalid spot causes the whole insertion to be refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

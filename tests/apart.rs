@@ -286,13 +286,13 @@ fn values_come_along_with_a_piece() {
 
 #[test]
 fn the_components_of_another_mesh_are_refused() {
-    let whole = tearmesh::shapes::grid(2, 1).0;
+    let whole = shapes::grid(2, 1).0;
     let mut apart = whole.clone();
     let mut edits = Edits::new();
     for (v, f) in [(1, 2), (4, 1), (4, 2)] {
-        let moving = tearmesh::FaceId::new(f).expect("small");
+        let moving = FaceId::new(f).expect("small");
         let v = VertexId::new(v).expect("small");
-        let _ = tearmesh::split::vertex(&mut apart, v, &[moving], &mut edits);
+        let _ = split::vertex(&mut apart, v, &[moving], &mut edits);
     }
     assert!(apart.components().count() > 1);
     for (mesh, other) in [(&whole, &apart), (&apart, &whole)] {

@@ -526,7 +526,7 @@ fn lists_of_the_wrong_length_are_refused_for_every_kind_of_edit() {
             }),
             ("faces", faces, &|seen, list| edits.replay_faces(seen, list)),
             ("indices", 3 * faces, &|seen, list| {
-                edits.replay_indices(seen, list)
+                edits.replay_indices(seen, list);
             }),
         ];
         for (of, right, replay) in replays {

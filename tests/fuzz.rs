@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use arbitrary::{Arbitrary as _, Unstructured};
 use tearmesh::script::Script;
 
 use crate::lockstep;
@@ -93,6 +94,8 @@ fn the_seeds_are_these_scripts() {
         }
         let bytes = std::fs::read(&path).expect("a seed");
         assert_eq!(Script::from_bytes(&bytes), script, "{}", path.display());
+        let arbitrary = Script::arbitrary_take_rest(Unstructured::new(&bytes));
+        assert_eq!(arbitrary, Ok(script), "a fuzzer's bytes are the script's");
     }
 }
 

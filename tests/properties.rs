@@ -30,7 +30,7 @@ where
 /// Runs a property on random scripts. What fails is made small by [`Script::shrink`], which knows what a
 /// script is.
 fn for_all_scripts(property: impl Fn(&Script)) -> u32 {
-    let failed = match run(&scripts(), 0, |script| property(&script)) {
+    let failed = match run(&any::<Script>(), 0, |script| property(&script)) {
         Ok(cases) => return cases,
         Err((_, script)) => script,
     };
@@ -67,24 +67,6 @@ fn run<S: Strategy>(
     }
 }
 
-/// Scripts of up to 60 operations. Shape and operations have bytes of their own, so that a
-/// failing case shrinks by dropping operations.
-fn scripts() -> impl Strategy<Value = Script> {
-    let shape = prop::collection::vec(any::<u8>(), 0..=100);
-    let operation = prop::array::uniform16(any::<u8>());
-    let operations = prop::collection::vec(operation, 0..=Script::OPERATIONS_MAX);
-    (shape, operations).prop_map(|(shape, operations)| {
-        let first = |bytes: [u8; 16]| {
-            let saddle_first = [&[2], &bytes[..]].concat();
-            Script::from_bytes(&saddle_first).operations.swap_remove(0)
-        };
-        Script {
-            shape: Script::from_bytes(&shape).shape,
-            operations: operations.into_iter().map(first).collect(),
-        }
-    })
-}
-
 #[test]
 fn every_step_agrees_with_the_oracle() {
     let sum = Cell::new(Done::default());
@@ -107,7 +89,7 @@ fn every_step_agrees_with_the_oracle() {
 
 #[test]
 fn a_script_survives_bytes_and_text() {
-    for_all(&scripts(), |script| {
+    for_all(&any::<Script>(), |script| {
         assert!(script.operations.len() <= Script::OPERATIONS_MAX);
         assert_eq!(Script::from_bytes(&script.to_bytes()), script);
         assert_eq!(script.to_string().parse(), Ok(script));
@@ -205,7 +187,7 @@ fn random_triangles_are_built_or_refused_like_the_oracle_does() {
 #[test]
 fn damaged_shapes_are_built_or_refused_like_the_oracle_does() {
     let damage = prop::collection::vec(any::<[u8; 3]>(), 0..=3);
-    let triangles = (scripts(), damage).prop_map(|(script, damage)| {
+    let triangles = (any::<Script>(), damage).prop_map(|(script, damage)| {
         let (mesh, _) = script.shape.make();
         let mut triangles = Triangles {
             vertices: mesh.vertex_count(),

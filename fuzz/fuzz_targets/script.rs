@@ -11,6 +11,6 @@ mod lockstep;
 #[allow(dead_code, unused_imports, reason = "shared with the tests")]
 mod oracle;
 
-fuzz_target!(|data: &[u8]| {
-    lockstep::check(&Script::from_bytes(data));
+fuzz_target!(|script: Script| {
+    lockstep::check(&script);
 });

@@ -42,7 +42,7 @@ impl Mesh {
     pub fn build(vertices: usize, triangles: &[[u32; 3]]) -> Result<Mesh, BuildError> {
         build(vertices, triangles).ok_or_else(|| {
             BuildError::collect(|visit| {
-                Mesh::diagnose(vertices, triangles, Faces::LISTED_MAX, visit)
+                Mesh::diagnose(vertices, triangles, Faces::LISTED_MAX, visit);
             })
             .expect("a refused mesh has a defect that can be named")
         })

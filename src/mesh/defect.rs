@@ -85,14 +85,14 @@ pub enum Defect {
     TooManyVertices {
         /// The number of vertices given.
         given: usize,
-        /// The limit, [`Mesh::MAX_VERTICES`].
+        /// The limit, [`Mesh::MAX_VERTICES`](super::Mesh::MAX_VERTICES).
         limit: usize,
     },
     /// More faces were given than a mesh can have.
     TooManyFaces {
         /// The number of faces given.
         given: usize,
-        /// The limit, [`Mesh::MAX_FACES`].
+        /// The limit, [`Mesh::MAX_FACES`](super::Mesh::MAX_FACES).
         limit: usize,
     },
     /// A face refers to a vertex that does not exist.

@@ -1,15 +1,20 @@
 //! Scripts as bytes: every byte string is one.
 
-use super::{Fault, GROWN_MAX, OFFSETS, Operation, SPOTS_MAX, Script, Shape, Spot};
-use crate::scissor::CutTips;
+use std::mem::discriminant;
+use std::ops::RangeInclusive;
+
+use super::grammar::{Choice, ChoiceBytes, Parts};
+use super::{Fault, Operation, Script, Shape};
 
 impl Script {
     /// Decodes bytes as a script of at most [`Script::OPERATIONS_MAX`] operations on a mesh of at
     /// most a few hundred faces. Missing bytes count as zero.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Script {
-        let mut bytes = Bytes(bytes);
-        let shape = bytes.shape();
+        let mut bytes = Reader(bytes);
+        let code = usize::from(bytes.byte() % 9);
+        let (_, mut shape) = Shape::blanks()[code].clone();
+        shape.parts(&mut bytes);
         let mut operations = Vec::new();
         while !bytes.0.is_empty() && operations.len() < Script::OPERATIONS_MAX {
             operations.push(bytes.operation());
@@ -19,83 +24,82 @@ impl Script {
 
     /// Encodes this script as bytes from which [`Script::from_bytes`] restores it, if it came from
     /// bytes or text. Numbers that exceed the limits of a [`Shape`] are not restored.
+    #[expect(
+        clippy::missing_panics_doc,
+        reason = "only a bug of ours can trip the expectation"
+    )]
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        write_shape(&self.shape, &mut bytes);
-        for operation in &self.operations {
-            write_operation(operation, &mut bytes);
+        let Script {
+            mut shape,
+            operations,
+        } = self.clone();
+        let is_shape = |(_, blank): &(_, Shape)| discriminant(blank) == discriminant(&shape);
+        let code = Shape::blanks().iter().position(is_shape);
+        let mut bytes = Writer(vec![code.expect("every shape has a blank") as u8]);
+        shape.parts(&mut bytes);
+        for mut operation in operations {
+            bytes.0.push(code_of(&operation));
+            operation.parts(&mut bytes);
         }
-        bytes
+        bytes.0
     }
 }
 
-/// Bytes to be read, followed by zeros without end.
-struct Bytes<'b>(&'b [u8]);
+#[cfg(feature = "arbitrary")]
+impl<'a> arbitrary::Arbitrary<'a> for Script {
+    fn arbitrary(unstructured: &mut arbitrary::Unstructured<'a>) -> arbitrary::Result<Script> {
+        let bytes = unstructured.arbitrary_len::<u8>()?;
+        unstructured.bytes(bytes).map(Script::from_bytes)
+    }
 
-impl Bytes<'_> {
+    fn arbitrary_take_rest(unstructured: arbitrary::Unstructured<'a>) -> arbitrary::Result<Script> {
+        Ok(Script::from_bytes(unstructured.take_rest()))
+    }
+}
+
+/// Returns scripts of up to [`Script::OPERATIONS_MAX`] operations. Shape and operations have bytes of
+/// their own, so that a failing case shrinks by dropping operations; [`Script::shrink`] shrinks it further.
+#[cfg(feature = "proptest")]
+impl proptest::arbitrary::Arbitrary for Script {
+    type Parameters = ();
+    type Strategy = proptest::strategy::BoxedStrategy<Script>;
+
+    fn arbitrary_with((): ()) -> Self::Strategy {
+        use proptest::prelude::{Strategy as _, any, prop};
+        let shape = prop::collection::vec(any::<u8>(), 0..=100);
+        let operation = prop::array::uniform16(any::<u8>());
+        let operations = prop::collection::vec(operation, 0..=Script::OPERATIONS_MAX);
+        let script = (shape, operations).prop_map(|(shape, operations)| {
+            let operations = operations.iter().map(|bytes| Reader(bytes).operation());
+            Script {
+                shape: Script::from_bytes(&shape).shape,
+                operations: operations.collect(),
+            }
+        });
+        script.boxed()
+    }
+}
+
+fn code_of(operation: &Operation) -> u8 {
+    let fault = |operation: &Operation| match operation {
+        Operation::Split { fault, .. } => Some(discriminant::<Fault>(fault)),
+        _ => None,
+    };
+    let kind = |operation: &Operation| (discriminant(operation), fault(operation));
+    let blanks = Operation::blanks();
+    let blank = blanks.iter().find(|(.., it)| kind(it) == kind(operation));
+    blank.expect("every operation has a blank").1
+}
+
+/// Bytes to be read, followed by zeros without end.
+struct Reader<'b>(&'b [u8]);
+
+impl Reader<'_> {
     fn byte(&mut self) -> u8 {
         let [first, rest @ ..] = self.0 else { return 0 };
         self.0 = rest;
         *first
-    }
-
-    /// A number from `least` to `most`.
-    fn within(&mut self, least: u8, most: u8) -> u8 {
-        least + self.byte() % (most - least + 1)
-    }
-
-    fn array<const N: usize>(&mut self) -> [u8; N] {
-        std::array::from_fn(|_| self.byte())
-    }
-
-    fn u16(&mut self) -> u16 {
-        u16::from_le_bytes(self.array())
-    }
-
-    fn vector(&mut self) -> [i8; 3] {
-        self.array().map(u8::cast_signed)
-    }
-
-    fn shape(&mut self) -> Shape {
-        match self.byte() % 9 {
-            0 => Shape::Grid {
-                columns: self.within(1, 5),
-                rows: self.within(1, 5),
-                rising: u64::from_le_bytes(self.array()),
-            },
-            1 => Shape::Fan {
-                faces: self.within(3, 16),
-                closed: self.byte() % 2 == 1,
-            },
-            2 => Shape::Saddle,
-            3 => Shape::Tube {
-                around: self.within(3, 8),
-                along: self.within(1, 4),
-            },
-            4 => Shape::Torus {
-                around: self.within(3, 5),
-                across: self.within(3, 5),
-            },
-            5 => Shape::Tetrahedron {
-                subdivisions: self.within(0, 1),
-            },
-            6 => Shape::Octahedron {
-                subdivisions: self.within(0, 1),
-            },
-            7 => {
-                let count = usize::from(self.byte()) % (GROWN_MAX + 1);
-                Shape::Grown((0..count).map(|_| self.byte()).collect())
-            }
-            _ => {
-                let faces = self.within(1, 24);
-                let count = usize::from(self.byte()) % (GROWN_MAX + 1);
-                Shape::Glued {
-                    faces,
-                    sides: (0..count).map(|_| self.array()).collect(),
-                }
-            }
-        }
     }
 
     fn operation(&mut self) -> Operation {
@@ -108,200 +112,100 @@ impl Bytes<'_> {
             code if code % 16 == 15 => SELDOM[usize::from(code / 16) % SELDOM.len()],
             code => OFTEN[usize::from(code % 16)],
         };
-        match code {
-            0..=6 => self.split(|_| Fault::None),
-            7 => self.split(|bytes| Fault::Repeated(bytes.byte())),
-            8 => self.split(|bytes| Fault::Foreign(bytes.u16())),
-            9..=12 => Operation::Plane {
-                vertex: self.u16(),
-                normal: self.vector(),
-            },
-            13 => {
-                let flags = self.byte();
-                Operation::Cut {
-                    through: flags & 1 == 1,
-                    tips: if flags & 2 == 2 {
-                        CutTips::Midpoint
-                    } else {
-                        CutTips::Vertex
-                    },
-                    rays: [(); 2].map(|()| [self.vector(), self.vector()]),
-                }
-            }
-            14 => Operation::Tear,
-            15 => Operation::Clear,
-            16 => self.insert(),
-            17 => {
-                let flags = self.byte();
-                Operation::Merge {
-                    vertex: self.u16(),
-                    other: self.u16(),
-                    any: flags % 8 == 7,
-                    weights: self.array().map(u8::cast_signed),
-                }
-            }
-            18 => Operation::Sew { mask: self.u16() },
-            _ => {
-                let flags = self.byte();
-                Operation::Slide {
-                    vertex: self.u16(),
-                    toward: self.u16(),
-                    any: flags % 8 == 7,
-                    part: self.byte() % 65,
-                }
-            }
-        }
-    }
-
-    fn insert(&mut self) -> Operation {
-        let half_edge = self.u16();
-        let flags = self.byte();
-        let count = usize::from(flags & 7) % (SPOTS_MAX + 1);
-        let spots = (0..count).map(|_| self.spot()).collect();
-        Operation::Insert {
-            half_edge,
-            spots,
-            chord: (flags >= 192).then(|| self.array()),
-        }
-    }
-
-    fn spot(&mut self) -> Spot {
-        let offset = self.byte() % OFFSETS;
-        match self.byte() {
-            part @ 0..195 => Spot::Edge {
-                offset,
-                part: part % 65,
-            },
-            _ => Spot::Face {
-                offset,
-                weights: self.array(),
-            },
-        }
-    }
-
-    fn split(&mut self, fault: impl Fn(&mut Self) -> Fault) -> Operation {
-        Operation::Split {
-            vertex: self.u16(),
-            mask: self.u16(),
-            fault: fault(self),
-        }
+        let mut blanks = Operation::blanks().into_iter().rev();
+        let blank = blanks.find(|&(_, least, _)| least <= code);
+        let (.., mut operation) = blank.expect("the least code is 0");
+        operation.parts(self);
+        operation
     }
 }
 
-fn write_shape(shape: &Shape, bytes: &mut Vec<u8>) {
-    match *shape {
-        Shape::Grid {
-            columns,
-            rows,
-            rising,
-        } => {
-            bytes.extend([0, columns - 1, rows - 1]);
-            bytes.extend(rising.to_le_bytes());
+impl Parts for Reader<'_> {
+    fn number(&mut self, _: i128, limits: RangeInclusive<i128>, bytes: usize) -> i128 {
+        let (least, most) = limits.into_inner();
+        match self.bits(0, bytes) {
+            // Below zero numbers begin where those above end, in two's complement.
+            number if least < 0 && number > most => number + 2 * least,
+            number if least < 0 => number,
+            number => least + number % (most - least + 1),
         }
-        Shape::Fan { faces, closed } => bytes.extend([1, faces - 3, closed.into()]),
-        Shape::Saddle => bytes.push(2),
-        Shape::Tube { around, along } => bytes.extend([3, around - 3, along - 1]),
-        Shape::Torus { around, across } => bytes.extend([4, around - 3, across - 3]),
-        Shape::Tetrahedron { subdivisions } => bytes.extend([5, subdivisions]),
-        Shape::Octahedron { subdivisions } => bytes.extend([6, subdivisions]),
-        Shape::Grown(ref moves) => {
-            bytes.extend([7, moves.len() as u8]);
-            bytes.extend(moves);
-        }
-        Shape::Glued { faces, ref sides } => {
-            bytes.extend([8, faces - 1, sides.len() as u8]);
-            bytes.extend(sides.as_flattened());
-        }
+    }
+
+    fn bits(&mut self, _: i128, bytes: usize) -> i128 {
+        (0..bytes).fold(0, |bits, i| bits | i128::from(self.byte()) << (8 * i))
+    }
+
+    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
+        *chosen = match choice.bytes {
+            ChoiceBytes::Code => *chosen,
+            ChoiceBytes::Modulo(count) => usize::from(self.byte() % count),
+            ChoiceBytes::Seldom => usize::from(self.byte() % 8 == 7),
+            ChoiceBytes::Ahead => usize::from(self.0.get(1).is_some_and(|&byte| byte >= 195)),
+        };
+    }
+
+    fn list<T: Clone>(
+        &mut self,
+        list: &mut Vec<T>,
+        most: usize,
+        blank: T,
+        more: Option<(&'static str, &mut bool)>,
+        item: impl Fn(&mut Self, &mut T),
+    ) {
+        let byte = self.byte();
+        let count = match more {
+            None => byte,
+            Some((_, is_more)) => {
+                *is_more = byte >= 192;
+                byte & 7
+            }
+        };
+        list.resize(usize::from(count) % (most + 1), blank);
+        list.iter_mut().for_each(|it| item(self, it));
+    }
+
+    fn filler(&mut self) {
+        self.byte();
     }
 }
 
-fn write_operation(operation: &Operation, bytes: &mut Vec<u8>) {
-    match *operation {
-        Operation::Split {
-            vertex,
-            mask,
-            fault,
-        } => {
-            bytes.push(match fault {
-                Fault::None => 0,
-                Fault::Repeated(_) => 7,
-                Fault::Foreign(_) => 8,
-            });
-            bytes.extend(vertex.to_le_bytes());
-            bytes.extend(mask.to_le_bytes());
-            match fault {
-                Fault::None => {}
-                Fault::Repeated(face) => bytes.push(face),
-                Fault::Foreign(face) => bytes.extend(face.to_le_bytes()),
-            }
+/// Bytes that were written.
+struct Writer(Vec<u8>);
+
+impl Parts for Writer {
+    fn number(&mut self, number: i128, limits: RangeInclusive<i128>, bytes: usize) -> i128 {
+        self.bits(number - (*limits.start()).max(0), bytes);
+        number
+    }
+
+    fn bits(&mut self, bits: i128, bytes: usize) -> i128 {
+        self.0.extend(&bits.to_le_bytes()[..bytes]);
+        bits
+    }
+
+    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
+        match choice.bytes {
+            ChoiceBytes::Modulo(_) => self.0.push(*chosen as u8),
+            ChoiceBytes::Seldom => self.0.push(7 * *chosen as u8),
+            ChoiceBytes::Code | ChoiceBytes::Ahead => {}
         }
-        Operation::Plane { vertex, normal } => {
-            bytes.push(9);
-            bytes.extend(vertex.to_le_bytes());
-            bytes.extend(normal.map(i8::cast_unsigned));
-        }
-        Operation::Cut {
-            through,
-            tips,
-            rays,
-        } => {
-            bytes.extend([
-                13,
-                u8::from(through) | u8::from(tips == CutTips::Midpoint) << 1,
-            ]);
-            bytes.extend(
-                rays.as_flattened()
-                    .as_flattened()
-                    .iter()
-                    .map(|x| x.cast_unsigned()),
-            );
-        }
-        Operation::Tear => bytes.push(14),
-        Operation::Clear => bytes.push(15),
-        Operation::Insert {
-            half_edge,
-            ref spots,
-            chord,
-        } => {
-            bytes.push(16);
-            bytes.extend(half_edge.to_le_bytes());
-            bytes.push(spots.len() as u8 | if chord.is_some() { 192 } else { 0 });
-            for &spot in spots {
-                match spot {
-                    Spot::Edge { offset, part } => bytes.extend([offset, part]),
-                    Spot::Face { offset, weights } => {
-                        bytes.extend([offset, 255]);
-                        bytes.extend(weights);
-                    }
-                }
-            }
-            bytes.extend(chord.into_iter().flatten());
-        }
-        Operation::Merge {
-            vertex,
-            other,
-            any,
-            weights,
-        } => {
-            bytes.extend([17, if any { 7 } else { 0 }]);
-            bytes.extend(vertex.to_le_bytes());
-            bytes.extend(other.to_le_bytes());
-            bytes.extend(weights.map(i8::cast_unsigned));
-        }
-        Operation::Sew { mask } => {
-            bytes.push(18);
-            bytes.extend(mask.to_le_bytes());
-        }
-        Operation::Slide {
-            vertex,
-            toward,
-            any,
-            part,
-        } => {
-            bytes.extend([19, if any { 7 } else { 0 }]);
-            bytes.extend(vertex.to_le_bytes());
-            bytes.extend(toward.to_le_bytes());
-            bytes.push(part);
-        }
+    }
+
+    fn list<T: Clone>(
+        &mut self,
+        list: &mut Vec<T>,
+        _: usize,
+        _: T,
+        more: Option<(&'static str, &mut bool)>,
+        item: impl Fn(&mut Self, &mut T),
+    ) {
+        let is_more = more.is_some_and(|(_, is_more)| *is_more);
+        self.0
+            .push(list.len() as u8 | if is_more { 192 } else { 0 });
+        list.iter_mut().for_each(|it| item(self, it));
+    }
+
+    fn filler(&mut self) {
+        self.0.push(255);
     }
 }

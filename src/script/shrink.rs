@@ -1,6 +1,9 @@
 //! The smallest script that still fails.
 
-use super::{Fault, Operation, Script, Shape, Spot};
+use std::ops::RangeInclusive;
+
+use super::grammar::{Choice, Parts};
+use super::{Script, Shape};
 
 impl Script {
     /// Reduces a failing script to a small script that still fails. Operations are removed, first many at
@@ -77,206 +80,122 @@ fn drop_operations(least: &mut Script, fails: &mut impl FnMut(&Script) -> bool) 
 /// Makes the mesh and each operation simpler. Says whether any became so.
 fn simplify(least: &mut Script, fails: &mut impl FnMut(&Script) -> bool) -> bool {
     let mut any = false;
-    let shape = |script: &Script| simpler_shapes(&script.shape);
-    any |= first_that_fails(least, fails, shape, |script, shape| script.shape = shape);
-    for i in 0..least.operations.len() {
-        let operation = |script: &Script| simpler_operations(&script.operations[i]);
-        any |= first_that_fails(least, fails, operation, |script, operation| {
-            script.operations[i] = operation;
-        });
-    }
-    any
-}
-
-/// Puts the first of some parts in its place with which the script still fails, again and again.
-fn first_that_fails<P>(
-    least: &mut Script,
-    fails: &mut impl FnMut(&Script) -> bool,
-    parts: impl Fn(&Script) -> Vec<P>,
-    put: impl Fn(&mut Script, P),
-) -> bool {
-    let mut any = false;
-    loop {
-        let simpler = parts(least).into_iter().find_map(|part| {
-            let mut simpler = least.clone();
-            put(&mut simpler, part);
-            fails(&simpler).then_some(simpler)
-        });
-        match simpler {
-            Some(simpler) => *least = simpler,
-            None => return any,
-        }
-        any = true;
-    }
-}
-
-/// Simpler variants of a shape, the simplest first.
-fn simpler_shapes(shape: &Shape) -> Vec<Shape> {
-    let mut simpler = Vec::new();
-    if !matches!(shape, Shape::Grid { .. }) {
+    let faces = |script: &Script| script.shape.make().0.face_count();
+    let most = faces(least);
+    // A move that could not be made before may be possible once another one is gone.
+    let mut fails_smaller = |script: &Script| faces(script) <= most && fails(script);
+    if !matches!(least.shape, Shape::Grid { .. }) {
         // Numbers are taken modulo what there is, so what fails on a torus may fail on a grid.
         let grids = [1, 2, 3].map(|cells| Shape::Grid {
             columns: cells,
             rows: cells,
             rising: 0,
         });
-        let faces = |shape: &Shape| shape.make().0.face_count();
-        simpler.extend(grids.into_iter().filter(|grid| faces(grid) <= faces(shape)));
-    }
-    match *shape {
-        Shape::Grid {
-            columns,
-            rows,
-            rising,
-        } => {
-            let grid = |columns, rows, rising| Shape::Grid {
-                columns,
-                rows,
-                rising,
-            };
-            simpler.extend(below(columns, 1).map(|columns| grid(columns, rows, rising)));
-            simpler.extend(below(rows, 1).map(|rows| grid(columns, rows, rising)));
-            simpler.extend(fewer_bits(rising).map(|rising| grid(columns, rows, rising)));
-        }
-        Shape::Fan { faces, closed } => {
-            simpler.extend(below(faces, 3).map(|faces| Shape::Fan { faces, closed }));
-        }
-        Shape::Tube { around, along } => {
-            simpler.extend(below(around, 3).map(|around| Shape::Tube { around, along }));
-            simpler.extend(below(along, 1).map(|along| Shape::Tube { around, along }));
-        }
-        Shape::Torus { around, across } => {
-            simpler.extend(below(around, 3).map(|around| Shape::Torus { around, across }));
-            simpler.extend(below(across, 3).map(|across| Shape::Torus { around, across }));
-        }
-        Shape::Tetrahedron { subdivisions } => {
-            let fewer = below(subdivisions, 0);
-            simpler.extend(fewer.map(|subdivisions| Shape::Tetrahedron { subdivisions }));
-        }
-        Shape::Octahedron { subdivisions } => {
-            let fewer = below(subdivisions, 0);
-            simpler.extend(fewer.map(|subdivisions| Shape::Octahedron { subdivisions }));
-        }
-        Shape::Saddle => {}
-        Shape::Grown(ref moves) => simpler.extend(without_one(moves).map(Shape::Grown)),
-        Shape::Glued { faces, ref sides } => {
-            let fewer = without_one(sides).map(|sides| Shape::Glued { faces, sides });
-            simpler.extend(fewer);
-            simpler.extend(below(faces, 1).map(|faces| Shape::Glued {
-                faces,
-                sides: sides.clone(),
-            }));
+        let operations = &least.operations;
+        let mut grids = grids.map(|shape| Script {
+            shape,
+            operations: operations.clone(),
+        });
+        if let Some(grid) = grids.iter_mut().find(|grid| fails_smaller(grid)) {
+            std::mem::swap(least, grid);
+            any = true;
         }
     }
-    simpler
-}
-
-/// Simpler variants of an operation, the simplest first.
-fn simpler_operations(operation: &Operation) -> Vec<Operation> {
-    let mut simpler = Vec::new();
-    match *operation {
-        Operation::Split {
-            vertex,
-            mask,
-            fault,
-        } => {
-            let split = |vertex, mask, fault| Operation::Split {
-                vertex,
-                mask,
-                fault,
-            };
-            if fault != Fault::None {
-                simpler.push(split(vertex, mask, Fault::None));
-            }
-            simpler.extend(below(vertex, 0).map(|vertex| split(vertex, mask, fault)));
-            simpler.extend(fewer_bits(mask).map(|mask| split(vertex, mask, fault)));
-        }
-        Operation::Plane { vertex, normal } => {
-            let plane = |vertex| Operation::Plane { vertex, normal };
-            simpler.extend(below(vertex, 0).map(plane));
-        }
-        Operation::Insert {
-            half_edge,
-            ref spots,
-            chord,
-        } => {
-            let insert = |half_edge, spots: &[Spot], chord| Operation::Insert {
-                half_edge,
-                spots: spots.to_vec(),
-                chord,
-            };
-            if chord.is_some() {
-                simpler.push(insert(half_edge, spots, None));
-            }
-            simpler.extend(without_one(spots).map(|spots| insert(half_edge, &spots, chord)));
-            simpler.extend(below(half_edge, 0).map(|h| insert(h, spots, chord)));
-        }
-        Operation::Merge {
-            vertex,
-            other,
-            any,
-            weights,
-        } => {
-            let merge = |vertex, other, any| Operation::Merge {
-                vertex,
-                other,
-                any,
-                weights,
-            };
-            if any {
-                simpler.push(merge(vertex, other, false));
-            }
-            simpler.extend(below(vertex, 0).map(|vertex| merge(vertex, other, any)));
-            simpler.extend(below(other, 0).map(|other| merge(vertex, other, any)));
-        }
-        Operation::Slide {
-            vertex,
-            toward,
-            any,
-            part,
-        } => {
-            let slide = |vertex, toward, any| Operation::Slide {
-                vertex,
-                toward,
-                any,
-                part,
-            };
-            if any {
-                simpler.push(slide(vertex, toward, false));
-            }
-            simpler.extend(below(vertex, 0).map(|vertex| slide(vertex, toward, any)));
-            simpler.extend(below(toward, 0).map(|toward| slide(vertex, toward, any)));
-        }
-        Operation::Sew { mask } => {
-            simpler.extend(fewer_bits(mask).map(|mask| Operation::Sew { mask }));
-        }
-        Operation::Cut { .. } | Operation::Tear | Operation::Clear => {}
+    any |= first_that_fails(least, &mut fails_smaller, |script, parts| {
+        script.shape.parts(parts);
+    });
+    for i in 0..least.operations.len() {
+        any |= first_that_fails(least, fails, |script, parts| {
+            script.operations[i].parts(parts);
+        });
     }
-    simpler
+    any
 }
 
-/// Smaller numbers, from the least on: enough of them that one is, modulo what a small mesh has, the
-/// same.
-fn below<N>(number: N, least: N) -> impl Iterator<Item = N>
-where
-    N: Copy + Into<u64> + TryFrom<u64>,
-{
-    let (number, least) = (number.into(), least.into());
-    let smaller = (least..number).take(64);
-    smaller.filter_map(|n| N::try_from(n).ok())
+/// Makes the first simplification with which the script still fails, again and again.
+fn first_that_fails(
+    least: &mut Script,
+    fails: &mut impl FnMut(&Script) -> bool,
+    visit: impl Fn(&mut Script, &mut Simplifier),
+) -> bool {
+    let mut any = false;
+    let mut number = 0;
+    loop {
+        let mut simpler = least.clone();
+        let mut parts = Simplifier { left: Some(number) };
+        visit(&mut simpler, &mut parts);
+        if parts.left.is_some() {
+            return any;
+        }
+        number += 1;
+        if fails(&simpler) {
+            *least = simpler;
+            (any, number) = (true, 0);
+        }
+    }
 }
 
-/// The mask with one bit less, for each that it has.
-fn fewer_bits<N>(mask: N) -> impl Iterator<Item = N>
-where
-    N: Copy + Into<u64> + TryFrom<u64>,
-{
-    let mask = mask.into();
-    let set = (0..64).filter(move |bit| mask >> bit & 1 == 1);
-    set.filter_map(move |bit| N::try_from(mask & !(1 << bit)).ok())
+/// Makes one of the simplifications of the parts that it visits.
+struct Simplifier {
+    /// How many come before the one that it makes; none once that is made.
+    left: Option<usize>,
 }
 
-/// The list with one item less, for each that it has.
-fn without_one<T: Clone>(list: &[T]) -> impl Iterator<Item = Vec<T>> {
-    (0..list.len()).map(|i| [&list[..i], &list[i + 1..]].concat())
+impl Simplifier {
+    /// Which of this many simplifications of a part is to be made, if any.
+    fn takes(&mut self, count: usize) -> Option<usize> {
+        let left = self.left?;
+        self.left = left.checked_sub(count);
+        self.left.is_none().then_some(left)
+    }
+}
+
+impl Parts for Simplifier {
+    /// From the least on: enough that one of them is, modulo what a small mesh has, the same. Weights and
+    /// directions, which may be below zero, stay.
+    fn number(&mut self, number: i128, limits: RangeInclusive<i128>, _: usize) -> i128 {
+        let least = *limits.start();
+        let below = if least < 0 {
+            0
+        } else {
+            (number - least).clamp(0, 64)
+        };
+        let taken = self.takes(below as usize);
+        taken.map_or(number, |taken| least + taken as i128)
+    }
+
+    /// With one bit less.
+    fn bits(&mut self, bits: i128, _: usize) -> i128 {
+        let mut set = (0..64).filter(|bit| bits >> bit & 1 == 1);
+        let taken = self.takes(bits.count_ones() as usize);
+        let bit = taken.and_then(|taken| set.nth(taken));
+        bit.map_or(bits, |bit| bits & !(1 << bit))
+    }
+
+    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
+        let may_go = *chosen > 0 && !choice.words.is_empty();
+        if self.takes(usize::from(may_go)).is_some() {
+            *chosen = 0;
+        }
+    }
+
+    /// Without what comes more, and with one item less.
+    fn list<T: Clone>(
+        &mut self,
+        list: &mut Vec<T>,
+        _: usize,
+        _: T,
+        more: Option<(&'static str, &mut bool)>,
+        item: impl Fn(&mut Self, &mut T),
+    ) {
+        if let Some((_, is_more)) = more
+            && self.takes(usize::from(*is_more)).is_some()
+        {
+            *is_more = false;
+        }
+        if let Some(taken) = self.takes(list.len()) {
+            list.remove(taken);
+        }
+        list.iter_mut().for_each(|it| item(self, it));
+    }
 }

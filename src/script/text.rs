@@ -23,10 +23,12 @@
 //! Whole numbers may be decimal, `0x…` or `0b…`. What follows a `#` is a comment.
 
 use std::fmt;
+use std::mem::discriminant;
+use std::ops::RangeInclusive;
 use std::str::{FromStr, SplitWhitespace};
 
-use super::{Fault, GROWN_MAX, OFFSETS, Operation, SPOTS_MAX, Script, Shape, Spot};
-use crate::scissor::CutTips;
+use super::grammar::{Choice, Parts};
+use super::{Operation, Script, Shape};
 
 impl fmt::Display for Script {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -40,112 +42,72 @@ impl fmt::Display for Script {
 
 impl fmt::Display for Shape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Shape::Grid {
-                columns,
-                rows,
-                rising,
-            } => write!(f, "grid {columns} {rows} {rising:#b}"),
-            Shape::Fan {
-                faces,
-                closed: true,
-            } => write!(f, "fan {faces}"),
-            Shape::Fan {
-                faces,
-                closed: false,
-            } => write!(f, "open-fan {faces}"),
-            Shape::Saddle => write!(f, "saddle"),
-            Shape::Tube { around, along } => write!(f, "tube {around} {along}"),
-            Shape::Torus { around, across } => write!(f, "torus {around} {across}"),
-            Shape::Tetrahedron { subdivisions } => write!(f, "tetrahedron {subdivisions}"),
-            Shape::Octahedron { subdivisions } => write!(f, "octahedron {subdivisions}"),
-            Shape::Grown(moves) => {
-                write!(f, "grown")?;
-                moves.iter().try_for_each(|code| write!(f, " {code}"))
-            }
-            Shape::Glued { faces, sides } => {
-                write!(f, "glued {faces}")?;
-                sides.iter().try_for_each(|[a, b]| write!(f, " {a} {b}"))
-            }
-        }
+        let blanks = Shape::blanks();
+        let name = match self {
+            Shape::Fan { closed: false, .. } => "open-fan",
+            _ => name_of(self, blanks.iter().map(|(name, blank)| (*name, blank))),
+        };
+        let mut words = Writer(name.into());
+        self.clone().parts(&mut words);
+        f.write_str(&words.0)
     }
 }
 
 impl fmt::Display for Operation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Operation::Split {
-                vertex,
-                mask,
-                fault,
-            } => {
-                write!(f, "split {vertex} {mask:#b}")?;
-                match fault {
-                    Fault::None => Ok(()),
-                    Fault::Repeated(face) => write!(f, " repeated {face}"),
-                    Fault::Foreign(face) => write!(f, " foreign {face}"),
-                }
-            }
-            Operation::Plane {
-                vertex,
-                normal: [x, y, z],
-            } => write!(f, "plane {vertex} {x} {y} {z}"),
-            Operation::Cut {
-                through,
-                tips,
-                rays,
-            } => {
-                let through = if *through { " through" } else { "" };
-                let midpoint = if *tips == CutTips::Midpoint {
-                    " midpoint"
-                } else {
-                    ""
-                };
-                write!(f, "cut{through}{midpoint}")?;
-                let mut numbers = rays.as_flattened().as_flattened().iter();
-                numbers.try_for_each(|x| write!(f, " {x}"))
-            }
-            Operation::Insert {
-                half_edge,
-                spots,
-                chord,
-            } => {
-                write!(f, "insert {half_edge}")?;
-                for spot in spots {
-                    match spot {
-                        Spot::Edge { offset, part } => write!(f, " edge {offset} {part}")?,
-                        Spot::Face {
-                            offset,
-                            weights: [a, b, c],
-                        } => write!(f, " face {offset} {a} {b} {c}")?,
-                    }
-                }
-                match chord {
-                    None => Ok(()),
-                    Some([one, other]) => write!(f, " chord {one} {other}"),
-                }
-            }
-            Operation::Merge {
-                vertex,
-                other,
-                any,
-                weights: [one, two],
-            } => {
-                let any = if *any { " any" } else { "" };
-                write!(f, "merge{any} {vertex} {other} {one} {two}")
-            }
-            Operation::Slide {
-                vertex,
-                toward,
-                any,
-                part,
-            } => {
-                let any = if *any { " any" } else { "" };
-                write!(f, "slide{any} {vertex} {toward} {part}")
-            }
-            Operation::Sew { mask } => write!(f, "sew {mask:#b}"),
-            Operation::Tear => write!(f, "tear"),
-            Operation::Clear => write!(f, "clear"),
+        let blanks = Operation::blanks();
+        let name = name_of(self, blanks.iter().map(|(name, _, blank)| (*name, blank)));
+        let mut words = Writer(name.into());
+        self.clone().parts(&mut words);
+        f.write_str(&words.0)
+    }
+}
+
+fn name_of<'b, T: 'b>(
+    it: &T,
+    mut blanks: impl Iterator<Item = (&'static str, &'b T)>,
+) -> &'static str {
+    let blank = blanks.find(|(_, blank)| discriminant(*blank) == discriminant(it));
+    blank.expect("every kind has a blank").0
+}
+
+/// A line that is written.
+struct Writer(String);
+
+impl Writer {
+    fn word(&mut self, word: &str) {
+        self.0 += " ";
+        self.0 += word;
+    }
+}
+
+impl Parts for Writer {
+    fn number(&mut self, number: i128, _: RangeInclusive<i128>, _: usize) -> i128 {
+        self.word(&number.to_string());
+        number
+    }
+
+    fn bits(&mut self, bits: i128, _: usize) -> i128 {
+        self.word(&format!("{bits:#b}"));
+        bits
+    }
+
+    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
+        let word = choice.words.get(*chosen).filter(|word| !word.is_empty());
+        word.into_iter().for_each(|word| self.word(word));
+    }
+
+    fn list<T: Clone>(
+        &mut self,
+        list: &mut Vec<T>,
+        _: usize,
+        _: T,
+        more: Option<(&'static str, &mut bool)>,
+        item: impl Fn(&mut Self, &mut T),
+    ) {
+        list.iter_mut().for_each(|it| item(self, it));
+        if let Some((word, true)) = more.map(|(word, is_more)| (word, *is_more)) {
+            self.word(word);
         }
     }
 }
@@ -188,224 +150,125 @@ impl FromStr for Script {
         for (i, line) in text.lines().enumerate() {
             end = i + 1;
             let words = line.split('#').next().unwrap_or("").split_whitespace();
-            let mut line = Line {
-                number: end,
-                words,
-                last: "",
+            let mut line = Line { words, error: None };
+            let Some(first) = line.words.next() else {
+                continue;
             };
-            let Some(first) = line.word() else { continue };
             if shape.is_none() {
-                shape = Some(line.shape(first)?);
+                let mut blanks = Shape::blanks().into_iter();
+                match blanks.find(|&(name, _)| name == first) {
+                    Some((_, blank)) => shape.insert(blank).parts(&mut line),
+                    None => line.refuse(first, "a shape"),
+                }
             } else if operations.len() < Script::OPERATIONS_MAX {
-                operations.push(line.operation(first)?);
+                let mut blanks = Operation::blanks().into_iter();
+                match blanks.find(|&(name, ..)| name == first) {
+                    Some((.., mut operation)) => {
+                        operation.parts(&mut line);
+                        operations.push(operation);
+                    }
+                    None => line.refuse(first, "an operation"),
+                }
             } else {
-                return Err(line.error("the end, after the largest number of operations,"));
+                line.refuse(first, "the end, after the largest number of operations,");
             }
-            if line.word().is_some() {
-                return Err(line.error("the end of the line"));
+            if let Some(word) = line.words.next() {
+                line.refuse(word, "the end of the line");
+            }
+            if let Some((word, expected)) = line.error {
+                return Err(ScriptError {
+                    line: end,
+                    word,
+                    expected,
+                });
             }
         }
-        match shape {
-            Some(shape) => Ok(Script { shape, operations }),
-            None => Err(ScriptError {
-                line: end + 1,
-                word: String::new(),
-                expected: "a shape".into(),
-            }),
-        }
+        let error = ScriptError {
+            line: end + 1,
+            word: String::new(),
+            expected: "a shape".into(),
+        };
+        let shape = shape.ok_or(error)?;
+        Ok(Script { shape, operations })
     }
 }
 
-/// The words of a line, and the last one that was read.
+/// A line that is read: the words that are left, and the first word that was wrong, with what was expected.
 struct Line<'t> {
-    number: usize,
     words: SplitWhitespace<'t>,
-    last: &'t str,
+    error: Option<(String, String)>,
 }
 
-impl<'t> Line<'t> {
-    fn word(&mut self) -> Option<&'t str> {
-        let word = self.words.next();
-        self.last = word.unwrap_or("");
-        word
+impl Line<'_> {
+    fn refuse(&mut self, word: &str, expected: &str) {
+        let error = (word.to_owned(), expected.to_owned());
+        self.error.get_or_insert(error);
     }
 
-    /// Takes the next word if it is this one.
-    fn takes(&mut self, word: &str) -> bool {
+    /// Takes the next words if they are these.
+    fn takes(&mut self, words: &str) -> bool {
         let mut ahead = self.words.clone();
-        let found = ahead.next() == Some(word);
+        let found = words.split(' ').all(|word| ahead.next() == Some(word));
         if found {
             self.words = ahead;
         }
         found
     }
+}
 
-    fn has_more(&self) -> bool {
-        self.words.clone().next().is_some()
-    }
-
-    fn error(&self, expected: impl Into<String>) -> ScriptError {
-        ScriptError {
-            line: self.number,
-            word: self.last.into(),
-            expected: expected.into(),
-        }
-    }
-
-    /// A whole number from `least` to `most`.
-    fn within<T: TryFrom<i128>>(&mut self, least: i128, most: i128) -> Result<T, ScriptError> {
-        let word = self.word().unwrap_or("");
+impl Parts for Line<'_> {
+    fn number(&mut self, _: i128, limits: RangeInclusive<i128>, _: usize) -> i128 {
+        let word = self.words.next().unwrap_or("");
         let number = match (word.strip_prefix("0x"), word.strip_prefix("0b")) {
             (Some(digits), _) => i128::from_str_radix(digits, 16),
             (_, Some(digits)) => i128::from_str_radix(digits, 2),
             _ => word.parse(),
         };
-        let number = number.ok().filter(|number| (least..=most).contains(number));
-        number
-            .and_then(|number| T::try_from(number).ok())
-            .ok_or_else(|| self.error(format!("a number from {least} to {most}")))
-    }
-
-    fn byte(&mut self) -> Result<u8, ScriptError> {
-        self.within(0, u8::MAX.into())
-    }
-
-    fn u16(&mut self) -> Result<u16, ScriptError> {
-        self.within(0, u16::MAX.into())
-    }
-
-    fn vector<const N: usize>(&mut self) -> Result<[i8; N], ScriptError> {
-        let mut vector = [0; N];
-        for x in &mut vector {
-            *x = self.within(i8::MIN.into(), i8::MAX.into())?;
-        }
-        Ok(vector)
-    }
-
-    /// The rest of the line, in groups of `N` bytes.
-    fn groups<const N: usize>(&mut self) -> Result<Vec<[u8; N]>, ScriptError> {
-        let mut groups = Vec::new();
-        while self.has_more() && groups.len() < GROWN_MAX {
-            let mut group = [0; N];
-            for byte in &mut group {
-                *byte = self.byte()?;
-            }
-            groups.push(group);
-        }
-        Ok(groups)
-    }
-
-    fn shape(&mut self, name: &str) -> Result<Shape, ScriptError> {
-        Ok(match name {
-            "grid" => Shape::Grid {
-                columns: self.within(1, 5)?,
-                rows: self.within(1, 5)?,
-                rising: self.within(0, u64::MAX.into())?,
-            },
-            "fan" | "open-fan" => Shape::Fan {
-                faces: self.within(3, 16)?,
-                closed: name == "fan",
-            },
-            "saddle" => Shape::Saddle,
-            "tube" => Shape::Tube {
-                around: self.within(3, 8)?,
-                along: self.within(1, 4)?,
-            },
-            "torus" => Shape::Torus {
-                around: self.within(3, 5)?,
-                across: self.within(3, 5)?,
-            },
-            "tetrahedron" => Shape::Tetrahedron {
-                subdivisions: self.within(0, 1)?,
-            },
-            "octahedron" => Shape::Octahedron {
-                subdivisions: self.within(0, 1)?,
-            },
-            "grown" => Shape::Grown(self.groups::<1>()?.into_flattened()),
-            "glued" => Shape::Glued {
-                faces: self.within(1, 24)?,
-                sides: self.groups()?,
-            },
-            _ => return Err(self.error("a shape")),
-        })
-    }
-
-    fn operation(&mut self, name: &str) -> Result<Operation, ScriptError> {
-        Ok(match name {
-            "split" => Operation::Split {
-                vertex: self.u16()?,
-                mask: self.u16()?,
-                fault: if self.takes("repeated") {
-                    Fault::Repeated(self.byte()?)
-                } else if self.takes("foreign") {
-                    Fault::Foreign(self.u16()?)
-                } else {
-                    Fault::None
-                },
-            },
-            "plane" => Operation::Plane {
-                vertex: self.u16()?,
-                normal: self.vector()?,
-            },
-            "cut" => Operation::Cut {
-                through: self.takes("through"),
-                tips: if self.takes("midpoint") {
-                    CutTips::Midpoint
-                } else {
-                    CutTips::Vertex
-                },
-                rays: [
-                    [self.vector()?, self.vector()?],
-                    [self.vector()?, self.vector()?],
-                ],
-            },
-            "insert" => self.insert()?,
-            "merge" => Operation::Merge {
-                any: self.takes("any"),
-                vertex: self.u16()?,
-                other: self.u16()?,
-                weights: self.vector()?,
-            },
-            "slide" => Operation::Slide {
-                any: self.takes("any"),
-                vertex: self.u16()?,
-                toward: self.u16()?,
-                part: self.within(0, 64)?,
-            },
-            "sew" => Operation::Sew { mask: self.u16()? },
-            "tear" => Operation::Tear,
-            "clear" => Operation::Clear,
-            _ => return Err(self.error("an operation")),
-        })
-    }
-
-    fn insert(&mut self) -> Result<Operation, ScriptError> {
-        let half_edge = self.u16()?;
-        let mut spots = Vec::new();
-        while spots.len() < SPOTS_MAX {
-            if self.takes("edge") {
-                spots.push(Spot::Edge {
-                    offset: self.within(0, i128::from(OFFSETS) - 1)?,
-                    part: self.within(0, 64)?,
-                });
-            } else if self.takes("face") {
-                spots.push(Spot::Face {
-                    offset: self.within(0, i128::from(OFFSETS) - 1)?,
-                    weights: [self.byte()?, self.byte()?, self.byte()?],
-                });
-            } else {
-                break;
+        let (least, most) = (*limits.start(), *limits.end());
+        match number {
+            Ok(number) if limits.contains(&number) => number,
+            _ => {
+                self.refuse(word, &format!("a number from {least} to {most}"));
+                least
             }
         }
-        let chord = if self.takes("chord") {
-            Some([self.byte()?, self.byte()?])
-        } else {
-            None
-        };
-        Ok(Operation::Insert {
-            half_edge,
-            spots,
-            chord,
-        })
+    }
+
+    fn bits(&mut self, bits: i128, bytes: usize) -> i128 {
+        self.number(bits, 0..=(1 << (8 * bytes)) - 1, bytes)
+    }
+
+    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
+        // The longest first.
+        let words = choice.words.iter().enumerate().rev();
+        let mut words = words.filter(|(_, word)| !word.is_empty());
+        match words.find(|(_, word)| self.takes(word)) {
+            Some((index, _)) => *chosen = index,
+            None if choice.words.first().is_none_or(|word| word.is_empty()) => {}
+            None => {
+                let word = self.words.next().unwrap_or("").to_owned();
+                self.refuse(&word, &choice.words.join(" or "));
+            }
+        }
+    }
+
+    fn list<T: Clone>(
+        &mut self,
+        list: &mut Vec<T>,
+        most: usize,
+        blank: T,
+        more: Option<(&'static str, &mut bool)>,
+        item: impl Fn(&mut Self, &mut T),
+    ) {
+        let word = more.as_ref().map(|&(word, _)| word);
+        let next = |line: &Self| line.words.clone().next();
+        while list.len() < most && next(self).is_some() && next(self) != word {
+            let mut it = blank.clone();
+            item(self, &mut it);
+            list.push(it);
+        }
+        if let Some((word, is_more)) = more {
+            *is_more = self.takes(word);
+        }
     }
 }
