@@ -4,10 +4,10 @@
 //! A mesh here is a connected oriented gluing of N triangles that is an oriented 2-manifold, up to
 //! isomorphism: any genus, any boundary. On each, every nonempty proper subset of the faces of
 //! every vertex is split off, several times in a row; and on smaller ones splits take turns with
-//! all merges of two copies and with insertions: on every edge, in every face, and two at once. All
-//! properties are checked after each. What goes wrong at all goes wrong on a small mesh.
+//! all merges of two copies and with insertions: on every edge, in every face, and two at once; and on the
+//! smallest with chords, slides, splits by planes and sewing too. All properties are checked after each. What goes wrong at all goes wrong on a small mesh.
 
-use tearmesh::script::{Asked, Step, World};
+use tearmesh::script::{Asked, AskedEnd, Operation, Step, World};
 use tearmesh::{FaceId, HalfEdgeId, Mesh, Positions, VertexId};
 
 use crate::lockstep::{Done, Model};
@@ -45,6 +45,16 @@ fn every_three_edits_of_every_small_mesh() {
     assert_eq!(edits(2, 3), [50_006, 47_265, 554]);
 }
 
+/// Splits, insertions, merges and slides where chords, planes and sewing are tried as well.
+#[test]
+fn every_edit_of_the_least_meshes_with_chords_slides_planes_and_sewing() {
+    let all = |faces_max, in_a_row| edits_of_meshes(Kinds::AndMore, faces_max, in_a_row);
+    let counts = |count: Count| (count.counts(), count.slides);
+    assert_eq!(counts(all(5, 1)), ([620, 1_271, 0], 422));
+    assert_eq!(counts(all(3, 2)), ([5_176, 10_506, 68], 3_485));
+    assert_eq!(counts(all(1, 3)), ([31_992, 58_681, 376], 19_394));
+}
+
 #[test]
 #[ignore = "for release builds: cargo test --release -p tearmesh -- --ignored"]
 fn every_edit_of_every_larger_mesh() {
@@ -77,6 +87,8 @@ fn the_enumeration_finds_all_triangulated_polygons() {
 enum Kinds {
     Splits,
     All,
+    /// Also chords, slides, splits by planes, and sewing.
+    AndMore,
 }
 
 /// How many of each kind [`edits_of_meshes`] did, of all kinds.
@@ -108,6 +120,7 @@ struct Count {
     splits: usize,
     insertions: usize,
     merges: usize,
+    slides: usize,
     refused: usize,
 }
 
@@ -137,9 +150,13 @@ impl State {
             return;
         }
         self.split_in_all_ways(kinds, depth, count);
-        if kinds == Kinds::All {
-            self.insert_in_all_ways(depth, count);
-            self.merge_in_all_ways(depth, count);
+        if kinds != Kinds::Splits {
+            self.insert_in_all_ways(kinds, depth, count);
+            self.merge_in_all_ways(kinds, depth, count);
+        }
+        if kinds == Kinds::AndMore {
+            self.cross_faces_in_all_ways(depth, count);
+            self.edit_by_scripts(depth, count);
         }
     }
 
@@ -162,6 +179,7 @@ impl State {
         count.splits += done.splits;
         count.insertions += done.insertions;
         count.merges += done.merges;
+        count.slides += done.slides;
         count.refused += done.refused;
         if done.refused == 0 {
             State { world, model }.edit_in_all_ways(kinds, depth - 1, count);
@@ -184,7 +202,7 @@ impl State {
     }
 
     /// On every edge, in every face, and some pairs in one face; a torn edge from both sides.
-    fn insert_in_all_ways(&self, depth: usize, count: &mut Count) {
+    fn insert_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
         let mesh = &self.world.mesh;
         let on = |half_edge: HalfEdgeId, t| Asked::Edge { half_edge, t };
         let inside = |face, weights| Asked::Face { face, weights };
@@ -202,13 +220,13 @@ impl State {
             ways.push(vec![centre, inside(face, [2.0, 1.0, 1.0])]);
         }
         for asked in ways {
-            self.then(Kinds::All, depth, count, |world, observe| {
+            self.then(kinds, depth, count, |world, observe| {
                 world.insert(&asked, None, observe);
             });
         }
     }
 
-    fn merge_in_all_ways(&self, depth: usize, count: &mut Count) {
+    fn merge_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
         let class = &self.model.soup().class;
         for one in 0..class.len() {
             for other in one + 1..class.len() {
@@ -216,11 +234,68 @@ impl State {
                 if class[one] == class[other] || other == one + 1 {
                     let [one, other] =
                         [one, other].map(|v| VertexId::new(v).expect("a small number"));
-                    self.then(Kinds::All, depth, count, |world, observe| {
+                    self.then(kinds, depth, count, |world, observe| {
                         world.merge(other, one, [1.0, 3.0], observe);
                     });
                 }
             }
+        }
+    }
+}
+
+impl State {
+    /// A chord across every face: between two points on its edges, from each corner to the edge opposite to
+    /// it, and from each corner to a point inside; and one that is refused, as it is an edge already.
+    fn cross_faces_in_all_ways(&self, depth: usize, count: &mut Count) {
+        let on = |half_edge: HalfEdgeId, t| Asked::Edge { half_edge, t };
+        let point = AskedEnd::Point;
+        for face in self.world.mesh.faces() {
+            let corners = face.half_edges();
+            let weights = [1.0, 1.0, 2.0];
+            let mut ways = vec![(vec![], [0, 1].map(|i| AskedEnd::Corner(corners[i])))];
+            for i in 0..3 {
+                let [a, b, c] = [0, 1, 2].map(|by| corners[(i + by) % 3]);
+                let corner = AskedEnd::Corner(a);
+                ways.push((vec![on(a, 0.25), on(b, 0.75)], [point(0), point(1)]));
+                ways.push((vec![on(b, 0.5)], [corner, point(0)]));
+                let around = vec![Asked::Face { face, weights }, on(c, 0.5)];
+                ways.push((around, [point(0), point(1)]));
+            }
+            for (asked, ends) in ways {
+                self.then(Kinds::AndMore, depth, count, |world, observe| {
+                    world.insert(&asked, Some((face, ends)), observe);
+                });
+            }
+        }
+    }
+
+    /// Every vertex split by planes through it and slid along each of its edges, and sewing of all copies
+    /// and of those of every second vertex.
+    fn edit_by_scripts(&self, depth: usize, count: &mut Count) {
+        let mut operations = vec![
+            Operation::Sew { mask: 0xffff },
+            Operation::Sew { mask: 0x5555 },
+        ];
+        for v in self.world.mesh.vertices() {
+            let vertex = v.index() as u16;
+            for normal in [[1, 0, 0], [-3, 1, 0], [0, 1, 1]] {
+                operations.push(Operation::Plane { vertex, normal });
+            }
+            let around = self.model.soup().faces_of(v.index()).len() as u16;
+            for toward in 0..=around {
+                let (any, part) = (false, 16);
+                operations.push(Operation::Slide {
+                    vertex,
+                    toward,
+                    any,
+                    part,
+                });
+            }
+        }
+        for operation in operations {
+            self.then(Kinds::AndMore, depth, count, |world, observe| {
+                world.apply(&operation, observe);
+            });
         }
     }
 }
