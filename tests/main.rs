@@ -31,6 +31,7 @@ mod polygons;
 mod properties;
 #[path = "data/random.rs"]
 mod random;
+mod rational;
 mod rays;
 mod same_bytes;
 mod scissor;

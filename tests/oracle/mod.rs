@@ -8,6 +8,7 @@
 
 mod insert;
 pub(crate) mod naive_cut;
+pub(crate) mod rational;
 pub(crate) mod spoil;
 pub(crate) mod straight;
 mod strict;
