@@ -6,6 +6,7 @@ mod cut;
 mod files;
 mod look;
 mod mend;
+mod play;
 mod read;
 mod render;
 mod shell;
@@ -23,6 +24,7 @@ pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Mass};
 pub(crate) use self::files::{FileArgs, Format};
 pub(crate) use self::mend::MendArgs;
+pub(crate) use self::play::PlayArgs;
 pub(crate) use self::read::{Gap, numbers};
 pub(crate) use self::render::RenderArgs;
 pub(crate) use self::shell::{CompletionsArgs, ManArgs};
@@ -61,6 +63,7 @@ pub(crate) enum Verb {
     Mend(MendArgs),
     Render(Box<RenderArgs>),
     View(ViewArgs),
+    Play(PlayArgs),
     Check(CheckArgs),
     Chart(ChartArgs),
     Completions(CompletionsArgs),

@@ -5,8 +5,8 @@
 //! [`guide`] is the guide to the command: how to cut a file, all codes, and all keys of its report and
 //! of scene files.
 //!
-//! Map: `args` defines the arguments, `choice` the words in them, `rays` reads rays, and `scene` reads scenes. `cut`, `tear`, `mend`,
-//! `check`, `render`, `view` and `chart` carry out the verbs, and `shell` prints completions and manual
+//! Map: `args` defines the arguments, `choice` the words in them, `rays` reads rays, and `scene` reads scenes. `cut`,
+//! `tear`, `mend`, `check`, `render`, `view`, `play` and `chart` carry out the verbs, and `shell` prints completions and manual
 //! pages. `session` is shared by the verbs that change a mesh, `report` is their JSON report, and `picture`
 //! and `page` show their results. `defects` describes the defects of a mesh, `measure` measures it, and
 //! `say` prints diagnostics. `output` writes files atomically, and `files` checks their paths. `bug` writes
@@ -29,6 +29,7 @@ mod mend;
 mod output;
 mod page;
 mod picture;
+mod play;
 mod rays;
 mod render;
 mod report;
@@ -60,6 +61,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Verb::Mend(mend)) => mend::run(&mend, &args, &mut streams),
         Ok(Verb::Render(render)) => render::run(&render, &mut streams),
         Ok(Verb::View(view)) => view::run(&view, &mut streams),
+        Ok(Verb::Play(play)) => play::run(&play, &mut streams),
         Ok(Verb::Check(check)) => check::run(&check, &mut streams),
         Ok(Verb::Chart(chart)) => chart::run(&chart, &mut streams),
         Ok(Verb::Completions(shell)) => shell::complete(&shell, &mut streams),

@@ -1,9 +1,11 @@
-//! Pages of the verb `view`, and pages that other verbs write beside a mesh.
+//! Pages of the verbs `view` and `play`, and pages that other verbs write beside a mesh.
 
-use std::path::Path;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
 
 use tearmesh::{Mesh, Place, Vector};
-use tearmesh_view::{CutLine, Moment, Page, PageError};
+use tearmesh_view::{CutLine, Moment, Page, PageError, is_page};
 
 use crate::exit::{Exit, Stop};
 use crate::say::Fault;
@@ -80,4 +82,23 @@ pub(crate) fn cut_line(name: &str, options: &str) -> CutLine {
 /// Writes a page into a file.
 pub(crate) fn write(path: &Path, page: &Page) -> Result<(), Stop> {
     files::write_beside(path, |out| page.write(out))
+}
+
+/// A page that nobody named: refused where another file has that name.
+pub(crate) fn unless_foreign(path: PathBuf) -> Result<PathBuf, Stop> {
+    if path.is_file() && !is_page_there(&path) {
+        let name = path.display();
+        let message = format!("`{name}` is there already, and is no page of tearmesh");
+        return Err(Stop::usage(
+            message,
+            format!("to replace it, add -o {name}"),
+        ));
+    }
+    Ok(path)
+}
+
+fn is_page_there(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(1 << 12).read_to_end(&mut start));
+    read.is_ok() && is_page(&start)
 }

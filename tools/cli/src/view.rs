@@ -1,10 +1,8 @@
 //! The verb `view`.
 
-use std::fs::File;
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use tearmesh_view::{Moment, Page, is_page};
+use tearmesh_view::{Moment, Page};
 
 use crate::args::ViewArgs;
 use crate::exit::{Exit, Stop};
@@ -115,22 +113,7 @@ fn named_like(input: &Path) -> Result<PathBuf, Stop> {
     };
     let mut name = stem.to_owned();
     name.push(".html");
-    let path = PathBuf::from(name);
-    if path.is_file() && !is_page_there(&path) {
-        let name = path.display();
-        let message = format!("`{name}` is there already, and is no page of tearmesh");
-        return Err(Stop::usage(
-            message,
-            format!("to replace it, add -o {name}"),
-        ));
-    }
-    Ok(path)
-}
-
-fn is_page_there(path: &Path) -> bool {
-    let mut start = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(1 << 12).read_to_end(&mut start));
-    read.is_ok() && is_page(&start)
+    page::unless_foreign(PathBuf::from(name))
 }
 
 /// The fewest and the most of something.

@@ -31,7 +31,7 @@ use std::fmt;
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
     Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Mesh, Mix, PerVertex, PositionError,
-    Positions, Scissor, VertexId, pick,
+    Positions, Scissor, Vector, VertexId, pick,
 };
 
 use self::hand::Hands;
@@ -40,6 +40,7 @@ use self::log::Record;
 use self::seams::Seams;
 use self::sheet::Sheet;
 use crate::balance::Balance;
+use crate::load::{Loads, Wind};
 use crate::method::speed_m_per_s;
 use crate::sheet::Cloth;
 use crate::solver::{Solver, StepError, StepReport};
@@ -195,8 +196,24 @@ impl Simulation {
     pub fn replayed(
         mesh: Mesh,
         positions: Positions,
+        def: SimulationDef,
+        log: &InputLog,
+    ) -> Result<Simulation, ReplayError> {
+        Simulation::replayed_by(mesh, positions, def, log, |_, _| {})
+    }
+
+    /// Repeats what a log says, as [`Simulation::replayed`] does, for followers of its edits. `follow` is given
+    /// the edits of the steps before each input, and then those of the input and whether it is a cut.
+    ///
+    /// # Errors
+    ///
+    /// [`ReplayError`] if the log is that of another mesh or definition, or not of a simulation.
+    pub fn replayed_by(
+        mesh: Mesh,
+        positions: Positions,
         mut def: SimulationDef,
         log: &InputLog,
+        mut follow: impl FnMut(&Edits, bool),
     ) -> Result<Simulation, ReplayError> {
         def.is_recorded = true;
         let sim = Simulation::new(mesh, positions, def);
@@ -206,6 +223,7 @@ impl Simulation {
         }
         for (number, record) in log.records.iter().enumerate() {
             sim.reach(record.step)?;
+            follow(sim.edits(), false);
             if record.verb == "failed" {
                 let failed = sim.step().is_err();
                 failed.then_some(()).ok_or(ReplayError::Step(None))?;
@@ -213,9 +231,11 @@ impl Simulation {
             } else {
                 let done = sim.repeat(record);
                 done.map_err(|error| ReplayError::Input(number, error))?;
+                follow(sim.edits(), record.verb == "cut");
             }
         }
         sim.reach(log.steps)?;
+        follow(sim.edits(), false);
         Ok(sim)
     }
 
@@ -246,6 +266,15 @@ impl Simulation {
             ("cut", words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
             ("heal", &[]) => drop(self.heal(Wounds::All)?),
             ("heal", &[cut]) => drop(self.heal(Wounds::Cut(CutId(number(cut)?)))?),
+            ("wind", &[]) => self.set_wind(None)?,
+            ("wind", &[x, y, z, coefficient]) => {
+                let [x, y, z, coefficient] = [x, y, z, coefficient].map(f64::from_bits);
+                let velocity_m_per_s = Vector::new(x, y, z);
+                self.set_wind(Some(Wind {
+                    velocity_m_per_s,
+                    coefficient,
+                }))?;
+            }
             _ => return Err(None),
         }
         Ok(())
@@ -574,6 +603,33 @@ impl Simulation {
         };
         self.note("heal", number);
         Ok(opened)
+    }
+
+    /// Has another wind blow from now on, or none. Other loads stay.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError::Number`] if a number of the wind cannot be used.
+    pub fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), InputError> {
+        let system = self.cloth.system_mut();
+        let loads = Loads {
+            wind,
+            ..system.loads().clone()
+        };
+        if let Some((field, given)) = loads.fault() {
+            return Err(InputError::Number(field, given));
+        }
+        system
+            .set_loads(loads)
+            .expect("loads without a fault can be set");
+        let numbers = wind.map(
+            |Wind {
+                 velocity_m_per_s: u,
+                 coefficient,
+             }| [u.x, u.y, u.z, coefficient],
+        );
+        self.note("wind", numbers.into_iter().flatten().map(f64::to_bits));
+        Ok(())
     }
 
     fn not_in_hand(&self, vertex: VertexId) -> Result<(), InputError> {

@@ -9,6 +9,9 @@
 //! mesh, plan cuts on it, and play a mesh that moves or tears. The scripts of the page are in `src/page`,
 //! exactly as the browser receives them. They use no library, and each uses only those before it.
 //!
+//! A [`PlayPage`] is an HTML file on which a cloth is grabbed, ripped, cut and mended by hand. It contains a
+//! simulation as WebAssembly. Its scripts are in `src/play`, and come after those that all pages share.
+//!
 //! All operations that determine a pixel are + − × ÷ √, so the same mesh gives the same picture on every
 //! machine, and a test can compare a picture with an earlier one. A page also has the same bytes on every
 //! machine, but graphics cards may draw it differently.
@@ -21,6 +24,7 @@ mod page;
 pub mod palette;
 mod pc2;
 mod picture;
+mod play;
 mod render;
 mod shade;
 mod sky;
@@ -31,8 +35,9 @@ mod trace;
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraError};
 pub use fit::{ANGLE_OF_VIEW, fit, fit_all};
-pub use page::{CutLine, MOMENTS_PER_S, Moment, Page, PageError, Plot, is_page};
+pub use page::{CutLine, MOMENTS_PER_S, Moment, Page, PageError, Plot};
 pub use pc2::write_pc2;
 pub use picture::{PIXELS_MAX, Picture, PictureSize};
+pub use play::{PlayPage, is_page};
 pub use render::{RenderOptions, faces_seen, render};
 pub use trace::trace;

@@ -256,27 +256,22 @@ impl Page {
     /// # Panics
     ///
     /// If the page has no moment.
-    pub fn write(&self, mut out: impl Write) -> io::Result<()> {
-        let mut zlib = ZlibEncoder::new(Vec::new(), Compression::best());
+    pub fn write(&self, out: impl Write) -> io::Result<()> {
         let (text, bytes) = self.content();
-        zlib.write_all(&(text.len() as u32).to_le_bytes())?;
-        zlib.write_all(text.as_bytes())?;
-        zlib.write_all(&bytes)?;
-        let packed = base64::engine::general_purpose::STANDARD.encode(zlib.finish()?);
-        let parts = [
-            ("{title}", escaped(&self.title)),
-            ("{style}", STYLE.to_owned()),
-            ("{data}", packed),
-            ("{script}", SCRIPTS.concat()),
-        ];
-        let mut rest = FRAME;
-        for (mark, part) in parts {
-            let (before, after) = rest.split_once(mark).expect("the frame has all marks");
-            out.write_all(before.as_bytes())?;
-            out.write_all(part.as_bytes())?;
-            rest = after;
-        }
-        out.write_all(rest.as_bytes())
+        let packed = packed(&text, &bytes)?;
+        fill(
+            FRAME,
+            &[
+                ("{title}", &escaped(&self.title)),
+                ("{style}", STYLE),
+                ("{data}", &packed),
+                (
+                    "{script}",
+                    &[SHARED_SCRIPTS.concat(), SCRIPTS.concat()].concat(),
+                ),
+            ],
+            out,
+        )
     }
 
     /// All that is shown: the text, and the bytes behind it.
@@ -357,7 +352,7 @@ fn plot(plot: &Plot) -> Value {
 }
 
 /// The colours of both themes.
-fn colors() -> Value {
+pub(crate) fn colors() -> Value {
     let theme = |theme: &palette::Theme| {
         json!({
             "background": theme.background,
@@ -372,8 +367,29 @@ fn colors() -> Value {
     json!({"pieces": pieces, "light": theme(&palette::LIGHT), "dark": theme(&palette::DARK)})
 }
 
+/// A text and bytes behind it as one stream, deflated, in base64.
+pub(crate) fn packed(text: &str, bytes: &[u8]) -> io::Result<String> {
+    let mut zlib = ZlibEncoder::new(Vec::new(), Compression::best());
+    zlib.write_all(&(text.len() as u32).to_le_bytes())?;
+    zlib.write_all(text.as_bytes())?;
+    zlib.write_all(bytes)?;
+    Ok(base64::engine::general_purpose::STANDARD.encode(zlib.finish()?))
+}
+
+/// Writes a frame with its parts, each at its mark. They come in the order of the frame.
+pub(crate) fn fill(frame: &str, parts: &[(&str, &str)], mut out: impl Write) -> io::Result<()> {
+    let mut rest = frame;
+    for (mark, part) in parts {
+        let (before, after) = rest.split_once(mark).expect("the frame has all marks");
+        out.write_all(before.as_bytes())?;
+        out.write_all(part.as_bytes())?;
+        rest = after;
+    }
+    out.write_all(rest.as_bytes())
+}
+
 /// A text as HTML.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut html = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -388,24 +404,20 @@ fn escaped(text: &str) -> String {
     html
 }
 
-/// Returns whether a file is a [`Page`], given its first bytes. 4096 bytes are sufficient.
-#[must_use]
-pub fn is_page(start: &[u8]) -> bool {
-    let before_title = FRAME.split("{title}").next();
-    before_title.is_some_and(|before| start.starts_with(before.as_bytes()))
-}
-
 /// The page round its parts.
-const FRAME: &str = include_str!("page/page.html");
-const STYLE: &str = include_str!("page/page.css");
-/// One script, file by file: each uses those before it.
-const SCRIPTS: [&str; 8] = [
+pub(crate) const FRAME: &str = include_str!("page/page.html");
+pub(crate) const STYLE: &str = include_str!("page/page.css");
+/// What every page begins its script with, file by file: each uses those before it.
+pub(crate) const SHARED_SCRIPTS: [&str; 6] = [
     include_str!("page/vectors.js"),
-    include_str!("page/data.js"),
+    include_str!("page/packed.js"),
     include_str!("page/camera.js"),
     include_str!("page/cutter.js"),
     include_str!("page/scene.js"),
     include_str!("page/overlay.js"),
+];
+const SCRIPTS: [&str; 3] = [
+    include_str!("page/data.js"),
     include_str!("page/plots.js"),
     include_str!("page/page.js"),
 ];

@@ -37,8 +37,8 @@ pub(super) struct Record {
 }
 
 /// All inputs, and steps that failed, which leave their mark on what a method remembers.
-const VERBS: [&str; 8] = [
-    "hold", "free", "grab", "lead", "release", "cut", "heal", "failed",
+const VERBS: [&str; 9] = [
+    "hold", "free", "grab", "lead", "release", "cut", "heal", "wind", "failed",
 ];
 
 const HEAD: &str = "tearmesh inputs 1 digest ";

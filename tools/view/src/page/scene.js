@@ -46,7 +46,7 @@ void main() {
 }`, EDGES[1]];
 
 class Scene {
-  // From the cosine `crease` on, two faces are one smooth surface.
+  // From the cosine `crease` on, two faces are one smooth surface: from −1 on, all faces of a vertex.
   constructor(canvas, crease) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
     if (!gl) throw new Error("This page needs WebGL 2, which this browser does not have or has turned off.");
@@ -123,6 +123,7 @@ class Scene {
   // The normal of each corner: the mean, by area, of those faces of its vertex that go on without a crease.
   normals(places) {
     const { corners, first, around, crease } = this, faces = corners.length / 3;
+    if (crease <= -1) return this.smoothNormals(places);
     const spanned = new Float64Array(corners.length), sizes = new Float64Array(faces);
     for (let f = 0; f < faces; f++) {
       const [i, j, k] = [3 * corners[3 * f], 3 * corners[3 * f + 1], 3 * corners[3 * f + 2]];
@@ -146,6 +147,29 @@ class Scene {
         y += e;
         z += h;
       }
+      const scale = 1 / (Math.sqrt(x * x + y * y + z * z) || 1);
+      normals[3 * corner] = x * scale;
+      normals[3 * corner + 1] = y * scale;
+      normals[3 * corner + 2] = z * scale;
+    }
+    return normals;
+  }
+
+  smoothNormals(places) {
+    const { corners } = this, sums = new Float64Array(places.length), normals = new Float32Array(3 * corners.length);
+    for (let f = 0; f < corners.length; f += 3) {
+      const i = 3 * corners[f], j = 3 * corners[f + 1], k = 3 * corners[f + 2];
+      const ux = places[j] - places[i], uy = places[j + 1] - places[i + 1], uz = places[j + 2] - places[i + 2];
+      const vx = places[k] - places[i], vy = places[k + 1] - places[i + 1], vz = places[k + 2] - places[i + 2];
+      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      for (const at of [i, j, k]) {
+        sums[at] += x;
+        sums[at + 1] += y;
+        sums[at + 2] += z;
+      }
+    }
+    for (let corner = 0; corner < corners.length; corner++) {
+      const at = 3 * corners[corner], [x, y, z] = [sums[at], sums[at + 1], sums[at + 2]];
       const scale = 1 / (Math.sqrt(x * x + y * y + z * z) || 1);
       normals[3 * corner] = x * scale;
       normals[3 * corner + 1] = y * scale;

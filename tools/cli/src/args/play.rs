@@ -1,0 +1,51 @@
+//! The arguments of `play`.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+use super::look::LookArgs;
+
+const EXAMPLES: &str = "\
+Examples:
+  tearmesh play -o play.html
+      a sheet of 1 m that hangs by its upper edge: open the page in a browser, grab the sheet, and rip it
+  tearmesh play flag.obj --scene flag -o play.html
+      a flag in the wind, to be cut while it waves";
+
+/// Play with a cloth on a page for a browser: grab it, rip it, cut it and mend it by hand.
+///
+/// The page is one HTML file that needs no network: the simulation runs in it. It takes other OBJ files by drag
+/// and drop, and saves what became of the cloth, with the record of its tears and cuts.
+#[derive(Debug, Parser)]
+#[command(after_long_help = EXAMPLES)]
+pub(crate) struct PlayArgs {
+    /// The OBJ file of the cloth at rest, in metres; `-` is standard input.
+    ///
+    /// Without it, the page shows a sheet of 1 m. At most 20,000 vertices.
+    #[arg(value_name = "IN")]
+    pub(crate) input: Option<PathBuf>,
+
+    /// rip, hang, flag, trouser or fall, as of `tear`.
+    ///
+    /// What such a scene holds is held, and its wind blows. What it moves or cuts is left to the hand. The
+    /// default, `rip`, holds the highest 3 % of the cloth.
+    #[arg(long, value_name = "SCENE", default_value = "rip", value_parser = SCENES, hide_possible_values = true)]
+    pub(crate) scene: String,
+
+    /// The direction that is up: x, y, z, -x, -y or -z.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = AXES, hide_possible_values = true, default_value = "y")]
+    pub(crate) up: String,
+
+    /// Where to write the page; `-` is standard output.
+    ///
+    /// Without it, the page is `play.html` in the current folder. Only a page of tearmesh is replaced then.
+    #[arg(short, long, value_name = "F.html")]
+    pub(crate) output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) look: LookArgs,
+}
+
+const SCENES: [&str; 5] = ["rip", "hang", "flag", "trouser", "fall"];
+const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];

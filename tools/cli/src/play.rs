@@ -1,0 +1,97 @@
+//! The verb `play`.
+
+use std::path::{Path, PathBuf};
+
+use tearmesh_view::PlayPage;
+
+use crate::args::PlayArgs;
+use crate::exit::{Exit, Stop};
+use crate::input::Input;
+use crate::say::{Fault, count};
+use crate::session::{self, Opened};
+use crate::streams::Streams;
+use crate::{files, output, page, report};
+
+/// Makes a page to play on, and gives the exit status.
+pub(crate) fn run(args: &PlayArgs, streams: &mut Streams<'_>) -> Exit {
+    let mut faults = Vec::new();
+    let mut worked = work(args, &mut faults, streams);
+    if args.look.quiet {
+        worked = worked.map(|_| String::new());
+    }
+    streams.conclude(worked, faults, args.look.color, args.look.verbose)
+}
+
+/// Gives the summary; none if the page is on standard output.
+fn work(
+    args: &PlayArgs,
+    faults: &mut Vec<Fault>,
+    streams: &mut Streams<'_>,
+) -> Result<String, Stop> {
+    let path = place(args)?;
+    let mut made = PlayPage {
+        scene: args.scene.clone(),
+        up: args.up.clone(),
+        ..PlayPage::default()
+    };
+    let mut cloth = "a sheet of 1 m".to_owned();
+    if let Some(input) = &args.input {
+        let input = Input::find(input, streams.input);
+        let input = input.map_err(|fault| Stop::new(Exit::Input, fault))?;
+        let repair = session::repair(args.look.repair, args.look.separate_fans);
+        let opened = session::open(&input, repair, faults, &mut report::Timing::default())?;
+        made.title = page::title(Some(&input.name));
+        made.file = Some((made.title.clone(), obj(&opened)?));
+        cloth = [
+            count(opened.mesh.vertex_count(), "vertex", "vertices"),
+            count(opened.mesh.face_count(), "face", "faces"),
+        ]
+        .join(", ");
+    }
+    let Some(path) = path else {
+        let printed = output::print(streams.output, |out| made.write(out));
+        printed.map_err(|fault| Stop::new(Exit::Output, fault))?;
+        return Ok(String::new());
+    };
+    files::write_beside(&path, |out| made.write(out))?;
+    let (scene, path) = (&args.scene, path.display());
+    Ok(format!(
+        "play: {cloth}, scene {scene} · wrote {path}: open it in a browser"
+    ))
+}
+
+/// The file that the page is given: as it was read, and repaired where that was wanted.
+fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
+    let (vertices, most) = (opened.mesh.vertex_count(), PlayPage::VERTICES_MAX);
+    if vertices > most {
+        let message =
+            format!("the mesh has {vertices} vertices, and a page plays with at most {most}");
+        let fault = Fault::error("E-PLAY-VERTICES", message);
+        return Err(Stop::new(Exit::Input, fault));
+    }
+    if opened.mesh.face_count() == 0 {
+        let fault = Fault::error("E-VIEW-EMPTY", "there is no cloth to play with".to_owned());
+        return Err(Stop::new(Exit::Input, fault));
+    }
+    let mut bytes = Vec::new();
+    let written = opened
+        .document
+        .write(&opened.mesh, &opened.positions, &mut bytes);
+    written.expect("memory takes all that is written");
+    Ok(bytes)
+}
+
+/// Where the page goes; none is standard output.
+fn place(args: &PlayArgs) -> Result<Option<PathBuf>, Stop> {
+    let path = match &args.output {
+        Some(path) if path == Path::new("-") => return Ok(None),
+        Some(path) => path.clone(),
+        None => page::unless_foreign(PathBuf::from("play.html"))?,
+    };
+    files::check_page(&path)?;
+    if args.input.iter().any(|input| files::is_same(input, &path)) {
+        return Err(files::replaced(&path, "an input"));
+    }
+    output::check(&path).map_err(|error| files::unwritable(&path, &error))?;
+    Ok(Some(path))
+}

@@ -1,0 +1,329 @@
+//! What the module exports. A verb takes numbers; texts and files lie in a block of memory, as do its results.
+//! A verb that was refused says why in the block [`TEXT`].
+
+use std::cell::RefCell;
+
+use tearmesh::{Point, Ray, Vector};
+use tearmesh_cloth::Wind;
+use tearmesh_obj::Document;
+
+use crate::player::Player;
+use crate::settings::{ClothSource, Settings};
+
+#[derive(Default)]
+struct Module {
+    input: Vec<u8>,
+    text: Vec<u8>,
+    /// The file that was dropped on the page last.
+    obj: Vec<u8>,
+    /// The document of the player, and the cloth that it is of. It is leaked, since the player borrows it; a page
+    /// that shows twenty files has twenty of them.
+    document: Option<(ClothSource, &'static Document)>,
+    player: Option<Player<'static>>,
+    positions: Vec<[f32; 3]>,
+    indices: Vec<u32>,
+    pieces: Vec<u32>,
+    held: Vec<u8>,
+    facts: Vec<f64>,
+}
+
+thread_local! {
+    static MODULE: RefCell<Module> = RefCell::default();
+}
+
+/// The blocks of memory, by number.
+const POSITIONS: u32 = 0;
+const INDICES: u32 = 1;
+const PIECES: u32 = 2;
+const EDGES: u32 = 3;
+const HELD: u32 = 4;
+const FACTS: u32 = 5;
+const TEXT: u32 = 6;
+
+/// Makes room for a text or a file; where.
+#[unsafe(no_mangle)]
+extern "C" fn room(length: usize) -> usize {
+    MODULE.with_borrow_mut(|module| {
+        module.input.clear();
+        module.input.resize(length, 0);
+        module.input.as_ptr() as usize
+    })
+}
+
+/// Where a block is.
+#[unsafe(no_mangle)]
+extern "C" fn address(block: u32) -> usize {
+    MODULE.with_borrow(|module| module.block(block).0)
+}
+
+/// How many bytes a block has.
+#[unsafe(no_mangle)]
+extern "C" fn length(block: u32) -> usize {
+    MODULE.with_borrow(|module| module.block(block).1)
+}
+
+/// Takes the OBJ file in the room, for a cloth of a file.
+#[unsafe(no_mangle)]
+extern "C" fn take_file() {
+    MODULE.with_borrow_mut(|module| {
+        module.obj = std::mem::take(&mut module.input);
+        module.document = None;
+    });
+}
+
+/// Lets a cloth go, by the settings in the room; whether it could.
+#[unsafe(no_mangle)]
+extern "C" fn start() -> bool {
+    MODULE.with_borrow_mut(|module| {
+        let text = String::from_utf8_lossy(&module.input).into_owned();
+        let started = text.parse().and_then(|settings: Settings| {
+            let document = module.document(&settings)?;
+            Player::new(document, settings)
+        });
+        module.replace(started)
+    })
+}
+
+/// Repeats the log in the room; whether it could.
+#[unsafe(no_mangle)]
+extern "C" fn replay() -> bool {
+    MODULE.with_borrow_mut(|module| {
+        let text = String::from_utf8_lossy(&module.input).into_owned();
+        let replayed = Player::settings_of(&text).and_then(|settings| {
+            let document = module.document(&settings)?;
+            Player::replayed(document, &text)
+        });
+        module.replace(replayed)
+    })
+}
+
+/// Lets time pass: the number of steps, or −1.
+#[unsafe(no_mangle)]
+extern "C" fn advance(dt_s: f64, steps_max: u32) -> i32 {
+    verb(-1, |player| {
+        let steps = player.advance(dt_s, steps_max.into())?;
+        Ok(i32::try_from(steps).unwrap_or(i32::MAX))
+    })
+}
+
+/// Brings the blocks of positions, faces, held vertices and facts up to date.
+#[unsafe(no_mangle)]
+extern "C" fn draw() {
+    MODULE.with_borrow_mut(Module::draw);
+}
+
+/// The number of a hand that grabs what a ray hits; −1 if there is none. Its place is in the facts.
+#[unsafe(no_mangle)]
+extern "C" fn grab(x: f64, y: f64, z: f64, dx: f64, dy: f64, dz: f64) -> i32 {
+    verb(-1, |player| {
+        let grabbed = player.grab(&ray([x, y, z], [dx, dy, dz])?)?;
+        Ok(grabbed.ok_or_else(missed)? as i32)
+    })
+}
+
+/// Leads a hand to a point.
+#[unsafe(no_mangle)]
+extern "C" fn lead(hand: usize, x: f64, y: f64, z: f64) -> bool {
+    verb(false, |player| {
+        player.lead(hand, Point::new(x, y, z))?;
+        Ok(true)
+    })
+}
+
+/// Releases a hand.
+#[unsafe(no_mangle)]
+extern "C" fn release(hand: usize) {
+    verb((), |player| {
+        player.release(hand);
+        Ok(())
+    });
+}
+
+/// Pins what a ray hits, or unpins it: 1 and 0, and −1 if it hits nothing.
+#[unsafe(no_mangle)]
+extern "C" fn pin(x: f64, y: f64, z: f64, dx: f64, dy: f64, dz: f64) -> i32 {
+    verb(-1, |player| {
+        let pinned = player.pin(&ray([x, y, z], [dx, dy, dz])?)?;
+        Ok(pinned.ok_or_else(missed)?.into())
+    })
+}
+
+/// Cuts between two rays from one point: the number of vertices that were split, or −1.
+#[unsafe(no_mangle)]
+#[expect(clippy::too_many_arguments, reason = "a module exchanges numbers")]
+extern "C" fn cut(
+    x: f64,
+    y: f64,
+    z: f64,
+    ax: f64,
+    ay: f64,
+    az: f64,
+    bx: f64,
+    by: f64,
+    bz: f64,
+    is_first_layer: bool,
+) -> i32 {
+    verb(-1, |player| {
+        let rays = [ray([x, y, z], [ax, ay, az])?, ray([x, y, z], [bx, by, bz])?];
+        Ok(player.cut(rays, is_first_layer)? as i32)
+    })
+}
+
+/// Begins to mend everything: the number of pairs.
+#[unsafe(no_mangle)]
+extern "C" fn heal() -> u32 {
+    verb(0, |player| Ok(player.heal() as u32))
+}
+
+/// Has another wind blow; none if its coefficient is 0.
+#[unsafe(no_mangle)]
+extern "C" fn wind(x: f64, y: f64, z: f64, coefficient: f64) -> bool {
+    verb(false, |player| {
+        let wind = Wind {
+            velocity_m_per_s: Vector::new(x, y, z),
+            coefficient,
+        };
+        player.set_wind(Some(wind).filter(|wind| wind.coefficient > 0.0))?;
+        Ok(true)
+    })
+}
+
+/// Has the wind of the scene blow again.
+#[unsafe(no_mangle)]
+extern "C" fn wind_of_scene() -> bool {
+    verb(false, |player| {
+        player.set_wind_of_scene();
+        Ok(true)
+    })
+}
+
+/// Writes the OBJ file of the cloth into the block [`TEXT`].
+#[unsafe(no_mangle)]
+extern "C" fn obj() -> bool {
+    tell(|player| player.obj())
+}
+
+/// Writes the log into the block [`TEXT`].
+#[unsafe(no_mangle)]
+extern "C" fn log() -> bool {
+    tell(|player| Ok(player.log().into_bytes()))
+}
+
+/// The digest of everything that the cloth has become.
+#[unsafe(no_mangle)]
+extern "C" fn digest() -> u64 {
+    verb(0, |player| Ok(player.digest()))
+}
+
+fn ray(origin: [f64; 3], direction: [f64; 3]) -> Result<Ray, String> {
+    let ray = Ray::new(Point::from(origin), Vector::from(direction));
+    ray.map_err(|error| error.to_string())
+}
+
+fn missed() -> String {
+    "there is no cloth there".to_owned()
+}
+
+/// Does something with the player; `refused` if it was refused, or there is no player.
+fn verb<T>(refused: T, act: impl FnOnce(&mut Player<'static>) -> Result<T, String>) -> T {
+    MODULE.with_borrow_mut(|module| {
+        let player = module.player.as_mut().ok_or("there is no cloth");
+        let done = player.map_err(str::to_owned).and_then(act);
+        done.unwrap_or_else(|why| {
+            module.text = why.into_bytes();
+            refused
+        })
+    })
+}
+
+fn tell(text: impl FnOnce(&Player<'static>) -> Result<Vec<u8>, String>) -> bool {
+    MODULE.with_borrow_mut(|module| {
+        let player = module.player.as_ref().ok_or("there is no cloth");
+        let told = player.map_err(str::to_owned).and_then(text);
+        let is_told = told.is_ok();
+        module.text = told.unwrap_or_else(String::into_bytes);
+        is_told
+    })
+}
+
+impl Module {
+    fn document(&mut self, settings: &Settings) -> Result<&'static Document, String> {
+        match &self.document {
+            Some((cloth, document)) if *cloth == settings.cloth => Ok(document),
+            _ => {
+                let document: &'static Document =
+                    Box::leak(Box::new(settings.document(&self.obj)?));
+                self.document = Some((settings.cloth.clone(), document));
+                Ok(document)
+            }
+        }
+    }
+
+    fn replace(&mut self, player: Result<Player<'static>, String>) -> bool {
+        match player {
+            Ok(player) => {
+                self.player = Some(player);
+                self.draw();
+                true
+            }
+            Err(why) => {
+                self.text = why.into_bytes();
+                false
+            }
+        }
+    }
+
+    fn draw(&mut self) {
+        let Some(player) = &mut self.player else {
+            return;
+        };
+        let buffers = player.draw_buffers();
+        self.positions.clear();
+        self.positions.extend_from_slice(buffers.positions());
+        self.indices.clear();
+        self.indices.extend_from_slice(buffers.indices());
+        self.pieces.clear();
+        self.pieces.extend_from_slice(buffers.pieces());
+        let (sim, facts) = (player.simulation(), player.facts());
+        let mesh = sim.mesh();
+        self.held.clear();
+        self.held
+            .extend(mesh.vertices().map(|v| u8::from(player.is_held(v))));
+        let numbers = [
+            mesh.vertex_count(),
+            mesh.face_count(),
+            self.pieces
+                .iter()
+                .max()
+                .map_or(0, |&last| last as usize + 1),
+            facts.held_first,
+            facts.tears,
+            facts.heals,
+            facts.sewn,
+            facts.left,
+            sim.open_pairs(),
+        ];
+        self.facts.clear();
+        self.facts.extend(numbers.map(|number| number as f64));
+        self.facts.extend([sim.time_s(), sim.step_s()]);
+        self.facts.extend(facts.grabbed_at);
+    }
+
+    /// Where a block is, and how many bytes it has.
+    fn block(&self, block: u32) -> (usize, usize) {
+        fn of<T>(slice: &[T]) -> (usize, usize) {
+            (slice.as_ptr() as usize, size_of_val(slice))
+        }
+        let edges = self.player.as_ref().map_or(&[][..], Player::edges);
+        match block {
+            POSITIONS => of(&self.positions),
+            INDICES => of(&self.indices),
+            PIECES => of(&self.pieces),
+            EDGES => of(edges),
+            HELD => of(&self.held),
+            FACTS => of(&self.facts),
+            TEXT => of(&self.text),
+            _ => (0, 0),
+        }
+    }
+}

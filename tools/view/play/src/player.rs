@@ -1,0 +1,470 @@
+//! A simulation together with the file of its cloth, and everything that a page does with both.
+
+use tearmesh::geometry::{Plane, Point, Ray, length};
+use tearmesh::{CutLayers, Edits, HalfEdgeId, Mesh, Positions, Scissor, VertexId};
+use tearmesh_cloth::scene::{Frame, Scene, SwayingWind};
+use tearmesh_cloth::{
+    ClothBuffers, Collider, Event, HandId, InputLog, Loads, Simulation, SimulationDef, Tearing,
+    Threshold, Wind, Wounds,
+};
+use tearmesh_obj::{Document, TornDocument};
+
+use crate::settings::Settings;
+
+/// A cloth in the hands of a person.
+///
+/// ```
+/// use tearmesh_play::{Player, Settings};
+///
+/// let settings: Settings =
+///     "cloth sheet 8\nscene rip\nup y\nmethod xpbd\nthreshold 1.5\n".parse()?;
+/// let document = settings.document(&[])?;
+/// let mut player = Player::new(&document, settings)?;
+/// player.advance(0.1, 1000)?;
+///
+/// let again = Player::replayed(&document, &player.log())?;
+/// assert_eq!(again.digest(), player.digest());
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Debug)]
+pub struct Player<'d> {
+    settings: Settings,
+    sim: Simulation,
+    torn: TornDocument<'d>,
+    wind: Option<SwayingWind>,
+    /// Whether the wind of the scene blows, and no other.
+    is_wind_of_scene: bool,
+    grip_radius_m: f64,
+    /// By the number that the page knows; `None` once released.
+    hands: Vec<Option<HandId>>,
+    /// Of each half-edge, up to date with the mesh.
+    edges: Vec<Edge>,
+    /// Of all events so far.
+    events_hash: u64,
+    facts: Facts,
+}
+
+/// How a half-edge hangs together with its neighbour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Edge {
+    /// The faces of both sides are joined.
+    Joined = 0,
+    /// There never was another face.
+    Boundary = 1,
+    /// The faces of both sides were torn or cut apart.
+    Torn = 2,
+}
+
+/// What a page says of a cloth.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// The number of vertices that are held from the beginning.
+    pub held_first: usize,
+    /// The number of vertices that tearing has split.
+    pub tears: usize,
+    /// The number of vertices that the last cut split.
+    pub cut_splits: usize,
+    /// The number of times that healing came to its end.
+    pub heals: usize,
+    /// The number of pairs that the last healing sewed, and that it left.
+    pub sewn: usize,
+    /// See [`Facts::sewn`].
+    pub left: usize,
+    /// Where the vertex was that a hand grabbed last.
+    pub grabbed_at: [f64; 3],
+}
+
+/// How often a second a wind that sways changes. Each change is an input, and takes a line of the log.
+const SWAYS_PER_S: f64 = 20.0;
+
+const HEAD: &str = "tearmesh play 1\n";
+
+impl<'d> Player<'d> {
+    /// Lets the cloth of a document go.
+    ///
+    /// What the scene holds without moving it is held; if nothing is, the first that it moves. A cut at the very
+    /// beginning is made. Everything later is left to the person. A cloth that nothing holds falls onto a floor.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be simulated, in words.
+    pub fn new(document: &'d Document, settings: Settings) -> Result<Player<'d>, String> {
+        let start = Start::new(document, &settings)?;
+        let sim = Simulation::new(start.mesh, start.positions, start.def);
+        let sim = sim.map_err(|error| error.to_string())?;
+        let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
+        let held = player.sim.hold(start.held.iter().copied());
+        held.map_err(|error| error.to_string())?;
+        for scissor in &start.cuts {
+            player.cut_by(scissor)?;
+        }
+        player.facts.held_first = start.held.len();
+        Ok(player)
+    }
+
+    /// Repeats a [log](Player::log) with the document that it was made with.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be repeated, in words.
+    pub fn replayed(document: &'d Document, log: &str) -> Result<Player<'d>, String> {
+        let settings = Player::settings_of(log)?;
+        let (_, inputs) = split_log(log).ok_or("the log has no inputs")?;
+        let inputs: InputLog = inputs
+            .parse()
+            .map_err(|error: tearmesh_cloth::LogError| error.to_string())?;
+        let start = Start::new(document, &settings)?;
+        let mut torn = TornDocument::new(document);
+        let follow = |edits: &Edits, is_cut: bool| {
+            if is_cut {
+                torn.next_cut();
+            }
+            edits.replay(&mut torn);
+            if is_cut {
+                torn.next_cut();
+            }
+        };
+        let sim = Simulation::replayed_by(start.mesh, start.positions, start.def, &inputs, follow);
+        let sim = sim.map_err(|error| error.to_string())?;
+        let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
+        player.torn = torn;
+        player.facts.held_first = start.held.len();
+        player.note_events();
+        player.edges = edges(player.sim.mesh());
+        Ok(player)
+    }
+
+    /// Returns the settings that a log begins with.
+    ///
+    /// # Errors
+    ///
+    /// Why it is no log, in words.
+    pub fn settings_of(log: &str) -> Result<Settings, String> {
+        let (settings, _) = split_log(log).ok_or("the file is no log of `tearmesh play`")?;
+        settings.parse()
+    }
+
+    fn of(
+        sim: Simulation,
+        document: &'d Document,
+        settings: Settings,
+        wind: Option<SwayingWind>,
+        size_m: f64,
+    ) -> Player<'d> {
+        Player {
+            settings,
+            torn: TornDocument::new(document),
+            wind,
+            is_wind_of_scene: true,
+            grip_radius_m: Simulation::GRIP_RADIUS_M * size_m,
+            hands: Vec::new(),
+            edges: edges(sim.mesh()),
+            events_hash: FNV_BASIS,
+            facts: Facts::default(),
+            sim,
+        }
+    }
+
+    /// Lets time pass: see [`Simulation::advance`]. Returns the number of steps.
+    ///
+    /// # Errors
+    ///
+    /// Why a step failed, in words. The cloth is then as it was after the last good one.
+    pub fn advance(&mut self, dt_s: f64, steps_max: u64) -> Result<u64, String> {
+        if self.is_wind_of_scene {
+            let part = (self.sim.time_s() * SWAYS_PER_S).floor() / SWAYS_PER_S;
+            let wind = self.wind.map(|wind| wind.at(part));
+            if self.sim.cloth().system().loads().wind != wind {
+                self.sim.set_wind(wind).map_err(|error| error.to_string())?;
+            }
+        }
+        let reached = self.sim.advance(dt_s, steps_max);
+        self.follow();
+        Ok(reached.map_err(|error| error.to_string())?.steps)
+    }
+
+    /// Brings the document up to date with what was torn or sewn.
+    fn follow(&mut self) {
+        let edits = self.sim.edits();
+        edits.replay(&mut self.torn);
+        if !edits.is_empty() {
+            self.edges = edges(self.sim.mesh());
+        }
+        self.note_events();
+    }
+
+    fn note_events(&mut self) {
+        for event in self.sim.events() {
+            self.events_hash = hashed(self.events_hash, format!("{event:?}").into_bytes());
+            match event {
+                Event::Tore { .. } => self.facts.tears += 1,
+                Event::Cut { splits, .. } => self.facts.cut_splits = splits,
+                Event::Healed { sewn, left, .. } => {
+                    self.facts.heals += 1;
+                    (self.facts.sewn, self.facts.left) = (sewn, left);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Grabs the vertex that a ray hits. Returns the number of the hand; `None` if the ray misses.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be grabbed, in words.
+    pub fn grab(&mut self, ray: &Ray) -> Result<Option<usize>, String> {
+        let Some(picked) = self.sim.pick(ray) else {
+            return Ok(None);
+        };
+        let hand = self.sim.grab(picked.vertex, self.grip_radius_m);
+        self.hands
+            .push(Some(hand.map_err(|error| error.to_string())?));
+        let at = self.sim.cloth().positions()[picked.vertex.index()];
+        self.facts.grabbed_at = at.into();
+        Ok(Some(self.hands.len() - 1))
+    }
+
+    /// Leads a hand to a point: see [`Simulation::lead`]. A hand that was released is led nowhere.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be led there, in words.
+    pub fn lead(&mut self, hand: usize, to: Point) -> Result<(), String> {
+        match self.hands.get(hand).copied().flatten() {
+            Some(hand) => self.sim.lead(hand, to).map_err(|error| error.to_string()),
+            None => Ok(()),
+        }
+    }
+
+    /// Releases a hand, unless it was released before.
+    pub fn release(&mut self, hand: usize) {
+        if let Some(hand) = self.hands.get_mut(hand).and_then(Option::take) {
+            self.sim
+                .release(hand)
+                .expect("a hand that was not released");
+        }
+    }
+
+    /// Pins the vertex that a ray hits, or unpins it. Returns whether it is pinned now; `None` if the ray misses.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be pinned, in words.
+    pub fn pin(&mut self, ray: &Ray) -> Result<Option<bool>, String> {
+        let Some(picked) = self.sim.pick(ray) else {
+            return Ok(None);
+        };
+        let is_held = self.is_held(picked.vertex);
+        let done = match is_held {
+            true => self.sim.free([picked.vertex]),
+            false => self.sim.hold([picked.vertex]),
+        };
+        done.map_err(|error| error.to_string())?;
+        Ok(Some(!is_held))
+    }
+
+    /// Returns whether a vertex is held, by a pin or a hand.
+    #[must_use]
+    pub fn is_held(&self, v: VertexId) -> bool {
+        self.sim.cloth().system().is_held(v.index())
+    }
+
+    /// Cuts between two rays, through all layers or only the front one. Returns the number of vertices that were
+    /// split.
+    ///
+    /// # Errors
+    ///
+    /// Why there is no such cut, in words.
+    pub fn cut(&mut self, rays: [Ray; 2], is_first_layer: bool) -> Result<usize, String> {
+        let [a, b] = rays;
+        let layers = match is_first_layer {
+            true => CutLayers::First,
+            false => CutLayers::All,
+        };
+        let scissor = Scissor::new(a, b).map_err(|error| error.to_string())?;
+        self.cut_by(&scissor.layers(layers))
+    }
+
+    fn cut_by(&mut self, scissor: &Scissor) -> Result<usize, String> {
+        // Tears before the cut are undone by themselves.
+        self.torn.next_cut();
+        self.sim.cut(scissor).map_err(|error| error.to_string())?;
+        self.follow();
+        self.torn.next_cut();
+        Ok(self.facts.cut_splits)
+    }
+
+    /// Begins to mend all tears and cuts. Returns the number of pairs of vertices that are drawn together.
+    pub fn heal(&mut self) -> usize {
+        self.sim
+            .heal(Wounds::All)
+            .expect("all is no cut of its own")
+    }
+
+    /// Has the wind of the scene blow again.
+    pub fn set_wind_of_scene(&mut self) {
+        self.is_wind_of_scene = true;
+    }
+
+    /// Has another wind blow than that of the scene, or none.
+    ///
+    /// # Errors
+    ///
+    /// Which number cannot be used, in words.
+    pub fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), String> {
+        self.is_wind_of_scene = false;
+        self.sim.set_wind(wind).map_err(|error| error.to_string())
+    }
+
+    /// Returns the OBJ file of the cloth as it is now, with the record of its tears and cuts.
+    ///
+    /// # Errors
+    ///
+    /// Which vertex is nowhere, in words.
+    pub fn obj(&self) -> Result<Vec<u8>, String> {
+        let points = self.sim.cloth().positions().iter().copied();
+        let positions = Positions::new(points).map_err(|error| error.to_string())?;
+        let mut out = Vec::new();
+        let written = self.torn.write(self.sim.mesh(), &positions, &mut out);
+        written.map_err(|error| error.to_string())?;
+        Ok(out)
+    }
+
+    /// Returns the settings and all inputs so far, as text.
+    #[must_use]
+    pub fn log(&self) -> String {
+        let inputs = self.sim.log().expect("every player is recorded");
+        format!("{HEAD}{}{inputs}", self.settings)
+    }
+
+    /// Returns a digest of the bits of all positions, the faces, the roots of vertices, and all events.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        let (mesh, points) = (self.sim.mesh(), self.sim.cloth().positions());
+        let numbers = points.iter().flat_map(|p| [p.x, p.y, p.z]);
+        let ids = mesh.indices().iter().copied().chain(mesh.roots());
+        let bytes = numbers.flat_map(f64::to_le_bytes);
+        hashed(
+            self.events_hash,
+            bytes.chain(ids.flat_map(u32::to_le_bytes)),
+        )
+    }
+
+    /// Returns what the cloth is drawn from: see [`Simulation::draw_buffers`].
+    pub fn draw_buffers(&mut self) -> &ClothBuffers {
+        self.sim.draw_buffers()
+    }
+
+    /// Returns how each half-edge hangs together with its neighbour.
+    #[must_use]
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// Returns what happened so far.
+    #[must_use]
+    pub fn facts(&self) -> Facts {
+        self.facts
+    }
+
+    /// Returns the simulation.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation {
+        &self.sim
+    }
+}
+
+/// What a simulation begins with.
+struct Start {
+    mesh: Mesh,
+    positions: Positions,
+    def: SimulationDef,
+    held: Vec<VertexId>,
+    cuts: Vec<Scissor>,
+    wind: Option<SwayingWind>,
+    size_m: f64,
+}
+
+impl Start {
+    fn new(document: &Document, settings: &Settings) -> Result<Start, String> {
+        let mesh = document.mesh().map_err(|error| error.to_string())?;
+        let points = document.positions();
+        let positions = Positions::new(points.iter().copied());
+        let positions = positions.map_err(|error| error.to_string())?;
+        let frame = Frame::new(&mesh, points, settings.up);
+        let scene = settings.scene(&frame);
+        let still = scene.holds.iter().filter(|hold| hold.moves.is_empty());
+        let mut still: Vec<_> = still.collect();
+        if still.is_empty() {
+            still.extend(scene.holds.first());
+        }
+        let held = still.iter();
+        let held = held.flat_map(|hold| hold.region.vertices(&mesh, points, &frame));
+        let mut held: Vec<VertexId> = held.collect();
+        held.sort_unstable();
+        held.dedup();
+        let first = scene.cuts.iter().filter(|cut| cut.at_s == 0.0);
+        let cuts = first.filter_map(|cut| Scissor::new(cut.rays[0], cut.rays[1]).ok());
+        Ok(Start {
+            cuts: cuts.collect(),
+            def: definition(&scene, settings, &frame, held.is_empty()),
+            mesh,
+            positions,
+            held,
+            wind: scene.wind,
+            size_m: frame.size_m(),
+        })
+    }
+}
+
+fn definition(scene: &Scene, settings: &Settings, frame: &Frame, is_loose: bool) -> SimulationDef {
+    let gravity = scene.gravity_m_per_s2;
+    let floor = || {
+        let below = frame.corner - frame.up.vector() * (0.5 * frame.size_m());
+        Plane::new(below, frame.up.vector())
+            .ok()
+            .map(Collider::Plane)
+    };
+    SimulationDef {
+        density_kg_per_m2: scene.areal_density_kg_per_m2,
+        fabric: scene.fabric,
+        method: scene.solver.clone(),
+        tearing: settings
+            .threshold
+            .map(|ratio| Tearing::new(Threshold::Stretch(ratio))),
+        loads: Loads {
+            gravity_m_per_s2: Some(gravity).filter(|gravity| length(*gravity) > 0.0),
+            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag > 0.0),
+            wind: scene.wind.map(|wind| wind.at(0.0)),
+            colliders: is_loose.then(floor).flatten().into_iter().collect(),
+        },
+        is_recorded: true,
+        ..SimulationDef::default()
+    }
+}
+
+fn edges(mesh: &Mesh) -> Vec<Edge> {
+    let edge = |h: HalfEdgeId| match (mesh.pair(h), mesh.ghost_pair(h)) {
+        (Some(_), _) => Edge::Joined,
+        (None, None) => Edge::Boundary,
+        (None, Some(_)) => Edge::Torn,
+    };
+    mesh.half_edges().map(edge).collect()
+}
+
+/// The settings of a log, and its inputs.
+fn split_log(log: &str) -> Option<(&str, &str)> {
+    let rest = log.strip_prefix(HEAD)?;
+    Some(rest.split_at(rest.find("tearmesh inputs")?))
+}
+
+/// The 64 bits of FNV-1a.
+const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+
+fn hashed(basis: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
+    bytes.into_iter().fold(basis, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}

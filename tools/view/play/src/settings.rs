@@ -1,0 +1,179 @@
+//! What is chosen before a cloth is let go: the cloth itself, how it is held, and how it moves and tears.
+
+use std::fmt;
+use std::str::FromStr;
+
+use tearmesh::shapes;
+use tearmesh_cloth::Method;
+use tearmesh_cloth::scene::{Axis, Frame, Scene};
+use tearmesh_obj::Document;
+
+/// The settings of a cloth that is played with. As text, each is a line: its name, and its value.
+///
+/// ```
+/// let text = "cloth sheet 32\nscene flag\nup y\nmethod verlet\nthreshold 1.5\n";
+/// let settings: tearmesh_play::Settings = text.parse()?;
+/// assert_eq!(settings.to_string(), text);
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The cloth.
+    pub cloth: ClothSource,
+    /// The name of a built-in scene.
+    pub scene: &'static str,
+    /// The upward direction.
+    pub up: Axis,
+    /// The name of a method.
+    pub method: &'static str,
+    /// The ratio of length to rest length at which an edge tears; `None` for never.
+    pub threshold: Option<f64>,
+}
+
+/// Where a cloth comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClothSource {
+    /// A square of 1 m, in so many cells a side.
+    Sheet(u32),
+    /// An OBJ file of this name.
+    File(String),
+}
+
+/// The largest number of vertices that a page plays with.
+pub const VERTICES_MAX: usize = 20_000;
+
+/// The largest number of cells a side of a sheet: its vertices are fewer than [`VERTICES_MAX`].
+pub const CELLS_MAX: u32 = 128;
+
+const SCENES: [(&str, fn(&Frame) -> Scene); 5] = [
+    ("rip", Scene::rip),
+    ("hang", Scene::hang),
+    ("flag", Scene::flag),
+    ("trouser", Scene::trouser),
+    ("fall", |frame| Scene::fall(frame.up)),
+];
+
+const METHODS: [(&str, fn() -> Method); 5] = [
+    ("verlet", || Method::Verlet),
+    ("xpbd", Method::xpbd),
+    ("pbd", Method::pbd),
+    ("provot", Method::provot),
+    ("implicit", Method::implicit),
+];
+
+const AXES: [(&str, Axis); 6] = [
+    ("x", Axis::X),
+    ("y", Axis::Y),
+    ("z", Axis::Z),
+    ("-x", Axis::X.opposite()),
+    ("-y", Axis::Y.opposite()),
+    ("-z", Axis::Z.opposite()),
+];
+
+impl Settings {
+    /// Returns the scene for a cloth in this frame, with the chosen method.
+    pub(crate) fn scene(&self, frame: &Frame) -> Scene {
+        let (_, scene) = find(&SCENES, self.scene).expect("the name of a scene");
+        let (_, method) = find(&METHODS, self.method).expect("the name of a method");
+        Scene {
+            solver: method(),
+            ..scene(frame)
+        }
+    }
+
+    /// Reads the cloth. `obj` is the content of its file, for one that has a file.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with the file, in words.
+    pub fn document(&self, obj: &[u8]) -> Result<Document, String> {
+        let sheet = match self.cloth {
+            ClothSource::Sheet(cells) => Some(sheet(cells)),
+            ClothSource::File(_) => None,
+        };
+        let bytes = sheet.as_ref().map_or(obj, |text| text.as_bytes());
+        let document = Document::read(bytes).map_err(|error| error.to_string())?;
+        match document.positions().len() {
+            0..=VERTICES_MAX => Ok(document),
+            given => Err(format!(
+                "the mesh has {given} vertices, and a page plays with at most {VERTICES_MAX}"
+            )),
+        }
+    }
+}
+
+/// A square of 1 m as an OBJ file. Diagonals alternate, so that it tears no more easily one way than the other.
+fn sheet(cells: u32) -> String {
+    let (mesh, positions) = shapes::grid_with_diagonals(cells, cells, |i, j| (i + j) % 2 == 0);
+    let mut text = "o sheet\n".to_owned();
+    let points = positions.as_slice();
+    text.extend(
+        points
+            .iter()
+            .map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)),
+    );
+    text.extend(points.iter().map(|p| format!("vt {} {}\n", p.x, p.y)));
+    for face in mesh.faces() {
+        let corners = mesh.face_vertices(face).map(|v| v.index() + 1);
+        let [a, b, c] = corners.map(|v| format!("{v}/{v}"));
+        text.push_str(&format!("f {a} {b} {c}\n"));
+    }
+    text
+}
+
+fn find<T: Copy>(table: &[(&'static str, T)], name: &str) -> Option<(&'static str, T)> {
+    table.iter().find(|(known, _)| *known == name).copied()
+}
+
+impl fmt::Display for Settings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.cloth {
+            ClothSource::Sheet(cells) => writeln!(f, "cloth sheet {cells}")?,
+            ClothSource::File(name) => writeln!(f, "cloth file {name}")?,
+        }
+        let up = AXES.iter().find(|(_, axis)| *axis == self.up);
+        let (up, _) = up.expect("six axes are all");
+        writeln!(f, "scene {}\nup {up}\nmethod {}", self.scene, self.method)?;
+        match self.threshold {
+            Some(ratio) => writeln!(f, "threshold {ratio}"),
+            None => writeln!(f, "threshold never"),
+        }
+    }
+}
+
+impl FromStr for Settings {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Settings, String> {
+        let mut lines = text.lines();
+        let mut value = |name: &str| {
+            let line = lines.next().unwrap_or_default();
+            let value = line.strip_prefix(name);
+            let value = value.and_then(|rest| rest.strip_prefix(' '));
+            value.ok_or_else(|| format!("expected `{name}` and its value, found `{line}`"))
+        };
+        let (cloth, scene) = (value("cloth")?, value("scene")?);
+        let (up, method, threshold) = (value("up")?, value("method")?, value("threshold")?);
+        let unknown = |what: &str, given: &str| format!("there is no {what} `{given}`");
+        let file = cloth.strip_prefix("file ");
+        let cells = cloth.strip_prefix("sheet ");
+        let cells = cells.and_then(|cells| cells.parse().ok());
+        let sheet = cells.filter(|cells| (1..=CELLS_MAX).contains(cells));
+        let cloth = match (file, sheet) {
+            (Some(name), _) => ClothSource::File(name.to_owned()),
+            (None, Some(cells)) => ClothSource::Sheet(cells),
+            (None, None) => return Err(unknown("cloth", cloth)),
+        };
+        let threshold = match threshold {
+            "never" => None,
+            ratio => Some(ratio.parse().map_err(|_| unknown("threshold", ratio))?),
+        };
+        Ok(Settings {
+            cloth,
+            scene: find(&SCENES, scene).ok_or(unknown("scene", scene))?.0,
+            up: find(&AXES, up).ok_or(unknown("direction", up))?.1,
+            method: find(&METHODS, method).ok_or(unknown("method", method))?.0,
+            threshold,
+        })
+    }
+}

@@ -1,0 +1,37 @@
+// The module in a browser: memory goes in and out by address and length. `draw` brings the arrays up to date;
+// they are views that the next verb makes void.
+class Cloth {
+  static async load(bytes) {
+    return new Cloth((await WebAssembly.instantiate(bytes)).instance.exports);
+  }
+  constructor(wasm) { this.wasm = wasm; }
+  block(number, Type = Uint8Array) {
+    const { address, length, memory } = this.wasm;
+    return new Type(memory.buffer, address(number), length(number) / Type.BYTES_PER_ELEMENT);
+  }
+  give(bytes) {
+    const at = this.wasm.room(bytes.length);
+    new Uint8Array(this.wasm.memory.buffer, at, bytes.length).set(bytes);
+  }
+  text() { return new TextDecoder().decode(this.block(6)); }
+  ask(answer) {
+    if (answer === 0 || answer === -1) throw new Error(this.text());
+    return answer;
+  }
+  file(bytes) { this.give(bytes); this.wasm.take_file(); }
+  start(settings) { this.give(new TextEncoder().encode(settings)); this.ask(this.wasm.start()); }
+  replay(log) { this.give(new TextEncoder().encode(log)); this.ask(this.wasm.replay()); }
+  get positions() { return this.block(0, Float32Array); }
+  get indices() { return this.block(1, Uint32Array); }
+  get pieces() { return this.block(2, Uint32Array); }
+  get edges() { return this.block(3); }
+  get held() { return this.block(4); }
+  get facts() {
+    const [vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, ...at] = this.block(5, Float64Array);
+    return { vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, at };
+  }
+  obj() { this.ask(this.wasm.obj()); return this.block(6).slice(); }
+  log() { this.ask(this.wasm.log()); return this.block(6).slice(); }
+  digest() { return BigInt.asUintN(64, this.wasm.digest()).toString(16).padStart(16, "0"); }
+}
+
