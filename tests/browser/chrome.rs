@@ -163,6 +163,15 @@ impl Chrome {
         self.value("new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))");
     }
 
+    /// Has files that a page saves go into a folder.
+    pub(crate) fn downloads_to(&mut self, folder: &Path) {
+        // It is the browser that is asked, not the page.
+        let session = self.session.take();
+        let into = json!({"behavior": "allow", "downloadPath": folder});
+        self.call("Browser.setDownloadBehavior", &into);
+        self.session = session;
+    }
+
     /// The size of the window.
     pub(crate) fn size(&mut self, width: u32, height: u32) {
         let size =
@@ -243,7 +252,11 @@ impl Chrome {
             if method == "Network.requestWillBeSent" {
                 let url = event["params"]["request"]["url"].as_str().expect("a URL");
                 let is_own = url.starts_with("file:///") && url.ends_with(".html");
-                assert!(is_own || url == "data:,", "{url}");
+                // What it saves is a blob of its own.
+                assert!(
+                    is_own || url == "data:," || url.starts_with("blob:"),
+                    "{url}"
+                );
             }
         }
     }

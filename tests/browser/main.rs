@@ -9,5 +9,6 @@ mod chrome;
 mod clicks;
 mod eye;
 mod folder;
+mod play;
 mod playing;
 mod screen;

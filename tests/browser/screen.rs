@@ -39,6 +39,12 @@ impl Screen {
             .collect()
     }
 
+    /// How many pixels differ from those of another picture of the same size.
+    pub(crate) fn apart_from(&self, other: &Screen) -> usize {
+        let pairs = self.pixels.iter().zip(&other.pixels);
+        pairs.filter(|(a, b)| a != b).count()
+    }
+
     /// How many colours there are.
     pub(crate) fn colors(&self) -> usize {
         self.pixels

@@ -199,13 +199,13 @@ extern "C" fn wind_of_scene() -> bool {
 
 /// Writes the OBJ file of the cloth into the block [`TEXT`].
 #[unsafe(no_mangle)]
-extern "C" fn obj() -> bool {
+extern "C" fn write_obj() -> bool {
     tell(|player| player.obj())
 }
 
 /// Writes the log into the block [`TEXT`].
 #[unsafe(no_mangle)]
-extern "C" fn log() -> bool {
+extern "C" fn write_log() -> bool {
     tell(|player| Ok(player.log().into_bytes()))
 }
 

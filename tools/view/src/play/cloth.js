@@ -30,8 +30,8 @@ class Cloth {
     const [vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, ...at] = this.block(5, Float64Array);
     return { vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, at };
   }
-  obj() { this.ask(this.wasm.obj()); return this.block(6).slice(); }
-  log() { this.ask(this.wasm.log()); return this.block(6).slice(); }
+  obj() { this.ask(this.wasm.write_obj()); return this.block(6).slice(); }
+  log() { this.ask(this.wasm.write_log()); return this.block(6).slice(); }
   digest() { return BigInt.asUintN(64, this.wasm.digest()).toString(16).padStart(16, "0"); }
 }
 

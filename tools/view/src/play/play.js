@@ -59,11 +59,13 @@ async function open() {
 
   // Shows a cloth that has just begun, or was replayed.
   function begin() {
+    say("");
     hands.clear();
     first = drawn = before = null;
     isStopped = false;
     topology = "";
     $("made").hidden = true;
+    $("hint").textContent = "Choose Cut, and draw a line through the cloth.";
     const raw = cloth.positions, all = boxOf(raw, cloth.indices);
     const side = Math.max(...sub(all.most, all.least)) || 1;
     lattice = { origin: all.least, side };
@@ -92,11 +94,13 @@ async function open() {
     fit();
   }
 
-  // Sees the cloth, and where it will go.
+  // Sees the cloth, and where it will go: a cloth that nothing holds, down to the floor.
   function fit() {
-    const room = times(sub(box.most, box.least), 0.12);
+    const room = times(sub(box.most, box.least), 0.12), down = times(camera.upright, facts.heldFirst ? 0 : -0.5);
+    const seen = { least: sub(box.least, room), most: add(box.most, room) };
+    down.forEach((x, axis) => { seen[x < 0 ? "least" : "most"][axis] += x; });
     camera.goHome();
-    camera.fit({ least: sub(box.least, room), most: add(box.most, room) });
+    camera.fit(seen);
   }
 
   // Takes over where the cloth is, and its faces once they are others.
@@ -216,7 +220,7 @@ async function open() {
 
   // ---- Frames
 
-  // How long the cloth took in the last frames with a step, in milliseconds, and when frames were shown.
+  // How long the cloth took for 1/60 s, in milliseconds, in each of the last frames; and when frames were shown.
   const slow = [], shown = [];
   let last = 0, cost = 0, passed = 0, wanted = 0, healed = 0;
 
@@ -246,7 +250,7 @@ async function open() {
     const took = performance.now() - begun;
     if (steps > 0) {
       cost = cost > 0 ? cost + 0.1 * (took / steps - cost) : took / steps;
-      slow.push(took);
+      slow.push(took / (60 * steps * facts.step));
       if (slow.length > 120) slow.shift();
     }
     refresh();
@@ -267,7 +271,7 @@ async function open() {
     document.body.dataset.median = quantile(slow, 0.5).toFixed(2);
     const isSlow = rate < 57 || p95 > FRAME_MS;
     const share = wanted > 0 ? Math.min(1, passed / wanted) : 1;
-    $("slow").textContent = isSlow && !isPaused ? `${Math.round(rate)} frames/s · p95 of the cloth ${p95.toFixed(1)} ms${share < 0.95 ? ` · time at × ${share.toFixed(2)}` : ""}` : "";
+    $("slow").textContent = isSlow && !isPaused ? `${Math.round(rate)} frames/s · p95 of the cloth for 1/60 s ${p95.toFixed(1)} ms${share < 0.95 ? ` · time at × ${share.toFixed(2)}` : ""}` : "";
     const rows = [
       ["time", `${facts.time.toFixed(2)} s`], ["vertices", facts.vertices], ["faces", facts.faces], ["pieces", facts.pieces],
       ["tears", facts.tears], ["pins", pins.length], ["step", `${short(facts.step * 1000)} ms`], ["size", `${short(lattice.side)} m`],
@@ -318,7 +322,6 @@ async function open() {
 
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
-    canvas.focus({ preventScroll: true });
     const pixel = at(event), isFirst = pointers.size + hands.size === 0;
     const button = event.button || (event.shiftKey || event.ctrlKey ? 2 : 0);
     if (button === 0 && mode === "hand" && !pointers.size && grab(event.pointerId, pixel)) return hold();
@@ -438,6 +441,8 @@ async function open() {
   }
   $("source").addEventListener("change", actions.reset);
   $("wind").addEventListener("change", blow);
+  // Keys are for the cloth again once something was chosen.
+  for (const one of document.querySelectorAll("select")) one.addEventListener("change", () => one.blur());
   const keys = { h: "hand", c: "cut", m: "mend", " ": "pause", r: "reset", f: "fit", e: "edges", t: "theme" };
   const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
   addEventListener("keydown", (event) => {

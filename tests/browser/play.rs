@@ -1,0 +1,531 @@
+//! The page that is played: a real mouse rips, cuts, mends and saves; fingers do so too; and what a person did
+//! is repeated to the bit, natively and in the browser.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+use tearmesh::{Point, Ray, Vector};
+use tearmesh_cli::Exit;
+use tearmesh_play::{Player, Settings};
+
+use crate::chrome::Chrome;
+use crate::folder::{Folder, done, typed};
+use crate::screen::is_seam;
+
+/// A page that is open, and the folder that it saves into.
+struct Played {
+    chrome: Chrome,
+    folder: Folder,
+}
+
+/// The middle of the stage, and its lower end.
+const MIDDLE: [f64; 2] = [340.0, 320.0];
+const BELOW: [f64; 2] = [340.0, 610.0];
+
+impl Played {
+    /// Opens a page that a command wrote; none without a browser.
+    fn open(options: &[&str]) -> Option<Played> {
+        let chrome = Chrome::start()?;
+        let mut played = Played {
+            chrome,
+            folder: Folder::new(),
+        };
+        let page = played.folder.name("play.html");
+        done(&[&["tearmesh", "play", "-o", &page], options].concat());
+        let saved = played.folder.path("");
+        played.chrome.downloads_to(&saved);
+        played.chrome.open(&played.folder.path("play.html"));
+        Some(played)
+    }
+
+    fn choose(&mut self, id: &str, value: &str) {
+        self.chrome.value(&format!(
+            "{id}.value = '{value}', {id}.dispatchEvent(new Event('change')), 0"
+        ));
+        self.chrome.drawn();
+    }
+
+    /// A number among the facts beside the cloth.
+    fn fact(&mut self, name: &str) -> f64 {
+        let text = format!(
+            "[...facts.children].find(e => e.textContent === '{name}')?.nextSibling.textContent"
+        );
+        let text = self.chrome.value(&text);
+        let text = text.as_str().unwrap_or_default();
+        let number = text.split_whitespace().next().unwrap_or_default();
+        number.parse().expect("a number among the facts")
+    }
+
+    /// Waits until a fact is what it is to be.
+    fn until(&mut self, name: &str, is_it: impl Fn(f64) -> bool) {
+        let begun = Instant::now();
+        loop {
+            std::thread::sleep(Duration::from_millis(50));
+            let is = self.fact(name);
+            if is_it(is) {
+                return;
+            }
+            let said = self.chrome.hidden_text("say");
+            let took = begun.elapsed();
+            assert!(took < Duration::from_secs(60), "{name} is {is}; {said}");
+        }
+    }
+
+    /// Lets simulated time pass.
+    fn pass(&mut self, seconds: f64) {
+        let until = self.fact("time") + seconds;
+        self.until("time", |time| time >= until);
+    }
+
+    /// Grabs the cloth with the mouse, drags it somewhere, and lets simulated time pass on the way.
+    fn pull(&mut self, from: [f64; 2], to: [f64; 2], seconds: f64) {
+        self.chrome.mouse("mouseMoved", from);
+        self.chrome.mouse("mousePressed", from);
+        for part in 1..=10 {
+            let part = f64::from(part) / 10.0;
+            let at = [0, 1].map(|i| from[i] + (to[i] - from[i]) * part);
+            self.chrome.mouse("mouseDragged", at);
+            self.pass(seconds / 10.0);
+        }
+    }
+
+    /// Presses a button that saves a file; its content.
+    fn saved(&mut self, button: &str, name: &str) -> Vec<u8> {
+        let path = self.folder.path(name);
+        drop(fs::remove_file(&path));
+        self.chrome.value(&format!("{button}.click()"));
+        let begun = Instant::now();
+        while !path.exists() {
+            let said = self.chrome.hidden_text("say");
+            let took = begun.elapsed();
+            assert!(
+                took < Duration::from_secs(20),
+                "{name} is not saved; {said}"
+            );
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        fs::read(path).expect("a saved file")
+    }
+
+    /// The digest of which the page speaks.
+    fn digest(&mut self) -> String {
+        let said = self.chrome.text("say");
+        let (_, digest) = said
+            .split_once("digest ")
+            .unwrap_or_else(|| panic!("{said}"));
+        digest.trim_end_matches('.').to_owned()
+    }
+
+    /// Has the page repeat a log, or take another file.
+    fn take(&mut self, path: &Path) {
+        let root = self.chrome.call("DOM.getDocument", &json!({}));
+        let query = json!({"nodeId": root["root"]["nodeId"], "selector": "#drop"});
+        let input = self.chrome.call("DOM.querySelector", &query);
+        let files = json!({"nodeId": input["nodeId"], "files": [path]});
+        self.chrome.call("DOM.setFileInputFiles", &files);
+        self.chrome.drawn();
+    }
+
+    /// Saves the log, and compares three times: as it was lived, repeated natively, repeated in the browser.
+    fn repeats(&mut self) {
+        self.chrome
+            .value("pause.textContent === 'Pause' && pause.click()");
+        self.chrome.drawn();
+        let log = self.saved("record", "sheet-32.log");
+        let digest = self.digest();
+        let obj = self.saved("save", "sheet-32-torn.obj");
+        let log = String::from_utf8(log).expect("a log is text");
+        let settings = Player::settings_of(&log).expect("settings");
+        let document = settings.document(&[]).expect("a sheet");
+        let native = Player::replayed(&document, &log).expect("a replay");
+        assert_eq!(format!("{:016x}", native.digest()), digest, "native");
+        assert!(native.obj().expect("a file") == obj, "the same file");
+        let path = self.folder.path("sheet-32.log");
+        self.take(&path);
+        let begun = Instant::now();
+        while !self.chrome.text("say").starts_with("Repeated") {
+            assert!(begun.elapsed() < Duration::from_secs(60), "it is repeated");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        assert_eq!(self.digest(), digest, "in the browser");
+        let again = self.saved("save", "sheet-32-torn.obj");
+        assert!(again == obj, "the same file, repeated");
+    }
+}
+
+/// What `tearmesh check` says of a file, which it finds good.
+fn checked(path: PathBuf) -> String {
+    let words = ["tearmesh", "check", &path.display().to_string()].map(str::to_owned);
+    let (exit, said) = typed(words);
+    assert_eq!(exit, Exit::Done, "{said}");
+    said
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn a_mouse_rips_and_mends_and_saves_what_checks() {
+    let Some(mut played) = Played::open(&[]) else {
+        return;
+    };
+    assert!(
+        played
+            .chrome
+            .text("holds")
+            .contains("highest 3 % along y: 33")
+    );
+    let size = [680.0, 640.0];
+    played.pass(0.1);
+    assert!(played.chrome.screen(size).places(is_seam).is_empty());
+    played.pull(MIDDLE, BELOW, 2.0);
+    let (tears, vertices) = (played.fact("tears"), played.fact("vertices"));
+    println!("ripped: {tears} tears, {vertices} vertices");
+    assert!(tears > 40.0 && vertices > 1120.0, "{tears} tears");
+    assert!(played.chrome.screen(size).places(is_seam).len() > 300);
+    played.chrome.mouse("mouseReleased", BELOW);
+    played.saved("save", "sheet-32-torn.obj");
+    let said = checked(played.folder.path("sheet-32-torn.obj"));
+    assert!(said.contains(" ok "), "{said}");
+    // The record has the tears: mended as a whole, it is the sheet again.
+    let [torn, whole] = ["sheet-32-torn.obj", "whole.obj"].map(|name| played.folder.name(name));
+    let words = ["tearmesh", "mend", &torn, "-o", &whole].map(str::to_owned);
+    let (exit, said) = typed(words);
+    assert_eq!(exit, Exit::Done, "{said}");
+    assert!(said.contains("1089"), "{said}");
+
+    played.chrome.press("mend");
+    played.until("pieces", |pieces| pieces == 1.0);
+    played.until("vertices", |vertices| vertices < 1100.0);
+    played.repeats();
+    played.chrome.was_quiet();
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn a_moving_flag_is_cut_as_the_line_says_and_then_ripped() {
+    let Some(mut played) = Played::open(&["--scene", "flag"]) else {
+        return;
+    };
+    played.pass(0.4);
+    played.chrome.press("cut");
+    // It is shown while it is drawn, and made when the button goes up, through the cloth as it is then.
+    played.chrome.drag([330.0, 60.0], [350.0, 620.0]);
+    assert!(played.chrome.text("say").starts_with("Cut: "));
+    played.until("pieces", |pieces| pieces >= 2.0);
+    // Two clicks do the same.
+    for at in [[180.0, 250.0], [260.0, 280.0]] {
+        played.chrome.click(at);
+    }
+    assert!(played.chrome.text("say").starts_with("Cut: "));
+    played.chrome.press("pause");
+    // The line, for the file before the cut, makes the file that the page has: of cuts while it is paused.
+    for at in [[200.0, 300.0], [280.0, 340.0]] {
+        played.chrome.click(at);
+    }
+    let line = played.chrome.text("line");
+    played.saved("before", "sheet-32-before.obj");
+    let obj = played.saved("save", "sheet-32-torn.obj");
+    let mut words = shlex::split(&line).expect("words that a shell understands");
+    for word in &mut words {
+        if word.ends_with(".obj") {
+            *word = played.folder.name(word);
+        }
+    }
+    let (exit, said) = typed(words);
+    assert_eq!(exit, Exit::Done, "{line}\n{said}");
+    let cut = fs::read(played.folder.path("sheet-32-cut.obj")).expect("a cut file");
+    assert!(cut == obj, "{line}\n{said}");
+    checked(played.folder.path("sheet-32-torn.obj"));
+
+    played.chrome.press("pause");
+    played.chrome.press("hand");
+    let before = played.fact("tears");
+    played.pull([240.0, 300.0], [640.0, 600.0], 1.5);
+    played.chrome.mouse("mouseReleased", [640.0, 600.0]);
+    assert!(played.fact("tears") > before, "the pull rips it");
+    played.repeats();
+    played.chrome.was_quiet();
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn fingers_pull_pin_and_turn() {
+    let Some(mut played) = Played::open(&[]) else {
+        return;
+    };
+    let touch = |chrome: &mut Chrome, kind: &str, points: &[[f64; 2]]| {
+        let points: Vec<_> = (1..)
+            .zip(points)
+            .map(|(id, [x, y])| json!({"x": x, "y": y, "id": id}))
+            .collect();
+        let touch = json!({"type": kind, "touchPoints": points});
+        chrome.call("Input.dispatchTouchEvent", &touch);
+    };
+    // Two fingers pull the cloth apart.
+    let at = |apart: f64| [[340.0 - apart, 350.0], [340.0 + apart, 350.0]];
+    touch(&mut played.chrome, "touchStart", &at(60.0));
+    for step in 0..10 {
+        touch(
+            &mut played.chrome,
+            "touchMove",
+            &at(60.0 + 28.0 * f64::from(step)),
+        );
+        played.pass(0.1);
+    }
+    assert!(played.fact("tears") > 10.0);
+    touch(&mut played.chrome, "touchEnd", &[]);
+    // One pins.
+    let pins = played.fact("pins");
+    played.chrome.value("reset.click()");
+    played.chrome.press("pin");
+    touch(&mut played.chrome, "touchStart", &[MIDDLE]);
+    touch(&mut played.chrome, "touchEnd", &[]);
+    played.until("pins", |now| now == 34.0);
+    println!("{pins} pins before");
+    // The key of the pointer's place unpins.
+    played.chrome.mouse("mouseMoved", MIDDLE);
+    let key = json!({"type": "keyDown", "key": "p", "text": "p"});
+    played.chrome.call("Input.dispatchKeyEvent", &key);
+    played.until("pins", |now| now == 33.0);
+    // Beside the cloth, one turns the view.
+    played.chrome.press("hand");
+    let before = played.chrome.screen([680.0, 560.0]);
+    played.chrome.drag([30.0, 400.0], [130.0, 440.0]);
+    let after = played.chrome.screen([680.0, 560.0]);
+    assert!(before.apart_from(&after) > 1000, "it turned");
+    played.chrome.was_quiet();
+}
+
+/// A hand and what it does, the same each time (Marsaglia's xorshift).
+struct Chance(u64);
+
+impl Chance {
+    fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+const SCENES: [&str; 5] = ["rip", "hang", "flag", "trouser", "fall"];
+
+#[test]
+#[ignore = "needs chromium"]
+fn every_scene_survives_whoever_plays_with_it() {
+    let Some(mut played) = Played::open(&[]) else {
+        return;
+    };
+    played.choose("source", "16");
+    for scene in SCENES {
+        for seed in 1..=3 {
+            let mut chance = Chance(2014 + seed);
+            let mut place = || [60.0 + 560.0 * chance.unit(), 60.0 + 560.0 * chance.unit()];
+            played.choose("held", scene);
+            played.pass(0.1);
+            for _ in 0..3 {
+                let (from, to) = (place(), place());
+                played.pull(from, to, 0.3);
+                played.chrome.mouse("mouseReleased", to);
+            }
+            played.chrome.press("cut");
+            played.chrome.drag(place(), place());
+            played.chrome.press("hand");
+            played.chrome.press("mend");
+            played.pass(0.3);
+            let said = played.chrome.hidden_text("say");
+            let words = ["The simulation", "error"];
+            let is_over = words.iter().any(|word| said.contains(word));
+            assert!(!is_over, "{scene}: {said}");
+            let obj = played.saved("save", "sheet-16-torn.obj");
+            assert!(!String::from_utf8_lossy(&obj).contains("NaN"), "{scene}");
+            checked(played.folder.path("sheet-16-torn.obj"));
+        }
+    }
+    played.chrome.was_quiet();
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn a_file_is_played_and_a_bad_one_changes_nothing() {
+    let folder = Folder::new();
+    folder.write("it's a flag.obj", "flag.obj", |p| p);
+    let flag = folder.name("it's a flag.obj");
+    let Some(mut played) = Played::open(&[&flag, "--scene", "hang"]) else {
+        return;
+    };
+    assert_eq!(played.chrome.text("title"), "it's a flag.obj");
+    played.pass(0.2);
+    fs::write(folder.path("bad.obj"), "v 0 0 0\nf 1 2 3\n").expect("a file");
+    played.take(&folder.path("bad.obj"));
+    played.chrome.drawn();
+    let said = played.chrome.text("say");
+    assert!(said.starts_with("bad.obj: line 2"), "{said}");
+    assert_eq!(played.chrome.text("title"), "it's a flag.obj");
+    played.pass(0.1);
+    played.chrome.press("cut");
+    played.chrome.drag([100.0, 300.0], [600.0, 340.0]);
+    let line = played.chrome.text("line");
+    assert!(line.contains("'it'\\''s a flag-before.obj'"), "{line}");
+    played.saved("save", "it's a flag-torn.obj");
+    let torn = played.folder.path("it's a flag-torn.obj");
+    checked(torn.clone());
+    // What was torn is played on, and keeps its record.
+    played.take(&torn);
+    played.until("pieces", |pieces| pieces >= 2.0);
+    // One vertex more than there may be.
+    let mut many = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned();
+    many.push_str(&"v 0 0 1\n".repeat(19_998));
+    fs::write(folder.path("many.obj"), many).expect("a file");
+    played.take(&folder.path("many.obj"));
+    let said = played.chrome.text("say");
+    assert!(said.contains("20001 vertices"), "{said}");
+    played.chrome.was_quiet();
+}
+
+/// The logs of what hands did natively give the same in the browser.
+#[test]
+#[ignore = "needs chromium"]
+fn logs_give_the_same_bytes_natively_and_in_the_browser() {
+    let Some(mut played) = Played::open(&[]) else {
+        return;
+    };
+    for (name, play) in LOGS {
+        let settings: Settings = play.0.parse().expect("settings");
+        let document = settings.document(&[]).expect("a sheet");
+        let mut player = Player::new(&document, settings).expect("a player");
+        play.1(&mut player);
+        let facts = player.facts();
+        println!("{name}: {} tears, {} sewn", facts.tears, facts.sewn);
+        let digest = format!("{:016x}", player.digest());
+        let path = played.folder.path(&format!("{name}.log"));
+        fs::write(&path, player.log()).expect("a written log");
+        played.take(&path);
+        let begun = Instant::now();
+        while !played
+            .chrome
+            .text("say")
+            .ends_with(&format!("digest {digest}."))
+        {
+            let said = played.chrome.text("say");
+            let took = begun.elapsed();
+            assert!(
+                took < Duration::from_secs(60),
+                "{name}: {said}, not {digest}"
+            );
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        let obj = played.saved("save", "sheet-32-torn.obj");
+        assert!(obj == player.obj().expect("a file"), "{name}");
+    }
+    played.chrome.was_quiet();
+}
+
+type Log = (&'static str, (&'static str, fn(&mut Player<'_>)));
+
+const LOGS: [Log; 3] = [
+    ("rip and heal", (HANGS, rip_and_heal)),
+    ("flag", (FLAG, cut_flag_and_rip)),
+    ("ten hands", (HANGS, ten_hands)),
+];
+const HANGS: &str = "cloth sheet 32\nscene rip\nup y\nmethod xpbd\nthreshold 1.5\n";
+const FLAG: &str = "cloth sheet 32\nscene flag\nup y\nmethod verlet\nthreshold 1.5\n";
+
+/// A ray from the viewer through a place of the sheet.
+fn ray(x: f64, y: f64) -> Ray {
+    Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray")
+}
+
+/// Leads hands along straight lines, frame by frame.
+fn lead(player: &mut Player<'_>, hands: &[(usize, [Point; 2])], frames: u32) {
+    for frame in 1..=frames {
+        let part = f64::from(frame) / f64::from(frames);
+        for (hand, [from, to]) in hands {
+            let at = from + (to - from) * part;
+            player.lead(*hand, at).expect("led");
+        }
+        player.advance(1.0 / 60.0, 10_000).expect("a frame");
+    }
+}
+
+fn rip_and_heal(player: &mut Player<'_>) {
+    player.advance(0.2, 10_000).expect("time");
+    let hand = player
+        .grab(&ray(0.5, 0.5))
+        .expect("grabbed")
+        .expect("a hand");
+    let way = [Point::new(0.5, 0.5, 0.0), Point::new(0.5, -0.9, 0.3)];
+    lead(player, &[(hand, way)], 100);
+    player.release(hand);
+    assert!(player.facts().tears > 40, "it rips");
+    assert!(player.heal() > 40);
+    lead(player, &[], 120);
+    assert!(player.facts().sewn > 0 || player.simulation().open_pairs() > 0);
+}
+
+fn cut_flag_and_rip(player: &mut Player<'_>) {
+    lead(player, &[], 24);
+    let splits = player.cut([ray(0.5, 2.0), ray(0.5, -1.0)], false);
+    assert!(splits.expect("a cut") > 20);
+    lead(player, &[], 12);
+    let hand = player
+        .grab(&ray(0.2, 0.5))
+        .expect("grabbed")
+        .expect("a hand");
+    let at = player.facts().grabbed_at;
+    let at = Point::from(at);
+    lead(
+        player,
+        &[(hand, [at, at + Vector::new(0.9, -0.6, 0.4)])],
+        40,
+    );
+    assert!(player.facts().tears > 10, "it rips");
+}
+
+fn ten_hands(player: &mut Player<'_>) {
+    let mut hands = Vec::new();
+    for i in 0..10 {
+        let (x, y) = (0.1 + 0.2 * f64::from(i % 5), 0.25 + 0.35 * f64::from(i / 5));
+        let hand = player.grab(&ray(x, y)).expect("grabbed").expect("a hand");
+        let at = Point::from(player.facts().grabbed_at);
+        let away = Vector::new(x - 0.5, y - 0.6, f64::from(i % 3) - 1.0);
+        hands.push((hand, [at, at + away * 1.2]));
+    }
+    lead(player, &hands, 50);
+    assert!(player.facts().tears > 40, "they rip it");
+    player.heal();
+    for (hand, _) in hands {
+        player.release(hand);
+    }
+    lead(player, &[], 60);
+}
+
+/// Not asserted, since a busy machine takes what it takes: printed for whoever measures.
+#[test]
+#[ignore = "needs chromium"]
+fn frame_times_are_printed() {
+    let Some(mut played) = Played::open(&[]) else {
+        return;
+    };
+    for (cells, method) in [
+        ("32", "verlet"),
+        ("32", "xpbd"),
+        ("64", "verlet"),
+        ("64", "xpbd"),
+    ] {
+        played.choose("method", method);
+        played.choose("source", cells);
+        played.chrome.value("fit.click()");
+        played.pull(MIDDLE, BELOW, 1.5);
+        let times = played
+            .chrome
+            .value("document.body.dataset.median + ' / ' + document.body.dataset.p95");
+        let tears = played.fact("tears");
+        println!(
+            "{cells} x {cells} cells, {method}: {times} ms median / p95 of 1/60 s, {tears} tears"
+        );
+        played.chrome.mouse("mouseReleased", BELOW);
+    }
+    played.chrome.was_quiet();
+}
