@@ -36,10 +36,15 @@ fn work(
     };
     let mut cloth = "a sheet of 1 m".to_owned();
     if let Some(input) = &args.input {
-        let input = Input::find(input, streams.input);
-        let input = input.map_err(|fault| Stop::new(Exit::Input, fault))?;
+        let input = Input::find(input, streams.input)?;
         let repair = session::repair(args.look.repair, args.look.separate_fans);
-        let opened = session::open(&input, repair, faults, &mut report::Timing::default())?;
+        let opened = session::open(
+            &input,
+            repair,
+            "or add",
+            faults,
+            &mut report::Timing::default(),
+        )?;
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
         cloth = [

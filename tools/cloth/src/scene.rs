@@ -71,8 +71,9 @@ pub struct SwayingWind {
 }
 
 impl SwayingWind {
-    /// The wind at `elapsed_s` seconds.
-    fn at(&self, elapsed_s: f64) -> Wind {
+    /// Returns the wind at `elapsed_s` seconds.
+    #[must_use]
+    pub fn at(&self, elapsed_s: f64) -> Wind {
         let phase = elapsed_s / self.period_s;
         let phase = phase - phase.floor();
         let triangle = if phase < 0.25 {

@@ -118,7 +118,7 @@ impl Frame {
 
     /// Returns the longer of width and height, in metres.
     #[must_use]
-    pub(crate) fn size_m(&self) -> f64 {
+    pub fn size_m(&self) -> f64 {
         self.extents_m[0].max(self.extents_m[1])
     }
 
@@ -139,7 +139,7 @@ impl Frame {
 
     /// Returns the point at these fractions of width, height and depth.
     #[must_use]
-    pub(crate) fn point(&self, parts: [f64; 3]) -> Point {
+    pub fn point(&self, parts: [f64; 3]) -> Point {
         let [across, along, depth] = [0, 1, 2].map(|i| parts[i] * self.extents_m[i]);
         self.corner
             + self.across.vector() * across

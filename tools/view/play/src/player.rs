@@ -422,7 +422,7 @@ impl Start {
 fn definition(scene: &Scene, settings: &Settings, frame: &Frame, is_loose: bool) -> SimulationDef {
     let gravity = scene.gravity_m_per_s2;
     let floor = || {
-        let below = frame.corner - frame.up.vector() * (0.5 * frame.size_m());
+        let below = frame.point([0.0; 3]) - frame.up.vector() * (0.5 * frame.size_m());
         Plane::new(below, frame.up.vector())
             .ok()
             .map(Collider::Plane)
