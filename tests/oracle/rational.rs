@@ -119,8 +119,8 @@ impl Sheet {
         // What was made here is on the line.
         let is_in_front = |v: usize| offsets.get(v).is_some_and(|offset| offset.sign().is_gt());
         let is_front = |face: [usize; 3]| face.into_iter().any(is_in_front);
-        for v in 0..offsets.len() {
-            if offsets[v].sign() != Ordering::Equal {
+        for (v, offset) in offsets.iter().enumerate() {
+            if offset.sign() != Ordering::Equal {
                 continue;
             }
             let at: Vec<usize> = (0..self.faces.len())

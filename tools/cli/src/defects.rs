@@ -20,7 +20,7 @@ const WIDTH: usize = 160;
 
 /// The first twenty defects; the last one says how many more there are, and which option would
 /// repair them all, if one does: "or add --repair", with `or` in front.
-pub(crate) fn faults(input: &Input, document: Document, error: MeshError, or: &str) -> Vec<Fault> {
+pub(crate) fn faults(input: &Input, document: Document, error: &MeshError, or: &str) -> Vec<Fault> {
     let lines_of = |defect| lines_of(defect, |face| document.line_of_triangle(face.index()));
     let shown = || error.error().defects().iter().zip(error.shown());
     let wanted = shown()

@@ -45,7 +45,10 @@ pub const VERTICES_MAX: usize = 20_000;
 /// The largest number of cells a side of a sheet: its vertices are fewer than [`VERTICES_MAX`].
 pub const CELLS_MAX: u32 = 128;
 
-const SCENES: [(&str, fn(&Frame) -> Scene); 5] = [
+/// A name, and what it is of.
+type Named<T> = (&'static str, T);
+
+const SCENES: [Named<fn(&Frame) -> Scene>; 5] = [
     ("rip", Scene::rip),
     ("hang", Scene::hang),
     ("flag", Scene::flag),
@@ -53,7 +56,7 @@ const SCENES: [(&str, fn(&Frame) -> Scene); 5] = [
     ("fall", |frame| Scene::fall(frame.up)),
 ];
 
-const METHODS: [(&str, fn() -> Method); 5] = [
+const METHODS: [Named<fn() -> Method>; 5] = [
     ("verlet", || Method::Verlet),
     ("xpbd", Method::xpbd),
     ("pbd", Method::pbd),
