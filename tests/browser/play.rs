@@ -156,7 +156,7 @@ impl Played {
 }
 
 /// What `tearmesh check` says of a file, which it finds good.
-fn checked(path: PathBuf) -> String {
+fn checked(path: &Path) -> String {
     let words = ["tearmesh", "check", &path.display().to_string()].map(str::to_owned);
     let (exit, said) = typed(words);
     assert_eq!(exit, Exit::Done, "{said}");
@@ -185,7 +185,7 @@ fn a_mouse_rips_and_mends_and_saves_what_checks() {
     assert!(played.chrome.screen(size).places(is_seam).len() > 300);
     played.chrome.mouse("mouseReleased", BELOW);
     played.saved("save", "sheet-32-torn.obj");
-    let said = checked(played.folder.path("sheet-32-torn.obj"));
+    let said = checked(&played.folder.path("sheet-32-torn.obj"));
     assert!(said.contains(" ok "), "{said}");
     // The record has the tears: mended as a whole, it is the sheet again.
     let [torn, whole] = ["sheet-32-torn.obj", "whole.obj"].map(|name| played.folder.name(name));
@@ -236,7 +236,7 @@ fn a_moving_flag_is_cut_as_the_line_says_and_then_ripped() {
     assert_eq!(exit, Exit::Done, "{line}\n{said}");
     let cut = fs::read(played.folder.path("sheet-32-cut.obj")).expect("a cut file");
     assert!(cut == obj, "{line}\n{said}");
-    checked(played.folder.path("sheet-32-torn.obj"));
+    checked(&played.folder.path("sheet-32-torn.obj"));
 
     played.chrome.press("pause");
     played.chrome.press("hand");
@@ -340,7 +340,7 @@ fn every_scene_survives_whoever_plays_with_it() {
             assert!(!is_over, "{scene}: {said}");
             let obj = played.saved("save", "sheet-16-torn.obj");
             assert!(!String::from_utf8_lossy(&obj).contains("NaN"), "{scene}");
-            checked(played.folder.path("sheet-16-torn.obj"));
+            checked(&played.folder.path("sheet-16-torn.obj"));
         }
     }
     played.chrome.was_quiet();
@@ -370,7 +370,7 @@ fn a_file_is_played_and_a_bad_one_changes_nothing() {
     assert!(line.contains("'it'\\''s a flag-before.obj'"), "{line}");
     played.saved("save", "it's a flag-torn.obj");
     let torn = played.folder.path("it's a flag-torn.obj");
-    checked(torn.clone());
+    checked(&torn);
     // What was torn is played on, and keeps its record.
     played.take(&torn);
     played.until("pieces", |pieces| pieces >= 2.0);

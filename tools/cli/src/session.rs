@@ -359,7 +359,7 @@ pub(crate) fn open(
         Err(error) => {
             return Err(Stop {
                 exit: Exit::Input,
-                faults: defects::faults(input, document, error, or),
+                faults: defects::faults(input, document, &error, or),
             });
         }
     };

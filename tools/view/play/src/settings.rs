@@ -45,10 +45,13 @@ pub const VERTICES_MAX: usize = 20_000;
 /// The largest number of cells a side of a sheet: its vertices are fewer than [`VERTICES_MAX`].
 pub const CELLS_MAX: u32 = 128;
 
+/// Makes a scene for a mesh with this frame.
+type Preset = fn(&Frame) -> Scene;
+
 /// A name, and what it is of.
 type Named<T> = (&'static str, T);
 
-const SCENES: [Named<fn(&Frame) -> Scene>; 5] = [
+const SCENES: [Named<Preset>; 5] = [
     ("rip", Scene::rip),
     ("hang", Scene::hang),
     ("flag", Scene::flag),
