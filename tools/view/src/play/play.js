@@ -78,7 +78,7 @@ async function open() {
     $("holds").textContent = held + (side > 20 ? ` It is ${short(side)} m long: is the file in millimetres?` : "");
     if ($("wind").value !== "scene") blow();
     slow.length = 0;
-    cost = 0;
+    cost = told = 0;
   }
 
   // Looks at the broad side, a little from the side and from above.
