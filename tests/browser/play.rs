@@ -2,7 +2,7 @@
 //! is repeated to the bit, natively and in the browser.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
