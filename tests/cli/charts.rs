@@ -36,7 +36,7 @@ fn column<'a>(table: &'a [Vec<String>], name: &str) -> Vec<&'a str> {
 fn without_origin<'a>(chart: &'a str, command: &str) -> Vec<&'a str> {
     let is_origin = |line: &&str| line.contains(&format!(">{command} · version "));
     let lines: Vec<&str> = chart.lines().collect();
-    let origin = lines.iter().position(|line| is_origin(line));
+    let origin = lines.iter().position(is_origin);
     lines[1..origin.expect("words on its origin")].to_vec()
 }
 
