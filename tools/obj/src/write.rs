@@ -119,7 +119,7 @@ impl TornDocument<'_> {
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
-        let prepared = Prepared::new(self, mesh, self.apart(positions));
+        let prepared = Prepared::new(self, mesh, None, self.apart(positions));
         write(self, &prepared, positions, out)
     }
 
@@ -132,7 +132,7 @@ impl TornDocument<'_> {
     /// If `mesh` is not the mesh whose log was followed to its end.
     #[must_use]
     pub fn statements_in_order(&self, mesh: &Mesh) -> Vec<VertexId> {
-        let prepared = Prepared::new(self, mesh, Vec::new());
+        let prepared = Prepared::new(self, mesh, None, Vec::new());
         let elements = prepared.orders[0].in_order().into_iter();
         let vertices = elements.map(|element| prepared.vertex(element));
         vertices.filter_map(VertexId::new).collect()
@@ -342,6 +342,9 @@ impl<W: Write> Writer<'_, W> {
         match which {
             VERTICES => {
                 let vertex = self.prepared.vertex(element);
+                if let Some(numbers) = self.prepared.put_back(vertex) {
+                    return self.out.statement(b"v", numbers, &[]);
+                }
                 let at = self.prepared.shown(vertex);
                 let at = at.unwrap_or(self.positions.as_slice()[vertex]);
                 let extras = torn.extra_numbers(vertex);
@@ -379,22 +382,22 @@ impl<W: Write> Writer<'_, W> {
         let (document, prepared, torn) = (self.document, self.prepared, self.torn);
         let faces = prepared.slots.of(document.polygons.triangles(polygon));
         let faces = &prepared.slots.faces[faces];
-        if torn.is_undivided() {
+        if torn.is_undivided() && prepared.removes_nothing() {
             for corner in document.polygons.corners(polygon) {
                 let corner = document.polygons.corner(corner);
                 self.write_indices([corner.texture, corner.normal])?;
             }
         } else {
-            for h in faces.iter().flat_map(|&face| half_edges(face)) {
-                self.write_indices(torn.corner(h as usize, polygon))?;
+            for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
+                self.write_indices(prepared.corner(h, torn.corner_of(h as usize)))?;
             }
         }
-        for h in faces.iter().flat_map(|&face| half_edges(face)) {
+        for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
             let vertex = prepared.separated.indices[h as usize];
             self.write_until(VERTICES, prepared.orders[VERTICES].number(vertex))?;
         }
         for &face in faces {
-            self.write_triangle(half_edges(face), polygon)?;
+            self.write_triangle(prepared.half_edges(face), polygon)?;
         }
         Ok(())
     }
@@ -417,7 +420,7 @@ impl<W: Write> Writer<'_, W> {
             let vertex = prepared.separated.indices[h as usize];
             let vertex = prepared.orders[VERTICES].number(vertex);
             self.hash.add_corner(vertex);
-            let [texture, normal] = self.torn.corner(h as usize, polygon);
+            let [texture, normal] = prepared.corner(h, self.torn.corner(h as usize, polygon));
             out.push(b' ');
             write_integer(out, u64::from(vertex) + 1);
             if texture.is_some() || normal.is_some() {
@@ -434,10 +437,6 @@ impl<W: Write> Writer<'_, W> {
         out.push(b'\n');
         self.out.flush_if_full()
     }
-}
-
-fn half_edges(face: u32) -> [u32; 3] {
-    [3 * face, 3 * face + 1, 3 * face + 2]
 }
 
 /// How many bytes of the text after a run belong to its last statement.
