@@ -26,6 +26,7 @@ mod pages;
 mod pictures;
 mod pieces;
 mod places;
+mod play;
 mod shell;
 mod step;
 mod tear;

@@ -6,6 +6,7 @@
 //! * [`scenes`]: every key of a scene file.
 //! * [`batches`]: process many files at once with GNU parallel.
 //! * [`charts`]: which method for what, by experiment.
+//! * [`play`]: play with a cloth by hand, and use its module in another page.
 //! * [`blender`]: play a simulation in Blender.
 //!
 //! The guide of the crate `tearmesh` says what a version number promises, how the project compares
@@ -29,6 +30,9 @@ pub mod batches {}
 
 #[doc = include_str!("guide/charts.md")]
 pub mod charts {}
+
+#[doc = include_str!("guide/play.md")]
+pub mod play {}
 
 #[doc = include_str!("guide/blender.md")]
 pub mod blender {}

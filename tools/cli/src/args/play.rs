@@ -13,7 +13,7 @@ Examples:
   tearmesh play flag.obj --scene flag -o play.html
       a flag in the wind, to be cut while it waves";
 
-/// Play with a cloth on a page for a browser: grab it, rip it, cut it and mend it by hand.
+/// Make a page on which a cloth is grabbed, ripped, cut and mended.
 ///
 /// The page is one HTML file that needs no network: the simulation runs in it. It takes other OBJ files by drag
 /// and drop, and saves what became of the cloth, with the record of its tears and cuts.
