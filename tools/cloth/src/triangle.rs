@@ -52,14 +52,6 @@ impl Triangle {
     ///
     /// Returns `None` if the corners span no area, a stiffness is negative, or a number is not
     /// finite.
-    ///
-    /// ```
-    /// use tearmesh_cloth::Triangle;
-    ///
-    /// let triangle = Triangle::new([0, 1, 2], [[0., 0.], [2., 0.], [0., 1.]], [10., 10., 1.]);
-    /// assert_eq!(triangle.unwrap().area, 1.0);
-    /// assert_eq!(Triangle::new([0, 1, 2], [[0., 0.], [1., 1.], [2., 2.]], [1.; 3]), None);
-    /// ```
     #[must_use]
     pub(crate) fn new(
         vertices: [u32; 3],
