@@ -45,14 +45,8 @@ fn a_page_is_written_and_no_other_file_is_replaced() {
 fn a_mesh_that_is_too_large_or_empty_is_refused_with_its_number() {
     let folder = Folder::new();
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    folder.write(
-        "most.obj",
-        &[triangle, &"v 0 0 1\n".repeat(19_997)].concat(),
-    );
-    folder.write(
-        "many.obj",
-        &[triangle, &"v 0 0 1\n".repeat(19_998)].concat(),
-    );
+    folder.write("most.obj", [triangle, &"v 0 0 1\n".repeat(19_997)].concat());
+    folder.write("many.obj", [triangle, &"v 0 0 1\n".repeat(19_998)].concat());
     folder.write("none.obj", "v 0 0 0\n");
     let most = folder.run("tearmesh play most.obj -o most.html");
     assert_eq!(most.status.code(), Some(0), "{}", seen(&most));
