@@ -34,7 +34,6 @@
 //! });
 //! assert_eq!((world.mesh.vertex_count(), refused), (11, 0)); // 9 + 1 + 1 + 1 - 1
 //!
-//! assert_eq!(Script::from_bytes(&script.to_bytes()), script);
 //! assert_eq!(script.to_string().parse(), Ok(script));
 //! # Ok::<(), tearmesh::script::ScriptError>(())
 //! ```

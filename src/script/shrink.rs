@@ -1,8 +1,5 @@
 //! The smallest script that still fails.
 
-use std::ops::RangeInclusive;
-
-use super::grammar::{Choice, Parts};
 use super::{Script, Shape};
 
 impl Script {
@@ -101,101 +98,52 @@ fn simplify(least: &mut Script, fails: &mut impl FnMut(&Script) -> bool) -> bool
             any = true;
         }
     }
-    any |= first_that_fails(least, &mut fails_smaller, |script, parts| {
-        script.shape.parts(parts);
-    });
-    for i in 0..least.operations.len() {
-        any |= first_that_fails(least, fails, |script, parts| {
-            script.operations[i].parts(parts);
-        });
+    any |= simplify_line(least, 0, &mut fails_smaller);
+    for line in 1..=least.operations.len() {
+        any |= simplify_line(least, line, fails);
     }
     any
 }
 
-/// Makes the first simplification with which the script still fails, again and again.
-fn first_that_fails(
-    least: &mut Script,
-    fails: &mut impl FnMut(&Script) -> bool,
-    visit: impl Fn(&mut Script, &mut Simplifier),
-) -> bool {
+/// Makes the first simplification of a line with which the script still fails, again and again.
+fn simplify_line(least: &mut Script, line: usize, fails: &mut impl FnMut(&Script) -> bool) -> bool {
     let mut any = false;
-    let mut number = 0;
     loop {
-        let mut simpler = least.clone();
-        let mut parts = Simplifier { left: Some(number) };
-        visit(&mut simpler, &mut parts);
-        if parts.left.is_some() {
-            return any;
-        }
-        number += 1;
-        if fails(&simpler) {
-            *least = simpler;
-            (any, number) = (true, 0);
-        }
-    }
-}
-
-/// Makes one of the simplifications of the parts that it visits.
-struct Simplifier {
-    /// How many come before the one that it makes; none once that is made.
-    left: Option<usize>,
-}
-
-impl Simplifier {
-    /// Which of this many simplifications of a part is to be made, if any.
-    fn takes(&mut self, count: usize) -> Option<usize> {
-        let left = self.left?;
-        self.left = left.checked_sub(count);
-        self.left.is_none().then_some(left)
-    }
-}
-
-impl Parts for Simplifier {
-    /// From the least on: enough that one of them is, modulo what a small mesh has, the same. Weights and
-    /// directions, which may be below zero, stay.
-    fn number(&mut self, number: i128, limits: RangeInclusive<i128>, _: usize) -> i128 {
-        let least = *limits.start();
-        let below = if least < 0 {
-            0
-        } else {
-            (number - least).clamp(0, 64)
+        let text = least.to_string();
+        let lines: Vec<&str> = text.lines().collect();
+        let with = |simpler: String| {
+            let script = [&lines[..line], &[&simpler], &lines[line + 1..]].concat();
+            script.join("\n").parse::<Script>().ok()
         };
-        let taken = self.takes(below as usize);
-        taken.map_or(number, |taken| least + taken as i128)
-    }
-
-    /// With one bit less.
-    fn bits(&mut self, bits: i128, _: usize) -> i128 {
-        let mut set = (0..64).filter(|bit| bits >> bit & 1 == 1);
-        let taken = self.takes(bits.count_ones() as usize);
-        let bit = taken.and_then(|taken| set.nth(taken));
-        bit.map_or(bits, |bit| bits & !(1 << bit))
-    }
-
-    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
-        let may_go = *chosen > 0 && !choice.words.is_empty();
-        if self.takes(usize::from(may_go)).is_some() {
-            *chosen = 0;
-        }
-    }
-
-    /// Without what comes more, and with one item less.
-    fn list<T: Clone>(
-        &mut self,
-        list: &mut Vec<T>,
-        _: usize,
-        _: T,
-        more: Option<(&'static str, &mut bool)>,
-        item: impl Fn(&mut Self, &mut T),
-    ) {
-        if let Some((_, is_more)) = more
-            && self.takes(usize::from(*is_more)).is_some()
-        {
-            *is_more = false;
-        }
-        if let Some(taken) = self.takes(list.len()) {
-            list.remove(taken);
-        }
-        list.iter_mut().for_each(|it| item(self, it));
+        let mut simpler = simpler(lines[line]).into_iter().filter_map(with);
+        let Some(script) = simpler.find(|script| fails(script)) else {
+            return any;
+        };
+        (*least, any) = (script, true);
     }
 }
+
+/// What may be a simpler line: without a few words, with a number from the least on, or with one bit
+/// less. Numbers are taken modulo what there is, so that beyond 64 a small mesh has nothing else.
+fn simpler(line: &str) -> Vec<String> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let mut simpler = Vec::new();
+    for at in 1..words.len() {
+        let mut with = |word: &str, end: usize| {
+            let line = [&words[..at], &[word], &words[end..]].concat();
+            simpler.push(line.join(" "));
+        };
+        (at + 1..=words.len().min(at + LONGEST)).for_each(|end| with("", end));
+        if let Some(bits) = words[at].strip_prefix("0b") {
+            for (bit, _) in bits.match_indices('1') {
+                with(&format!("0b{}0{}", &bits[..bit], &bits[bit + 1..]), at + 1);
+            }
+        } else if let Ok(number) = words[at].parse::<u64>() {
+            (0..number.min(64)).for_each(|less| with(&less.to_string(), at + 1));
+        }
+    }
+    simpler
+}
+
+/// The most words of a part that may be missing: those of a spot in a face.
+const LONGEST: usize = 5;

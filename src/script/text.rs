@@ -23,93 +23,125 @@
 //! Whole numbers may be decimal, `0x…` or `0b…`. What follows a `#` is a comment.
 
 use std::fmt;
-use std::mem::discriminant;
 use std::ops::RangeInclusive;
 use std::str::{FromStr, SplitWhitespace};
 
-use super::grammar::{Choice, Parts};
-use super::{Operation, Script, Shape};
+use super::grammar::{Odds, Source};
+use super::{Fault, Operation, Script, Shape, Spot};
+use crate::scissor::CutTips;
 
 impl fmt::Display for Script {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.shape)?;
-        for operation in &self.operations {
-            writeln!(f, "{operation}")?;
-        }
-        Ok(())
+        self.operations
+            .iter()
+            .try_for_each(|it| writeln!(f, "{it}"))
     }
 }
 
 impl fmt::Display for Shape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let blanks = Shape::blanks();
-        let name = match self {
-            Shape::Fan { closed: false, .. } => "open-fan",
-            _ => name_of(self, blanks.iter().map(|(name, blank)| (*name, blank))),
-        };
-        let mut words = Writer(name.into());
-        self.clone().parts(&mut words);
-        f.write_str(&words.0)
+        match self {
+            Shape::Grid {
+                columns,
+                rows,
+                rising,
+            } => write!(f, "grid {columns} {rows} {rising:#b}"),
+            Shape::Fan { faces, closed } => {
+                let open = if *closed { "" } else { "open-" };
+                write!(f, "{open}fan {faces}")
+            }
+            Shape::Saddle => f.write_str("saddle"),
+            Shape::Tube { around, along } => write!(f, "tube {around} {along}"),
+            Shape::Torus { around, across } => write!(f, "torus {around} {across}"),
+            Shape::Tetrahedron { subdivisions } => write!(f, "tetrahedron {subdivisions}"),
+            Shape::Octahedron { subdivisions } => write!(f, "octahedron {subdivisions}"),
+            Shape::Grown(moves) => {
+                f.write_str("grown")?;
+                numbers(f, moves)
+            }
+            Shape::Glued { faces, sides } => {
+                write!(f, "glued {faces}")?;
+                numbers(f, sides.as_flattened())
+            }
+        }
     }
 }
 
 impl fmt::Display for Operation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let blanks = Operation::blanks();
-        let name = name_of(self, blanks.iter().map(|(name, _, blank)| (*name, blank)));
-        let mut words = Writer(name.into());
-        self.clone().parts(&mut words);
-        f.write_str(&words.0)
-    }
-}
-
-fn name_of<'b, T: 'b>(
-    it: &T,
-    mut blanks: impl Iterator<Item = (&'static str, &'b T)>,
-) -> &'static str {
-    let blank = blanks.find(|(_, blank)| discriminant(*blank) == discriminant(it));
-    blank.expect("every kind has a blank").0
-}
-
-/// A line that is written.
-struct Writer(String);
-
-impl Writer {
-    fn word(&mut self, word: &str) {
-        self.0 += " ";
-        self.0 += word;
-    }
-}
-
-impl Parts for Writer {
-    fn number(&mut self, number: i128, _: RangeInclusive<i128>, _: usize) -> i128 {
-        self.word(&number.to_string());
-        number
-    }
-
-    fn bits(&mut self, bits: i128, _: usize) -> i128 {
-        self.word(&format!("{bits:#b}"));
-        bits
-    }
-
-    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
-        let word = choice.words.get(*chosen).filter(|word| !word.is_empty());
-        word.into_iter().for_each(|word| self.word(word));
-    }
-
-    fn list<T: Clone>(
-        &mut self,
-        list: &mut Vec<T>,
-        _: usize,
-        _: T,
-        more: Option<(&'static str, &mut bool)>,
-        item: impl Fn(&mut Self, &mut T),
-    ) {
-        list.iter_mut().for_each(|it| item(self, it));
-        if let Some((word, true)) = more.map(|(word, is_more)| (word, *is_more)) {
-            self.word(word);
+        let any = |any: &bool| if *any { " any" } else { "" };
+        match self {
+            Operation::Split {
+                vertex,
+                mask,
+                fault,
+            } => {
+                write!(f, "split {vertex} {mask:#b}")?;
+                match fault {
+                    Fault::None => Ok(()),
+                    Fault::Repeated(face) => write!(f, " repeated {face}"),
+                    Fault::Foreign(face) => write!(f, " foreign {face}"),
+                }
+            }
+            Operation::Plane { vertex, normal } => {
+                write!(f, "plane {vertex}")?;
+                numbers(f, normal)
+            }
+            Operation::Cut {
+                through,
+                tips,
+                rays,
+            } => {
+                f.write_str(if *through { "cut through" } else { "cut" })?;
+                f.write_str(match tips {
+                    CutTips::Vertex => "",
+                    CutTips::Midpoint => " midpoint",
+                })?;
+                numbers(f, rays.as_flattened().as_flattened())
+            }
+            Operation::Insert {
+                half_edge,
+                spots,
+                chord,
+            } => {
+                write!(f, "insert {half_edge}")?;
+                for spot in spots {
+                    match spot {
+                        Spot::Edge { offset, part } => write!(f, " edge {offset} {part}")?,
+                        Spot::Face { offset, weights } => {
+                            write!(f, " face {offset}")?;
+                            numbers(f, weights)?;
+                        }
+                    }
+                }
+                let mut chord = chord.iter();
+                chord.try_for_each(|[one, other]| write!(f, " chord {one} {other}"))
+            }
+            Operation::Merge {
+                vertex,
+                other,
+                any: is_any,
+                weights,
+            } => {
+                write!(f, "merge{} {vertex} {other}", any(is_any))?;
+                numbers(f, weights)
+            }
+            Operation::Slide {
+                vertex,
+                toward,
+                any: is_any,
+                part,
+            } => write!(f, "slide{} {vertex} {toward} {part}", any(is_any)),
+            Operation::Sew { mask } => write!(f, "sew {mask:#b}"),
+            Operation::Tear => f.write_str("tear"),
+            Operation::Clear => f.write_str("clear"),
         }
     }
+}
+
+fn numbers<N: fmt::Display>(f: &mut fmt::Formatter<'_>, numbers: &[N]) -> fmt::Result {
+    numbers.iter().try_for_each(|number| write!(f, " {number}"))
 }
 
 /// A word in the text of a script that could not be parsed.
@@ -147,30 +179,24 @@ impl FromStr for Script {
         let mut shape = None;
         let mut operations = Vec::new();
         let mut end = 0;
-        for (i, line) in text.lines().enumerate() {
-            end = i + 1;
+        for line in text.lines() {
+            end += 1;
             let words = line.split('#').next().unwrap_or("").split_whitespace();
             let mut line = Line { words, error: None };
             let Some(first) = line.words.next() else {
                 continue;
             };
             if shape.is_none() {
-                let mut blanks = Shape::blanks().into_iter();
-                match blanks.find(|&(name, _)| name == first) {
-                    Some((_, blank)) => shape.insert(blank).parts(&mut line),
-                    None => line.refuse(first, "a shape"),
+                shape = Shape::read(first, &mut line);
+                if shape.is_none() {
+                    line.refuse(first, "a shape");
                 }
-            } else if operations.len() < Script::OPERATIONS_MAX {
-                let mut blanks = Operation::blanks().into_iter();
-                match blanks.find(|&(name, ..)| name == first) {
-                    Some((.., mut operation)) => {
-                        operation.parts(&mut line);
-                        operations.push(operation);
-                    }
-                    None => line.refuse(first, "an operation"),
-                }
-            } else {
+            } else if operations.len() == Script::OPERATIONS_MAX {
                 line.refuse(first, "the end, after the largest number of operations,");
+            } else if let Some(operation) = Operation::read(first, &mut line) {
+                operations.push(operation);
+            } else {
+                line.refuse(first, "an operation");
             }
             if let Some(word) = line.words.next() {
                 line.refuse(word, "the end of the line");
@@ -216,8 +242,8 @@ impl Line<'_> {
     }
 }
 
-impl Parts for Line<'_> {
-    fn number(&mut self, _: i128, limits: RangeInclusive<i128>, _: usize) -> i128 {
+impl Source for Line<'_> {
+    fn number(&mut self, limits: RangeInclusive<i128>, _: usize) -> i128 {
         let word = self.words.next().unwrap_or("");
         let number = match (word.strip_prefix("0x"), word.strip_prefix("0b")) {
             (Some(digits), _) => i128::from_str_radix(digits, 16),
@@ -234,41 +260,38 @@ impl Parts for Line<'_> {
         }
     }
 
-    fn bits(&mut self, bits: i128, bytes: usize) -> i128 {
-        self.number(bits, 0..=(1 << (8 * bytes)) - 1, bytes)
+    fn bits(&mut self, bytes: usize) -> u64 {
+        self.number(0..=(1 << (8 * bytes)) - 1, bytes) as u64
     }
 
-    fn choice(&mut self, chosen: &mut usize, choice: &Choice) {
+    fn choice(&mut self, words: &[&str], _: &Odds, named: usize) -> usize {
         // The longest first.
-        let words = choice.words.iter().enumerate().rev();
-        let mut words = words.filter(|(_, word)| !word.is_empty());
-        match words.find(|(_, word)| self.takes(word)) {
-            Some((index, _)) => *chosen = index,
-            None if choice.words.first().is_none_or(|word| word.is_empty()) => {}
+        let mut choices = words.iter().enumerate().rev();
+        match choices.find(|(_, word)| !word.is_empty() && self.takes(word)) {
+            Some((index, _)) => index,
+            None if words[0].is_empty() => named,
             None => {
                 let word = self.words.next().unwrap_or("").to_owned();
-                self.refuse(&word, &choice.words.join(" or "));
+                self.refuse(&word, &words.join(" or "));
+                named
             }
         }
     }
 
-    fn list<T: Clone>(
+    fn list<T>(
         &mut self,
-        list: &mut Vec<T>,
         most: usize,
-        blank: T,
-        more: Option<(&'static str, &mut bool)>,
-        item: impl Fn(&mut Self, &mut T),
-    ) {
-        let word = more.as_ref().map(|&(word, _)| word);
-        let next = |line: &Self| line.words.clone().next();
-        while list.len() < most && next(self).is_some() && next(self) != word {
-            let mut it = blank.clone();
-            item(self, &mut it);
-            list.push(it);
+        end: Option<&str>,
+        item: impl Fn(&mut Self) -> T,
+    ) -> (Vec<T>, bool) {
+        let mut items = Vec::new();
+        while items.len() < most {
+            let next = self.words.clone().next();
+            if next.is_none() || next == end {
+                break;
+            }
+            items.push(item(self));
         }
-        if let Some((word, is_more)) = more {
-            *is_more = self.takes(word);
-        }
+        (items, end.is_some_and(|end| self.takes(end)))
     }
 }
