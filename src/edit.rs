@@ -31,6 +31,7 @@ pub use record::{
 };
 
 use crate::id::{HalfEdgeId, VertexId};
+use crate::mesh::MeshSize;
 
 /// The log of the edits of a mesh.
 ///
@@ -55,12 +56,6 @@ pub struct Edits {
     links: Vec<TornLink>,
     points: Vec<InsertedPoint>,
     children: Vec<ChildFace>,
-    /// What few records have: the rest of insertions, merges and slides.
-    inserts: Vec<InsertEnds>,
-    merges: Vec<MergeRest>,
-    slides: Vec<SlideRest>,
-    /// How many faces the mesh had after the last record, once that is known.
-    faces: Option<u32>,
 }
 
 /// What was done, and where the record's lists end; they start where those of the record
@@ -68,69 +63,42 @@ pub struct Edits {
 #[derive(Clone, Copy, Debug)]
 struct Record {
     kind: Kind,
-    corners_end: usize,
-    links_end: usize,
+    ends: Ends,
     /// Of the mesh before this record.
     size: MeshSize,
     /// That of the cursor after this record.
     hash: u64,
 }
 
-/// How many vertices and faces a mesh has. A log that begins with a merge does not know the faces.
 #[derive(Clone, Copy, Debug, Default)]
-struct MeshSize {
-    vertices: u32,
-    faces: Option<u32>,
+struct Ends {
+    corners: usize,
+    links: usize,
+    points: usize,
+    children: usize,
 }
 
+/// What was done, without the lists.
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+pub(crate) enum Kind {
     Split {
         old: VertexId,
         new: VertexId,
     },
-    /// An index into `inserts`.
-    Insert(u32),
-    /// An index into `merges`.
-    Merge(u32),
-    /// An index into `slides`.
-    Slide(u32),
-}
-
-#[derive(Clone, Copy, Debug)]
-struct InsertEnds {
-    points_end: usize,
-    children_end: usize,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct MergeRest {
-    kept: VertexId,
-    gone: VertexId,
-    share: f64,
-    /// The vertex that took the id of `gone`, and where its corners start.
-    renumbered: Option<(VertexId, usize)>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct SlideRest {
-    vertex: VertexId,
-    toward: VertexId,
-    t: f64,
-    along: [Option<[HalfEdgeId; 2]>; 2],
-}
-
-impl MeshSize {
-    fn new(vertices: usize, faces: usize) -> MeshSize {
-        MeshSize {
-            vertices: vertices as u32,
-            faces: Some(faces as u32),
-        }
-    }
-
-    fn corners(self) -> Option<u32> {
-        self.faces.map(|faces| 3 * faces)
-    }
+    Insert,
+    Merge {
+        kept: VertexId,
+        gone: VertexId,
+        share: f64,
+        /// The vertex that took the id of `gone`. Its corners were noted last, from that index on.
+        renumbered: Option<(VertexId, usize)>,
+    },
+    Slide {
+        vertex: VertexId,
+        toward: VertexId,
+        t: f64,
+        along: [Option<[HalfEdgeId; 2]>; 2],
+    },
 }
 
 impl Edits {
@@ -265,7 +233,7 @@ impl Edits {
         self.replay_list(
             seen,
             values,
-            |size| Some(size.vertices),
+            |size| size.vertices,
             |edit, values| {
                 edit.vertex_ops().for_each(|op| op.apply(values, &mut mix));
             },
@@ -287,9 +255,14 @@ impl Edits {
         values: &mut Vec<T>,
         mut mix: impl FnMut(Mix<&T>) -> T,
     ) {
-        self.replay_list(seen, values, MeshSize::corners, |edit, values| {
-            edit.corner_ops().for_each(|op| op.apply(values, &mut mix));
-        });
+        self.replay_list(
+            seen,
+            values,
+            |size| 3 * size.faces,
+            |edit, values| {
+                edit.corner_ops().for_each(|op| op.apply(values, &mut mix));
+            },
+        );
     }
 
     /// Replays the log on an index buffer, and advances `seen` to the end of the log. The buffer holds
@@ -299,10 +272,15 @@ impl Edits {
     ///
     /// For the same reasons as [`Edits::replay`], or if `indices` does not have three entries for each face.
     pub fn replay_indices(&self, seen: &mut Cursor, indices: &mut Vec<u32>) {
-        self.replay_list(seen, indices, MeshSize::corners, |edit, indices| {
-            edit.corner_ops()
-                .for_each(|op| op.apply_to_indices(indices));
-        });
+        self.replay_list(
+            seen,
+            indices,
+            |size| 3 * size.faces,
+            |edit, indices| {
+                edit.corner_ops()
+                    .for_each(|op| op.apply_to_indices(indices));
+            },
+        );
     }
 
     /// Replays the log on a list of face values, and advances `seen` to the end of the log. Each
@@ -328,12 +306,12 @@ impl Edits {
         &self,
         seen: &mut Cursor,
         values: &mut Vec<T>,
-        length: impl Fn(MeshSize) -> Option<u32>,
+        length: impl Fn(MeshSize) -> u32,
         mut follow: impl FnMut(&Edit<'_>, &mut Vec<T>),
     ) {
         let edits = self.since(*seen);
         let first = self.records.len() - edits.len();
-        let length = self.records.get(first).and_then(|next| length(next.size));
+        let length = self.records.get(first).map(|next| length(next.size));
         assert!(
             length.is_none_or(|length| values.len() == length as usize),
             "values are in step with the mesh: there are {}, not {length:?}",
@@ -353,9 +331,6 @@ impl Edits {
         self.links.clear();
         self.points.clear();
         self.children.clear();
-        self.inserts.clear();
-        self.merges.clear();
-        self.slides.clear();
     }
 
     /// The place before record `i` of those that are here, or after the last.
@@ -370,94 +345,66 @@ impl Edits {
     }
 
     fn record(&self, i: usize) -> Edit<'_> {
-        match self.records[i].kind {
-            Kind::Split { old, new } => Edit::Split(self.split(i, old, new)),
-            Kind::Insert(j) => Edit::Insert(self.insert(i, j as usize)),
-            Kind::Merge(j) => Edit::Merge(self.merge(i, j as usize)),
-            Kind::Slide(j) => Edit::Slide(self.slide(i, j as usize)),
-        }
-    }
-
-    fn split(&self, i: usize, old: VertexId, new: VertexId) -> Split<'_> {
-        let (corners, torn) = self.lists(i);
-        Split {
-            before: self.place(i),
-            old,
-            new,
-            corners,
-            torn,
-        }
-    }
-
-    fn insert(&self, i: usize, j: usize) -> Insert<'_> {
-        let start = j.checked_sub(1).map(|before| self.inserts[before]);
-        let (points_start, children_start) =
-            start.map_or((0, 0), |ends| (ends.points_end, ends.children_end));
-        let ends = self.inserts[j];
-        Insert {
-            before: self.place(i),
-            points: &self.points[points_start..ends.points_end],
-            children: &self.children[children_start..ends.children_end],
-        }
-    }
-
-    fn merge(&self, i: usize, j: usize) -> Merge<'_> {
-        let (corners, sewn) = self.lists(i);
-        let MergeRest {
-            kept,
-            gone,
-            share,
-            renumbered,
-        } = self.merges[j];
-        let start = self.records[i].corners_end - corners.len();
-        let moved = renumbered.map_or(corners.len(), |(_, at)| at - start);
-        let (corners, others) = corners.split_at(moved);
-        Merge {
-            before: self.place(i),
-            kept,
-            gone,
-            share,
-            corners,
-            renumbered: renumbered.map(|(from, _)| Renumbered {
-                from,
-                to: gone,
-                corners: others,
+        let Record { kind, ends, .. } = self.records[i];
+        let starts = self.ends_before(i);
+        let before = self.place(i);
+        let corners = &self.corners[starts.corners..ends.corners];
+        let links = &self.links[starts.links..ends.links];
+        match kind {
+            Kind::Split { old, new } => Edit::Split(Split {
+                before,
+                old,
+                new,
+                corners,
+                torn: links,
             }),
-            sewn,
+            Kind::Insert => Edit::Insert(Insert {
+                before,
+                points: &self.points[starts.points..ends.points],
+                children: &self.children[starts.children..ends.children],
+            }),
+            Kind::Merge {
+                kept,
+                gone,
+                share,
+                renumbered,
+            } => {
+                let moved = renumbered.map_or(corners.len(), |(_, at)| at - starts.corners);
+                let (corners, others) = corners.split_at(moved);
+                Edit::Merge(Merge {
+                    before,
+                    kept,
+                    gone,
+                    share,
+                    corners,
+                    renumbered: renumbered.map(|(from, _)| Renumbered {
+                        from,
+                        to: gone,
+                        corners: others,
+                    }),
+                    sewn: links,
+                })
+            }
+            Kind::Slide {
+                vertex,
+                toward,
+                t,
+                along,
+            } => Edit::Slide(Slide {
+                before,
+                vertex,
+                toward,
+                t,
+                along,
+                corners,
+            }),
         }
     }
 
-    fn slide(&self, i: usize, j: usize) -> Slide<'_> {
-        let SlideRest {
-            vertex,
-            toward,
-            t,
-            along,
-        } = self.slides[j];
-        Slide {
-            before: self.place(i),
-            vertex,
-            toward,
-            t,
-            along,
-            corners: self.lists(i).0,
-        }
-    }
-
-    /// The corners and links of a record.
-    fn lists(&self, i: usize) -> (&[HalfEdgeId], &[TornLink]) {
-        let before = i.checked_sub(1).map(|before| self.records[before]);
-        let (corners_start, links_start) =
-            before.map_or((0, 0), |before| (before.corners_end, before.links_end));
-        let Record {
-            corners_end,
-            links_end,
-            ..
-        } = self.records[i];
-        (
-            &self.corners[corners_start..corners_end],
-            &self.links[links_start..links_end],
-        )
+    /// Where the lists of record `i` start.
+    fn ends_before(&self, i: usize) -> Ends {
+        let before = i.checked_sub(1).map(|before| self.records[before].ends);
+        before.unwrap_or_default()
     }
 
     /// Notes a corner of the split or merge that will be finished next.
@@ -468,7 +415,7 @@ impl Edits {
 
     /// Where the corners noted since the last record are.
     pub(crate) fn noted(&self) -> std::ops::Range<usize> {
-        self.records.last().map_or(0, |last| last.corners_end)..self.corners.len()
+        self.ends_before(self.records.len()).corners..self.corners.len()
     }
 
     pub(crate) fn has_noted(&self) -> bool {
@@ -491,95 +438,28 @@ impl Edits {
         self.links.push(link);
     }
 
-    /// Makes a record of what was noted since the last one.
-    pub(crate) fn finish_split(
-        &mut self,
-        old: VertexId,
-        new: VertexId,
-        face_count: usize,
-    ) -> Split<'_> {
-        let size = MeshSize::new(new.index(), face_count);
-        self.finish(Kind::Split { old, new }, size);
-        self.split(self.records.len() - 1, old, new)
-    }
-
-    /// Makes a record of an insertion into a mesh that had this many vertices and faces.
-    pub(crate) fn finish_insert(
-        &mut self,
-        [vertices, faces]: [usize; 2],
-        points: impl IntoIterator<Item = InsertedPoint>,
-        children: impl IntoIterator<Item = ChildFace>,
-    ) -> Insert<'_> {
+    /// Notes the points and children of the insertion to be finished next.
+    pub(crate) fn note_insertion(&mut self, points: Vec<InsertedPoint>, children: Vec<ChildFace>) {
         self.points.extend(points);
         self.children.extend(children);
-        let j = self.inserts.len();
-        self.inserts.push(InsertEnds {
-            points_end: self.points.len(),
-            children_end: self.children.len(),
-        });
-        self.finish(Kind::Insert(j as u32), MeshSize::new(vertices, faces));
-        let is_new = |child: &&ChildFace| child.face != child.parent;
-        let made = self.insert(self.records.len() - 1, j).children.iter();
-        self.faces = Some((faces + made.filter(is_new).count()) as u32);
-        self.insert(self.records.len() - 1, j)
     }
 
-    /// Makes a record of what was noted since the last one. `renumbered` is the vertex that
-    /// took the id of `gone`; its corners were noted last, from that index on.
-    pub(crate) fn finish_merge(
-        &mut self,
-        [kept, gone]: [VertexId; 2],
-        share: f64,
-        renumbered: Option<(VertexId, usize)>,
-    ) -> Merge<'_> {
-        let j = self.merges.len();
-        self.merges.push(MergeRest {
-            kept,
-            gone,
-            share,
-            renumbered,
-        });
-        let last = renumbered.map_or(gone, |(last, _)| last);
-        let size = MeshSize {
-            vertices: last.index() as u32 + 1,
-            faces: self.faces,
-        };
-        self.finish(Kind::Merge(j as u32), size);
-        self.merge(self.records.len() - 1, j)
-    }
-
-    /// Makes a record of a slide in a mesh of this many vertices and faces, with the corners noted since
-    /// the last one.
-    pub(crate) fn finish_slide(
-        &mut self,
-        [vertices, faces]: [usize; 2],
-        vertex: VertexId,
-        toward: VertexId,
-        t: f64,
-        along: [Option<[HalfEdgeId; 2]>; 2],
-    ) -> Slide<'_> {
-        let j = self.slides.len();
-        self.slides.push(SlideRest {
-            vertex,
-            toward,
-            t,
-            along,
-        });
-        self.finish(Kind::Slide(j as u32), MeshSize::new(vertices, faces));
-        self.slide(self.records.len() - 1, j)
-    }
-
-    fn finish(&mut self, kind: Kind, size: MeshSize) {
-        self.faces = size.faces;
+    /// Makes a record of what was noted since the last one. `size` is that of the mesh before.
+    pub(crate) fn finish(&mut self, kind: Kind, size: MeshSize) -> Edit<'_> {
         let i = self.records.len();
         self.records.push(Record {
             kind,
-            corners_end: self.corners.len(),
-            links_end: self.links.len(),
+            ends: Ends {
+                corners: self.corners.len(),
+                links: self.links.len(),
+                points: self.points.len(),
+                children: self.children.len(),
+            },
             size,
             hash: 0,
         });
         self.records[i].hash = self.record(i).after().hash();
+        self.record(i)
     }
 }
 

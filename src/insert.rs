@@ -21,13 +21,12 @@ mod plan;
 
 use std::fmt;
 
-pub use plan::{ChordEnd, Plan, PointId};
+pub use plan::{Chord, ChordEnd, Plan, Point, PointId};
 
-use crate::edit::{ChildFace, Edits, Insert, InsertLocation, InsertedPoint};
+use crate::edit::{ChildFace, Edit, Edits, Insert, InsertLocation, InsertedPoint, Kind};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use face::{Fault, Retriangulation};
-use plan::{Chord, Point};
 
 impl Plan {
     /// Inserts all points of this plan into a mesh, and retriangulates the faces.
@@ -320,9 +319,13 @@ impl Work {
 
     /// Inserts the points.
     pub(crate) fn carry_out<'e>(self, mesh: &mut Mesh, edits: &'e mut Edits) -> Insert<'e> {
-        let size = [mesh.vertex_count(), mesh.face_count()];
+        let size = mesh.size();
         self.change(mesh);
-        edits.finish_insert(size, self.placed, self.children)
+        edits.note_insertion(self.placed, self.children);
+        let Edit::Insert(insert) = edits.finish(Kind::Insert, size) else {
+            unreachable!("an insertion was finished");
+        };
+        insert
     }
 
     fn change(&self, mesh: &mut Mesh) {

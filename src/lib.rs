@@ -133,8 +133,8 @@ pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
 pub use mesh::{
-    BoundaryLoop, BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fan, Fans,
-    Invariant, Mesh, TornError, Violation,
+    BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fans, Invariant, Mesh, TornError,
+    Violation,
 };
 /// The linear algebra crate that defines [`Point`] and [`Vector`], in the version used by this
 /// crate.

@@ -12,7 +12,7 @@
 use std::collections::BinaryHeap;
 use std::fmt;
 
-use crate::edit::{Edits, Merge, TornLink};
+use crate::edit::{Edit, Edits, Kind, Merge, TornLink};
 use crate::geometry::length;
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -113,7 +113,7 @@ fn commit<'e>(
     edits: &'e mut Edits,
     note_corners: impl FnOnce(&Mesh, VertexId, &mut Edits),
 ) -> Merge<'e> {
-    let noted = edits.noted();
+    let (size, noted) = (mesh.size(), edits.noted());
     for i in noted.clone() {
         mesh.set_origin(edits.corner(i), kept);
     }
@@ -135,8 +135,16 @@ fn commit<'e>(
             }
         }
     }
-    let renumbered = free(mesh, gone, edits, note_corners);
-    edits.finish_merge([kept, gone], share, renumbered)
+    let kind = Kind::Merge {
+        kept,
+        gone,
+        share,
+        renumbered: free(mesh, gone, edits, note_corners),
+    };
+    let Edit::Merge(merge) = edits.finish(kind, size) else {
+        unreachable!("a merge was finished");
+    };
+    merge
 }
 
 /// Takes a vertex without corners off the mesh: the last vertex gets its id. Notes the corners

@@ -33,7 +33,7 @@ pub use check::{Invariant, Violation};
 pub use defect::{BuildError, Defect, Faces, Fans};
 pub use derived::DerivedMesh;
 pub use torn::TornError;
-pub use walk::{BoundaryLoop, Components, Corners, Fan};
+pub use walk::{Components, Corners};
 
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
@@ -58,6 +58,13 @@ pub struct Mesh {
     /// For each vertex the smallest half-edge that starts there, or [`NO_HALF_EDGE`].
     /// "Smallest" makes it a function of `origin`, so an undone split leaves no trace.
     outgoing: Vec<u32>,
+}
+
+/// How many vertices and faces a mesh has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeshSize {
+    pub(crate) vertices: u32,
+    pub(crate) faces: u32,
 }
 
 const NO_HALF_EDGE: u32 = u32::MAX;
@@ -259,6 +266,15 @@ impl Mesh {
     pub fn reserve_faces(&mut self, faces: usize) {
         self.origin.reserve(3 * faces);
         self.link.reserve(3 * faces);
+    }
+
+    /// What the log notes of a mesh with each record.
+    #[inline]
+    pub(crate) fn size(&self) -> MeshSize {
+        MeshSize {
+            vertices: self.vertex_count() as u32,
+            faces: self.face_count() as u32,
+        }
     }
 
     /// Relabels the origin of a corner. For the three operations alone: the invariants that

@@ -9,7 +9,7 @@
 
 use std::fmt;
 
-use crate::edit::{Edits, Slide};
+use crate::edit::{Edit, Edits, Kind, Slide};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
 
@@ -71,13 +71,16 @@ pub fn toward<'e>(
     for h in mesh.corners_of(vertex) {
         edits.note_corner(h);
     }
-    Ok(edits.finish_slide(
-        [mesh.vertex_count(), mesh.face_count()],
+    let kind = Kind::Slide {
         vertex,
         toward,
         t,
         along,
-    ))
+    };
+    let Edit::Slide(slide) = edits.finish(kind, mesh.size()) else {
+        unreachable!("a slide was finished");
+    };
+    Ok(slide)
 }
 
 /// The reason why a slide was refused. Nothing has changed.

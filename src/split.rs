@@ -14,7 +14,7 @@
 use std::fmt;
 
 use crate::classify;
-use crate::edit::{Edits, Split, TornLink};
+use crate::edit::{Edit, Edits, Kind, Split, TornLink};
 use crate::geometry::{Plane, Side};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -202,7 +202,7 @@ fn smallest_from(mesh: &Mesh, v: VertexId, start: HalfEdgeId) -> Option<HalfEdge
 
 /// Carries out the split that was noted. `stays` is the smallest corner that stays.
 fn commit<'e>(mesh: &mut Mesh, v: VertexId, stays: HalfEdgeId, edits: &'e mut Edits) -> Split<'e> {
-    let new = mesh.next_vertex();
+    let (new, size) = (mesh.next_vertex(), mesh.size());
     let noted = edits.noted();
     let first = noted
         .clone()
@@ -229,7 +229,10 @@ fn commit<'e>(mesh: &mut Mesh, v: VertexId, stays: HalfEdgeId, edits: &'e mut Ed
             }
         }
     }
-    edits.finish_split(v, new, mesh.face_count())
+    let Edit::Split(split) = edits.finish(Kind::Split { old: v, new }, size) else {
+        unreachable!("a split was finished");
+    };
+    split
 }
 
 /// Undoes the relabelling of faces that turned out not to move.

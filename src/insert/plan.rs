@@ -20,7 +20,7 @@ use crate::id::{FaceId, HalfEdgeId};
 /// assert!(mesh.check().is_empty());
 /// # Ok::<(), tearmesh::InsertRefusal>(())
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     pub(super) points: Vec<Point>,
     pub(super) chords: Vec<Chord>,
@@ -33,22 +33,16 @@ impl Plan {
         Plan::default()
     }
 
-    /// Removes all points and chords, and keeps the allocated memory.
-    pub fn clear(&mut self) {
-        self.points.clear();
-        self.chords.clear();
+    /// Returns the points, in the order in which they were added. A point on a torn edge is listed once.
+    #[must_use]
+    pub fn points(&self) -> &[Point] {
+        &self.points
     }
 
-    /// Returns the number of points. A point on a torn edge counts once.
+    /// Returns the chords, in the order in which they were added.
     #[must_use]
-    pub fn len(&self) -> usize {
-        self.points.len()
-    }
-
-    /// Returns whether the plan has no points.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.points.is_empty()
+    pub fn chords(&self) -> &[Chord] {
+        &self.chords
     }
 
     /// Adds a point on an edge, at the fraction `t` of the way from the origin of `h` to its target. It
@@ -115,22 +109,32 @@ pub enum ChordEnd {
     Point(PointId),
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Chord {
-    pub(super) f: FaceId,
-    pub(super) ends: [ChordEnd; 2],
+/// An edge that a plan requires: see [`Plan::chord`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chord {
+    /// The face that the edge crosses.
+    pub f: FaceId,
+    /// The ends of the edge.
+    pub ends: [ChordEnd; 2],
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Point {
-    /// At `t` from the origin of the half-edge, or if not `forward`, from its target.
+/// A point of a plan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Point {
+    /// A point on an edge: see [`Plan::on_edge`] and [`Plan::on_edge_backward`].
     Edge {
+        /// A half-edge of the edge.
         h: HalfEdgeId,
+        /// The fraction of the way along the half-edge.
         t: f64,
+        /// Whether `t` is counted from the origin of the half-edge, or from its target.
         forward: bool,
     },
+    /// A point in a face: see [`Plan::in_face`].
     Face {
+        /// The face.
         f: FaceId,
+        /// The weights of the face's corners, in their order.
         weights: [f64; 3],
     },
 }

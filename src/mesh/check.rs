@@ -12,6 +12,7 @@ use std::fmt;
 
 use super::{Mesh, NO_HALF_EDGE};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::sets::DisjointSets;
 
 /// An invariant of a mesh, numbered as in `src/mesh/invariants.md`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -375,36 +376,17 @@ impl Buckets {
 }
 
 /// The sets of corners that meet across the edges for which `across` gives the other side.
-fn corner_sets(mesh: &Mesh, across: impl Fn(&Mesh, HalfEdgeId) -> Option<HalfEdgeId>) -> Sets {
-    let mut sets = Sets {
-        parent: (0..mesh.half_edge_count() as u32).collect(),
-    };
+fn corner_sets(
+    mesh: &Mesh,
+    across: impl Fn(&Mesh, HalfEdgeId) -> Option<HalfEdgeId>,
+) -> DisjointSets {
+    let mut sets = DisjointSets::new(mesh.half_edge_count() as u32);
     for h in mesh.half_edges() {
         if let Some(g) = across(mesh, h) {
             sets.join(h.to_u32(), g.next().to_u32());
         }
     }
     sets
-}
-
-/// Union-find with path halving.
-struct Sets {
-    parent: Vec<u32>,
-}
-
-impl Sets {
-    fn leader(&mut self, mut i: u32) -> u32 {
-        while self.parent[i as usize] != i {
-            self.parent[i as usize] = self.parent[self.parent[i as usize] as usize];
-            i = self.parent[i as usize];
-        }
-        i
-    }
-
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.leader(a), self.leader(b));
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
 }
 
 #[cfg(test)]

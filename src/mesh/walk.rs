@@ -13,7 +13,7 @@
 //! No walk allocates unless its documentation says so. A step costs a nanosecond or two in cache; a
 //! walk round a vertex visits as many faces as the vertex had when the mesh was built.
 
-use std::iter::FusedIterator;
+use std::iter::{self, FusedIterator};
 
 use super::Mesh;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -34,6 +34,7 @@ impl Mesh {
     /// assert_eq!(mesh.corners_of(v).count(), 2);
     /// # Ok::<(), tearmesh::BuildError>(())
     /// ```
+    #[inline]
     #[must_use]
     pub fn corners_of(&self, v: VertexId) -> Corners<'_> {
         Corners {
@@ -49,15 +50,11 @@ impl Mesh {
 
     /// Returns the fan of the corner `h`: the corners that are joined to `h` through pairs around
     /// its vertex. The first one is `h` itself.
+    #[inline]
     #[must_use]
-    pub fn fan(&self, h: HalfEdgeId) -> Fan<'_> {
+    pub fn fan(&self, h: HalfEdgeId) -> impl FusedIterator<Item = HalfEdgeId> + Clone + use<'_> {
         h.of(&self.link); // The first step asks for the one before, and would name that.
-        Fan {
-            mesh: self,
-            first: h,
-            at: Some(h),
-            backward: false,
-        }
+        Orbit::<'_, false>::new(self, Some(h))
     }
 
     /// Returns one corner of each fan of a vertex. It is the clockwise end of an open fan, and the
@@ -82,10 +79,7 @@ impl Mesh {
     /// split from the same one.
     #[must_use]
     pub fn root(&self, v: VertexId) -> VertexId {
-        Orbit::new(self, self.half_edge_of(v))
-            .map(|h| self.origin(h))
-            .min()
-            .unwrap_or(v)
+        self.copies(v).min().unwrap_or(v)
     }
 
     /// [`Mesh::root`] of every vertex. Linear, however many copies a vertex has.
@@ -104,7 +98,8 @@ impl Mesh {
     /// The vertices that were split from the same one as `v`, and `v` itself, each as often as it
     /// has faces.
     pub(crate) fn copies(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
-        Orbit::new(self, self.half_edge_of(v)).map(|h| self.origin(h))
+        let orbit: Orbit<'_> = Orbit::new(self, self.half_edge_of(v));
+        orbit.map(|h| self.origin(h))
     }
 
     /// The corners of all vertices that were split from the vertex of `h`, and its own.
@@ -136,17 +131,19 @@ impl Mesh {
     /// # Ok::<(), tearmesh::BuildError>(())
     /// ```
     #[must_use]
-    pub fn boundary_loop(&self, h: HalfEdgeId) -> BoundaryLoop<'_> {
-        let at = if self.pair(h).is_none() {
-            Some(h)
-        } else {
-            None
-        };
-        BoundaryLoop {
-            mesh: self,
-            first: h,
-            at,
-        }
+    pub fn boundary_loop(
+        &self,
+        h: HalfEdgeId,
+    ) -> impl FusedIterator<Item = HalfEdgeId> + Clone + use<'_> {
+        let first = Some(h).filter(|&h| self.pair(h).is_none());
+        iter::successors(first, move |on| {
+            // The boundary leaves the fan at the end of `on` on its other side.
+            let mut following = on.next();
+            while let Some(pair) = self.pair(following) {
+                following = pair.next();
+            }
+            (following != h).then_some(following)
+        })
     }
 
     /// Returns the smallest half-edge of each boundary loop, in ascending order.
@@ -226,16 +223,16 @@ impl Iterator for Corners<'_> {
 impl FusedIterator for Corners<'_> {}
 
 /// The corners of one orbit of ρ, in order: ahead from the first one, and where
-/// the orbit is open, then behind it.
+/// the orbit is open, then behind it. Without ghosts, ρ goes through pairs only.
 #[derive(Clone, Debug)]
-pub(crate) struct Orbit<'m> {
+pub(crate) struct Orbit<'m, const GHOSTS: bool = true> {
     mesh: &'m Mesh,
     first: Option<HalfEdgeId>,
     at: Option<HalfEdgeId>,
     backward: bool,
 }
 
-impl<'m> Orbit<'m> {
+impl<'m, const GHOSTS: bool> Orbit<'m, GHOSTS> {
     fn new(mesh: &'m Mesh, first: Option<HalfEdgeId>) -> Self {
         Orbit {
             mesh,
@@ -244,9 +241,18 @@ impl<'m> Orbit<'m> {
             backward: false,
         }
     }
+
+    #[inline]
+    fn across(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        if GHOSTS {
+            self.mesh.pair_or_ghost(h)
+        } else {
+            self.mesh.pair(h)
+        }
+    }
 }
 
-impl Iterator for Orbit<'_> {
+impl<const GHOSTS: bool> Iterator for Orbit<'_, GHOSTS> {
     type Item = HalfEdgeId;
 
     #[inline]
@@ -254,14 +260,14 @@ impl Iterator for Orbit<'_> {
         let h = self.at?;
         let first = self.first?;
         self.at = if self.backward {
-            self.mesh.behind(h)
+            self.across(h).map(HalfEdgeId::next)
         } else {
-            match self.mesh.ahead(h) {
+            match self.across(h.prev()) {
                 Some(ahead) if ahead == first => None,
                 Some(ahead) => Some(ahead),
                 None => {
                     self.backward = true;
-                    self.mesh.behind(first)
+                    self.across(first).map(HalfEdgeId::next)
                 }
             }
         };
@@ -269,65 +275,7 @@ impl Iterator for Orbit<'_> {
     }
 }
 
-impl FusedIterator for Orbit<'_> {}
-
-/// An iterator over the corners of a fan: see [`Mesh::fan`].
-#[derive(Clone, Debug)]
-pub struct Fan<'m> {
-    mesh: &'m Mesh,
-    first: HalfEdgeId,
-    at: Option<HalfEdgeId>,
-    backward: bool,
-}
-
-impl Iterator for Fan<'_> {
-    type Item = HalfEdgeId;
-
-    #[inline]
-    fn next(&mut self) -> Option<HalfEdgeId> {
-        let h = self.at?;
-        self.at = if self.backward {
-            self.mesh.pair(h).map(HalfEdgeId::next)
-        } else {
-            match self.mesh.pair(h.prev()) {
-                Some(ahead) if ahead == self.first => None,
-                Some(ahead) => Some(ahead),
-                None => {
-                    self.backward = true;
-                    self.mesh.pair(self.first).map(HalfEdgeId::next)
-                }
-            }
-        };
-        Some(h)
-    }
-}
-
-impl FusedIterator for Fan<'_> {}
-
-/// An iterator over the half-edges of a boundary loop: see [`Mesh::boundary_loop`].
-#[derive(Clone, Debug)]
-pub struct BoundaryLoop<'m> {
-    mesh: &'m Mesh,
-    first: HalfEdgeId,
-    at: Option<HalfEdgeId>,
-}
-
-impl Iterator for BoundaryLoop<'_> {
-    type Item = HalfEdgeId;
-
-    fn next(&mut self) -> Option<HalfEdgeId> {
-        let h = self.at?;
-        // The boundary leaves the fan at the end of `h` on its other side.
-        let mut following = h.next();
-        while let Some(pair) = self.mesh.pair(following) {
-            following = pair.next();
-        }
-        self.at = Some(following).filter(|&following| following != self.first);
-        Some(h)
-    }
-}
-
-impl FusedIterator for BoundaryLoop<'_> {}
+impl<const GHOSTS: bool> FusedIterator for Orbit<'_, GHOSTS> {}
 
 /// The components of a mesh: see [`Mesh::components`].
 #[derive(Clone, Debug, PartialEq, Eq)]

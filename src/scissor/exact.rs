@@ -166,7 +166,7 @@ impl Way<'_> {
         let (slit, insertion) = loop {
             let (plan, slit) = Slit::plan(&trace, mesh);
             match plan.prepare(mesh) {
-                Ok(insertion) => break (slit, (!plan.is_empty()).then_some(insertion)),
+                Ok(insertion) => break (slit, (!plan.points().is_empty()).then_some(insertion)),
                 Err(InsertRefusal::Crowded { face }) => trace.leave_out(mesh, face),
                 Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
             }
