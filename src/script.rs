@@ -172,13 +172,11 @@ mod grammar;
 mod shape;
 mod shrink;
 mod text;
-mod triangles;
 mod world;
 
 pub use shape::{GROWN_MAX, Shape};
 pub use text::ScriptError;
-pub use triangles::Triangles;
-pub use world::{Asked, AskedEnd, Step, World};
+pub use world::{Step, World};
 
 use crate::scissor::CutTips;
 

@@ -7,7 +7,8 @@
 //! all merges of two copies and with insertions: on every edge, in every face, and two at once; and on the
 //! smallest with chords, slides, splits by planes and sewing too. All properties are checked after each. What goes wrong at all goes wrong on a small mesh.
 
-use tearmesh::script::{Asked, AskedEnd, Operation, Step, World};
+use tearmesh::insert::{ChordEnd, Plan, Point};
+use tearmesh::script::{Operation, Step, World};
 use tearmesh::{FaceId, HalfEdgeId, Mesh, Positions, VertexId};
 
 use crate::lockstep::{Done, Model};
@@ -203,8 +204,7 @@ impl State {
     /// On every edge, in every face, and some pairs in one face; a torn edge from both sides.
     fn insert_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
         let mesh = &self.world.mesh;
-        let on = |half_edge: HalfEdgeId, t| Asked::Edge { half_edge, t };
-        let inside = |face, weights| Asked::Face { face, weights };
+        let inside = |f, weights| Point::Face { f, weights };
         let mut ways = Vec::new();
         for h in mesh.edges() {
             ways.push(vec![on(h, 0.5)]);
@@ -218,9 +218,9 @@ impl State {
             ways.push(vec![centre, on(b, 0.5)]);
             ways.push(vec![centre, inside(face, [2.0, 1.0, 1.0])]);
         }
-        for asked in ways {
+        for points in ways {
             self.then(kinds, depth, count, |world, observe| {
-                world.insert(&asked, None, observe);
+                world.insert(&plan(&points, None), observe);
             });
         }
     }
@@ -242,27 +242,55 @@ impl State {
     }
 }
 
+/// An end of a chord: a corner, or one of the points that are inserted.
+#[derive(Clone, Copy)]
+enum End {
+    Corner(HalfEdgeId),
+    Point(usize),
+}
+
+fn on(h: HalfEdgeId, t: f64) -> Point {
+    let forward = true;
+    Point::Edge { h, t, forward }
+}
+
+/// The plan of these points, and of a chord across a face.
+fn plan(points: &[Point], chord: Option<(FaceId, [End; 2])>) -> Plan {
+    let mut plan = Plan::new();
+    let add = |point: &Point| match *point {
+        Point::Edge { h, t, .. } => plan.on_edge(h, t),
+        Point::Face { f, weights } => plan.in_face(f, weights),
+    };
+    let ids: Vec<_> = points.iter().map(add).collect();
+    if let Some((face, ends)) = chord {
+        let end = |end| match end {
+            End::Corner(h) => ChordEnd::Corner(h),
+            End::Point(i) => ChordEnd::Point(ids[i]),
+        };
+        plan.chord(face, ends.map(end));
+    }
+    plan
+}
+
 impl State {
     /// A chord across every face: between two points on its edges, from each corner to the edge opposite to
     /// it, and from each corner to a point inside; and one that is refused, as it is an edge already.
     fn cross_faces_in_all_ways(&self, depth: usize, count: &mut Count) {
-        let on = |half_edge: HalfEdgeId, t| Asked::Edge { half_edge, t };
-        let point = AskedEnd::Point;
         for face in self.world.mesh.faces() {
             let corners = face.half_edges();
             let weights = [1.0, 1.0, 2.0];
-            let mut ways = vec![(vec![], [0, 1].map(|i| AskedEnd::Corner(corners[i])))];
+            let mut ways = vec![(vec![], [0, 1].map(|i| End::Corner(corners[i])))];
             for i in 0..3 {
                 let [a, b, c] = [0, 1, 2].map(|by| corners[(i + by) % 3]);
-                let corner = AskedEnd::Corner(a);
+                let (corner, point) = (End::Corner(a), End::Point);
                 ways.push((vec![on(a, 0.25), on(b, 0.75)], [point(0), point(1)]));
                 ways.push((vec![on(b, 0.5)], [corner, point(0)]));
-                let around = vec![Asked::Face { face, weights }, on(c, 0.5)];
+                let around = vec![Point::Face { f: face, weights }, on(c, 0.5)];
                 ways.push((around, [point(0), point(1)]));
             }
-            for (asked, ends) in ways {
+            for (points, ends) in ways {
                 self.then(Kinds::AndMore, depth, count, |world, observe| {
-                    world.insert(&asked, Some((face, ends)), observe);
+                    world.insert(&plan(&points, Some((face, ends))), observe);
                 });
             }
         }

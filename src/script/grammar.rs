@@ -173,6 +173,9 @@ impl Fault {
 }
 
 impl Spot {
+    /// Where a chord without a spot is.
+    pub(super) const FIRST: Spot = Spot::Edge { offset: 0, part: 0 };
+
     fn read<S: Source>(from: &mut S) -> Spot {
         if from.choice(&["edge", "face"], &Odds::Ahead, 0) == 0 {
             return Spot::Edge {

@@ -1,16 +1,16 @@
 //! Running a script.
 
-use super::{Fault, Operation, Script, Shape, Spot, Triangles};
+use super::{Fault, Operation, Script, Shape, Spot};
 use crate::attribute::PerCorner;
 use crate::edit::{Cursor, Edits};
-use crate::geometry::{Plane, Point, Ray, Vector};
+use crate::geometry::{Plane, Point, Ray};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::insert::{self, ChordEnd, Plan, PointId};
 use crate::mass::Masses;
 use crate::mend::{self, Stitch};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::scissor::{CutMethod, CutReport, CutTips, Scissor};
+use crate::scissor::{CutMethod, CutReport, Scissor};
 use crate::slide;
 use crate::split::{self, SplitRefusal};
 
@@ -28,43 +28,17 @@ pub struct World {
     /// The masses by halves with density 1, which have seen every edit. `None` from the first
     /// insertion on, which they cannot follow.
     pub half: Option<Masses>,
-    /// The triangles of the mesh, which have seen every edit.
-    pub triangles: Triangles,
-    /// A second copy of the triangles, replayed only just before the log is cleared, so that it
-    /// replays many edits at once.
-    pub late_triangles: Triangles,
+    /// The index buffer of the mesh, which has seen every edit by the records alone.
+    pub indices: Vec<u32>,
+    /// A second index buffer, replayed only just before the log is cleared, so that it replays many
+    /// edits at once.
+    pub late_indices: Vec<u32>,
     /// The position of each corner, which has seen every edit. It equals the position of the
     /// corner's vertex up to rounding, until copies that slid apart are merged. The merged vertex
     /// then lies between them, and its corner values do not change.
     pub corners: PerCorner<[f64; 3]>,
-}
-
-/// A vertex that a script requested to insert.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Asked {
-    /// A vertex on an edge: see [`Plan::on_edge`].
-    Edge {
-        /// The half-edge along which `t` is measured.
-        half_edge: HalfEdgeId,
-        /// The fraction of the way from the origin of the half-edge to its target.
-        t: f64,
-    },
-    /// A vertex in a face: see [`Plan::in_face`].
-    Face {
-        /// The face that gets the vertex.
-        face: FaceId,
-        /// The weights of the face's corners, in their order.
-        weights: [f64; 3],
-    },
-}
-
-/// An end of a chord that a script requested.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AskedEnd {
-    /// The corner at which this half-edge starts.
-    Corner(HalfEdgeId),
-    /// A requested vertex, as its index among the requested insertions, from 0.
-    Point(usize),
+    /// Of the two index buffers.
+    seen: [Cursor; 2],
 }
 
 /// A step of a [`World`]: an attempted operation with its outcome. An edit is identified by the place
@@ -101,10 +75,8 @@ pub enum Step<'s> {
     },
     /// An insertion was attempted.
     Insert {
-        /// The vertices that were to be inserted.
-        asked: &'s [Asked],
-        /// The face and the ends of the required chord, or `None` if no chord was required.
-        chord: Option<(FaceId, [AskedEnd; 2])>,
+        /// The vertices that were to be inserted, and the chord, if one was required.
+        plan: &'s Plan,
         /// The edit, or the reason for its refusal.
         outcome: Result<Cursor, insert::InsertRefusal>,
     },
@@ -147,7 +119,7 @@ pub enum Step<'s> {
 
 impl Script {
     /// Builds the mesh, applies the operations in order, and calls `observe` with the world after
-    /// each step. All followers except [`World::late_triangles`] have then replayed the log.
+    /// each step. All followers except [`World::late_indices`] have then replayed the log.
     ///
     /// [`Operation::Tear`] consists of many steps, one for each split. A cut is one step.
     pub fn run(&self, mut observe: impl FnMut(&World, &Step<'_>)) -> World {
@@ -181,13 +153,13 @@ impl World {
     #[must_use]
     pub fn of(mesh: Mesh, positions: Positions) -> World {
         let masses = "a mesh with an area has masses";
-        let triangles = Triangles::new(&mesh);
         let place = |h| positions.at(mesh.origin(h)).coords.into();
         World {
             area: Masses::area(&mesh, &positions, 1.0).expect(masses),
             half: Some(Masses::half(&mesh, &positions, 1.0).expect(masses)),
-            late_triangles: triangles.clone(),
-            triangles,
+            indices: mesh.indices().to_vec(),
+            late_indices: mesh.indices().to_vec(),
+            seen: [Cursor::START; 2],
             corners: PerCorner::new(mesh.half_edges().map(place).collect()),
             edits: Edits::new(),
             mesh,
@@ -196,6 +168,10 @@ impl World {
     }
 
     /// Applies an operation, and calls `observe` after each of its steps.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh has no vertex or no face.
     pub fn apply(&mut self, operation: &Operation, mut observe: impl FnMut(&World, &Step<'_>)) {
         match *operation {
             Operation::Split {
@@ -217,41 +193,67 @@ impl World {
                     }
                     _ => {}
                 }
-                self.split(v, &faces, &mut observe);
+                self.split(v, &faces, observe);
             }
             Operation::Plane { vertex, normal } => {
-                let v = self.vertex(vertex);
-                self.plane(v, normal.map(f64::from), &mut observe);
+                let (vertex, normal) = (self.vertex(vertex), normal.map(f64::from));
+                let Ok(plane) = Plane::new(self.positions.at(vertex), normal.into()) else {
+                    return observe(self, &Step::Nothing);
+                };
+                let (mesh, edits) = (&mut self.mesh, &mut self.edits);
+                let split = split::by_plane(mesh, vertex, &plane, &self.positions, edits);
+                let outcome = split.map(|split| split.before);
+                let step = Step::Plane {
+                    vertex,
+                    normal,
+                    outcome,
+                };
+                self.end(&step, observe);
             }
             Operation::Cut {
                 through,
                 tips,
                 rays,
-            } => self.cut(through, tips, rays, &mut observe),
+            } => {
+                let rays = rays.map(|[origin, direction]| {
+                    let origin = origin.map(|x| f64::from(x) / 32.0);
+                    Ray::new(Point::from(origin), direction.map(f64::from).into())
+                });
+                let scissor = match rays {
+                    [Ok(a), Ok(b)] => Scissor::new(a, b).ok(),
+                    _ => None,
+                };
+                let Some(scissor) = scissor else {
+                    return observe(self, &Step::Nothing);
+                };
+                let (first, scissor) = (self.edits.cursor(), scissor.through(through).tips(tips));
+                let (mesh, positions) = (&mut self.mesh, &mut self.positions);
+                let cut =
+                    scissor.cut_measured(CutMethod::Partition, mesh, positions, &mut self.edits);
+                let (_, report) = &cut.expect("positions are in step");
+                self.end(&Step::Cut { first, report }, observe);
+            }
             Operation::Insert {
                 half_edge,
                 ref spots,
                 chord,
-            } => self.insert_at(half_edge, spots, chord, &mut observe),
+            } => {
+                let plan = self.plan(half_edge, spots, chord);
+                self.insert(&plan, observe);
+            }
             Operation::Merge {
                 vertex,
                 other,
                 any,
                 weights,
             } => {
-                let one = self.torn_vertex(vertex);
-                let other = if any {
-                    self.vertex(other)
-                } else {
-                    let root = self.mesh.root(one);
-                    let copies: Vec<_> = self
-                        .mesh
-                        .vertices()
-                        .filter(|&v| self.mesh.root(v) == root)
-                        .collect();
-                    copies[usize::from(other) % copies.len()]
-                };
-                self.merge(one, other, weights.map(f64::from), &mut observe);
+                let roots = self.mesh.all_roots();
+                let mut copies = vec![0; roots.len()];
+                roots.iter().for_each(|root| copies[root.index()] += 1);
+                let root = |v: VertexId| roots[v.index()];
+                let one = self.among(vertex, |v| copies[root(v).index()] > 1);
+                let other = self.among(other, |v| any || root(v) == root(one));
+                self.merge(one, other, weights.map(f64::from), observe);
             }
             Operation::Slide {
                 vertex,
@@ -260,14 +262,30 @@ impl World {
                 part,
             } => {
                 let v = self.vertex(vertex);
-                let neighbours = self.neighbours(v);
-                let toward = match neighbours.len() {
-                    count @ 1.. if !any => neighbours[usize::from(toward) % count],
-                    _ => self.vertex(toward),
-                };
-                self.slide(v, toward, f64::from(part) / 64.0, &mut observe);
+                let faces = self.mesh.faces_of(v);
+                let around: Vec<_> = faces.flat_map(|f| self.mesh.face_vertices(f)).collect();
+                let toward = self.among(toward, |w| any || (w != v && around.contains(&w)));
+                self.slide(v, toward, f64::from(part) / 64.0, observe);
             }
-            Operation::Sew { mask } => self.sew_chosen(mask, &mut observe),
+            Operation::Sew { mask } => {
+                let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
+                let stitches = mend::stitches(&self.mesh, chosen);
+                let first = self.edits.cursor();
+                let merges = mend::sew(
+                    &mut self.mesh,
+                    &self.positions,
+                    &stitches,
+                    |v| self.area.at(v),
+                    f64::INFINITY,
+                    &mut self.edits,
+                );
+                let step = Step::Sewn {
+                    first,
+                    stitches: &stitches,
+                    merges: merges.expect("copies have one root and a mass"),
+                };
+                self.end(&step, observe);
+            }
             Operation::Tear => {
                 for v in self.mesh.vertices() {
                     for &face in self.faces(v).iter().skip(1) {
@@ -276,7 +294,8 @@ impl World {
                 }
             }
             Operation::Clear => {
-                self.edits.replay(&mut self.late_triangles);
+                let [_, seen] = &mut self.seen;
+                self.edits.replay_indices(seen, &mut self.late_indices);
                 self.edits.clear();
                 observe(self, &Step::Cleared);
             }
@@ -287,19 +306,46 @@ impl World {
         VertexId::from_u32(u32::from(number) % self.mesh.vertex_count() as u32)
     }
 
+    /// The vertex with this number among those that are chosen, or among all vertices if none is.
+    fn among(&self, number: u16, is_chosen: impl Fn(VertexId) -> bool) -> VertexId {
+        let chosen = self.mesh.vertices().filter(|&v| is_chosen(v));
+        let chosen: Vec<VertexId> = chosen.collect();
+        match chosen.len() {
+            0 => self.vertex(number),
+            count => chosen[usize::from(number) % count],
+        }
+    }
+
     fn faces(&self, v: VertexId) -> Vec<FaceId> {
         let mut faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
         faces.sort();
         faces
     }
 
-    fn neighbours(&self, v: VertexId) -> Vec<VertexId> {
-        let faces = self.mesh.faces_of(v);
-        let corners = faces.flat_map(|f| self.mesh.face_vertices(f));
-        let mut neighbours: Vec<VertexId> = corners.filter(|&w| w != v).collect();
-        neighbours.sort();
-        neighbours.dedup();
-        neighbours
+    /// The insertion at these spots, counted from a half-edge.
+    fn plan(&self, half_edge: u16, spots: &[Spot], chord: Option<[u8; 2]>) -> Plan {
+        let count = self.mesh.half_edge_count() as u32;
+        let first = u32::from(half_edge) % count;
+        let at = |offset: u8| HalfEdgeId::from_u32((first + u32::from(offset)) % count);
+        let mut plan = Plan::new();
+        let add = |spot: &Spot| match *spot {
+            Spot::Edge { offset, part } => plan.on_edge(at(offset), f64::from(part) / 64.0),
+            Spot::Face { offset, weights } => {
+                plan.in_face(at(offset).face(), weights.map(f64::from))
+            }
+        };
+        let points: Vec<PointId> = spots.iter().map(add).collect();
+        let (Spot::Edge { offset, .. } | Spot::Face { offset, .. }) =
+            spots.first().copied().unwrap_or(Spot::FIRST);
+        let f = at(offset).face();
+        let end = |number: u8| match usize::from(number) % (3 + points.len()) {
+            corner @ 0..3 => ChordEnd::Corner(f.half_edges()[corner]),
+            point => ChordEnd::Point(points[point - 3]),
+        };
+        if let Some(ends) = chord {
+            plan.chord(f, ends.map(end));
+        }
+        plan
     }
 
     /// Splits a vertex by a set of faces, and calls `observe` after this step.
@@ -307,165 +353,26 @@ impl World {
         &mut self,
         vertex: VertexId,
         faces: &[FaceId],
-        mut observe: impl FnMut(&World, &Step<'_>),
+        observe: impl FnMut(&World, &Step<'_>),
     ) {
-        let outcome = split::vertex(&mut self.mesh, vertex, faces, &mut self.edits);
-        let outcome = outcome.map(|split| split.before);
-        self.replay();
+        let split = split::vertex(&mut self.mesh, vertex, faces, &mut self.edits);
+        let outcome = split.map(|split| split.before);
         let step = Step::Split {
             vertex,
             faces,
             outcome,
         };
-        observe(self, &step);
+        self.end(&step, observe);
     }
 
-    fn plane(
-        &mut self,
-        vertex: VertexId,
-        normal: [f64; 3],
-        observe: &mut impl FnMut(&World, &Step<'_>),
-    ) {
-        let Ok(plane) = Plane::new(self.positions.at(vertex), Vector::from(normal)) else {
-            return observe(self, &Step::Nothing);
-        };
-        let split = split::by_plane(
-            &mut self.mesh,
-            vertex,
-            &plane,
-            &self.positions,
-            &mut self.edits,
-        );
-        let outcome = split.map(|split| split.before);
-        self.replay();
-        let step = Step::Plane {
-            vertex,
-            normal,
-            outcome,
-        };
-        observe(self, &step);
-    }
-
-    fn cut(
-        &mut self,
-        through: bool,
-        tips: CutTips,
-        rays: [[[i8; 3]; 2]; 2],
-        observe: &mut impl FnMut(&World, &Step<'_>),
-    ) {
-        let [a, b] = rays.map(|[origin, direction]| {
-            let origin = origin.map(|x| f64::from(x) / 32.0);
-            Ray::new(Point::from(origin), Vector::from(direction.map(f64::from)))
-        });
-        let (Ok(a), Ok(b)) = (a, b) else {
-            return observe(self, &Step::Nothing);
-        };
-        let Ok(scissor) = Scissor::new(a, b) else {
-            return observe(self, &Step::Nothing);
-        };
-        let first = self.edits.cursor();
-        let (_, report) = scissor
-            .through(through)
-            .tips(tips)
-            .cut_measured(
-                CutMethod::Partition,
-                &mut self.mesh,
-                &mut self.positions,
-                &mut self.edits,
-            )
-            .expect("positions are in step");
-        self.replay();
-        let step = Step::Cut {
-            first,
-            report: &report,
-        };
-        observe(self, &step);
-    }
-
-    /// The vertex with this number among those that have copies, or among all vertices if none has.
-    fn torn_vertex(&self, number: u16) -> VertexId {
-        let mut copies = vec![0; self.mesh.vertex_count()];
-        for v in self.mesh.vertices() {
-            copies[self.mesh.root(v).index()] += 1;
-        }
-        let has_copies = |&v: &VertexId| copies[self.mesh.root(v).index()] > 1;
-        let torn: Vec<VertexId> = self.mesh.vertices().filter(has_copies).collect();
-        match torn.len() {
-            0 => self.vertex(number),
-            count => torn[usize::from(number) % count],
-        }
-    }
-
-    /// The insertion at these spots, counted from a half-edge.
-    fn insert_at(
-        &mut self,
-        half_edge: u16,
-        spots: &[Spot],
-        chord: Option<[u8; 2]>,
-        observe: &mut impl FnMut(&World, &Step<'_>),
-    ) {
-        let count = self.mesh.half_edge_count() as u32;
-        let first = u32::from(half_edge) % count;
-        let at = |offset: u8| HalfEdgeId::from_u32((first + u32::from(offset)) % count);
-        let ask = |&spot: &Spot| match spot {
-            Spot::Edge { offset, part } => Asked::Edge {
-                half_edge: at(offset),
-                t: f64::from(part) / 64.0,
-            },
-            Spot::Face { offset, weights } => Asked::Face {
-                face: at(offset).face(),
-                weights: weights.map(f64::from),
-            },
-        };
-        let asked: Vec<Asked> = spots.iter().map(ask).collect();
-        let face = match asked.first() {
-            None => at(0).face(),
-            Some(Asked::Edge { half_edge, .. }) => half_edge.face(),
-            Some(&Asked::Face { face, .. }) => face,
-        };
-        let end = |number: u8| match usize::from(number) % (3 + asked.len()) {
-            corner @ 0..3 => AskedEnd::Corner(face.half_edges()[corner]),
-            point => AskedEnd::Point(point - 3),
-        };
-        let chord = chord.map(|two| (face, two.map(end)));
-        self.insert(&asked, chord, observe);
-    }
-
-    /// Inserts vertices, and calls `observe` after this step. `chord` is a face and the ends of an
-    /// edge that must cross it, or `None`.
-    pub fn insert(
-        &mut self,
-        asked: &[Asked],
-        chord: Option<(FaceId, [AskedEnd; 2])>,
-        mut observe: impl FnMut(&World, &Step<'_>),
-    ) {
-        let mut plan = Plan::new();
-        let points: Vec<PointId> = asked
-            .iter()
-            .map(|&ask| match ask {
-                Asked::Edge { half_edge, t } => plan.on_edge(half_edge, t),
-                Asked::Face { face, weights } => plan.in_face(face, weights),
-            })
-            .collect();
-        if let Some((face, ends)) = chord {
-            let end = |end: AskedEnd| match end {
-                AskedEnd::Corner(h) => ChordEnd::Corner(h),
-                AskedEnd::Point(i) => ChordEnd::Point(points[i]),
-            };
-            plan.chord(face, ends.map(end));
-        }
-        let outcome = plan.apply(&mut self.mesh, &mut self.edits);
-        let outcome = outcome.map(|insert| insert.before);
+    /// Inserts vertices, and calls `observe` after this step.
+    pub fn insert(&mut self, plan: &Plan, observe: impl FnMut(&World, &Step<'_>)) {
+        let insert = plan.apply(&mut self.mesh, &mut self.edits);
+        let outcome = insert.map(|insert| insert.before);
         if outcome.is_ok() {
             self.half = None;
         }
-        self.replay();
-        let step = Step::Insert {
-            asked,
-            chord,
-            outcome,
-        };
-        observe(self, &step);
+        self.end(&Step::Insert { plan, outcome }, observe);
     }
 
     /// Merges two vertices, and calls `observe` after this step.
@@ -474,18 +381,17 @@ impl World {
         one: VertexId,
         other: VertexId,
         weights: [f64; 2],
-        mut observe: impl FnMut(&World, &Step<'_>),
+        observe: impl FnMut(&World, &Step<'_>),
     ) {
         let merge = mend::merge(&mut self.mesh, one, other, weights, &mut self.edits);
         let outcome = merge.map(|merge| merge.before);
-        self.replay();
         let step = Step::Merge {
             one,
             other,
             weights,
             outcome,
         };
-        observe(self, &step);
+        self.end(&step, observe);
     }
 
     /// Slides a vertex toward another, and calls `observe` after this step.
@@ -494,48 +400,28 @@ impl World {
         vertex: VertexId,
         toward: VertexId,
         t: f64,
-        mut observe: impl FnMut(&World, &Step<'_>),
+        observe: impl FnMut(&World, &Step<'_>),
     ) {
         let slide = slide::toward(&self.mesh, vertex, toward, t, &mut self.edits);
         let outcome = slide.map(|slide| slide.before);
-        self.replay();
         let step = Step::Slide {
             vertex,
             toward,
             t,
             outcome,
         };
-        observe(self, &step);
+        self.end(&step, observe);
     }
 
-    fn sew_chosen(&mut self, mask: u16, observe: &mut impl FnMut(&World, &Step<'_>)) {
-        let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
-        let stitches = mend::stitches(&self.mesh, chosen);
-        let first = self.edits.cursor();
-        let merges = mend::sew(
-            &mut self.mesh,
-            &self.positions,
-            &stitches,
-            |v| self.area.at(v),
-            f64::INFINITY,
-            &mut self.edits,
-        )
-        .expect("copies have one root and a mass");
-        self.replay();
-        let step = Step::Sewn {
-            first,
-            stitches: &stitches,
-            merges,
-        };
-        observe(self, &step);
-    }
-
-    fn replay(&mut self) {
+    /// Lets the followers replay a step, and shows it.
+    fn end(&mut self, step: &Step<'_>, mut observe: impl FnMut(&World, &Step<'_>)) {
         if let Some(half) = &mut self.half {
             self.edits.replay(half);
         }
-        let beside = (&mut self.triangles, &mut self.corners);
-        self.edits
-            .replay(&mut (&mut self.positions, &mut self.area, beside));
+        let beside = (&mut self.positions, &mut self.area, &mut self.corners);
+        self.edits.replay(&mut { beside });
+        let [seen, _] = &mut self.seen;
+        self.edits.replay_indices(seen, &mut self.indices);
+        observe(self, step);
     }
 }

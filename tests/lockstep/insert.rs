@@ -1,8 +1,7 @@
 //! What an insertion must do, and what it must leave as it was.
 
-use tearmesh::insert::InsertRefusal;
-use tearmesh::script::{Asked, AskedEnd};
-use tearmesh::{Cursor, Edit, FaceId, HalfEdgeId, Insert, InsertLocation, Mesh};
+use tearmesh::insert::{Chord, ChordEnd, InsertRefusal, Plan, Point};
+use tearmesh::{Cursor, Edit, HalfEdgeId, Insert, InsertLocation, Mesh};
 
 use super::beside::weights_in_parent;
 use super::mesh::euler;
@@ -19,34 +18,33 @@ fn place_of(h: HalfEdgeId) -> (usize, usize) {
 }
 
 impl Request {
-    pub(super) fn new(
-        mesh: &Mesh,
-        asked: &[Asked],
-        chord: Option<(FaceId, [AskedEnd; 2])>,
-    ) -> Request {
-        let spot = |ask: &Asked| match *ask {
-            Asked::Edge { half_edge, t } => {
-                assert!(half_edge.index() < mesh.half_edge_count());
-                Spot::Side {
-                    side: place_of(half_edge),
-                    t,
-                }
+    pub(super) fn new(mesh: &Mesh, plan: &Plan) -> Request {
+        let spot = |point: &Point| match *point {
+            Point::Edge { h, t, forward } => {
+                assert!(forward && h.index() < mesh.half_edge_count());
+                let side = place_of(h);
+                Spot::Side { side, t }
             }
-            Asked::Face { face, weights } => Spot::Inside {
-                face: face.index(),
+            Point::Face { f, weights } => Spot::Inside {
+                face: f.index(),
                 weights,
             },
         };
-        let end = |end: AskedEnd| match end {
-            AskedEnd::Corner(h) => {
+        let end = |end: ChordEnd| match end {
+            ChordEnd::Corner(h) => {
                 let (f, i) = place_of(h);
                 End::Corner(f, i)
             }
-            AskedEnd::Point(i) => End::Spot(i),
+            ChordEnd::Point(point) => End::Spot(point.index()),
         };
+        let mut chords = plan.chords().iter();
+        let chord = chords
+            .next()
+            .map(|&Chord { f, ends }| (f.index(), ends.map(end)));
+        assert_eq!(chords.next(), None, "one chord at most");
         Request {
-            spots: asked.iter().map(spot).collect(),
-            chord: chord.map(|(f, ends)| (f.index(), ends.map(end))),
+            spots: plan.points().iter().map(spot).collect(),
+            chord,
         }
     }
 

@@ -112,12 +112,8 @@ impl Model {
                 assert_eq!(outcome.is_some(), expected.is_ok(), "outcome of {step:?}");
                 self.one_edit(world, outcome);
             }
-            Step::Insert {
-                asked,
-                chord,
-                outcome,
-            } => {
-                let asked = insert::Request::new(&self.before.mesh, asked, chord);
+            Step::Insert { plan, outcome } => {
+                let asked = insert::Request::new(&self.before.mesh, plan);
                 asked.is_refused_where_it_should(&self.soup, outcome);
                 if outcome.is_ok() {
                     let edit = world.edits.iter().next_back();
@@ -191,7 +187,7 @@ impl Model {
                 assert!(world.edits.is_empty(), "the log was cleared");
                 assert_eq!(world.edits.cursor(), self.before.edits.cursor());
                 assert_eq!(
-                    world.late_triangles, world.triangles,
+                    world.late_indices, world.indices,
                     "a late follower sees all edits at once"
                 );
                 assert_eq!(world.mesh, self.before.mesh);
@@ -297,8 +293,8 @@ impl Model {
             beside::halves_add_up(half, soup, self.unit);
         }
         assert_eq!(
-            world.triangles.as_slice(),
-            soup.faces,
+            world.indices,
+            soup.faces.as_flattened(),
             "the records alone give the triangles"
         );
     }
@@ -331,7 +327,7 @@ fn indices(faces: &[FaceId]) -> Vec<usize> {
 pub(crate) fn nothing_changed(before: &World, after: &World) {
     assert_eq!(after.mesh, before.mesh, "the mesh");
     assert_eq!(after.positions, before.positions, "the positions");
-    assert_eq!(after.triangles, before.triangles, "the followers");
+    assert_eq!(after.indices, before.indices, "the followers");
     assert_eq!(after.corners, before.corners, "the followers");
     assert_eq!(
         after.edits.cursor(),
