@@ -255,13 +255,6 @@ impl Masses {
         self.unit
     }
 
-    /// Returns whether these masses can follow an insertion: true for [`Masses::area`], false for
-    /// [`Masses::half`].
-    #[must_use]
-    pub fn knows_insertions(&self) -> bool {
-        matches!(self.store, Store::Area { .. })
-    }
-
     /// Returns the number of vertices.
     #[must_use]
     pub fn len(&self) -> usize {
