@@ -552,6 +552,11 @@ impl<F: Follower + ?Sized> Followers for F {
     }
 }
 
+/// Nobody follows.
+impl Followers for () {
+    fn see(&mut self, _: &Edits) {}
+}
+
 macro_rules! tuple_of_followers {
     ($($name:ident $index:tt),+) => {
         impl<$($name: Followers),+> Followers for ($($name,)+) {

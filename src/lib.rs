@@ -38,24 +38,20 @@
 //! # Cut by two rays; texture coordinates and masses follow
 //!
 //! ```
-//! use tearmesh::{shapes, CutMethod, Edits, Masses, PerCorner, Point, Ray, Scissor, Vector};
+//! use tearmesh::{shapes, CutMethod, PerCorner, Point, Ray, Scissor, Sheet, Vector};
 //!
-//! let (mut mesh, mut positions) = shapes::grid(16, 16);
-//! let mut masses = Masses::area(&mesh, &positions, 0.15)?;
+//! let (mesh, positions) = shapes::grid(16, 16);
 //! let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
-//! let mut uv = PerCorner::new(uv.map(|p| [p.x, p.y]).collect());
-//! let mut edits = Edits::new();
+//! let uv = PerCorner::new(uv.map(|p| [p.x, p.y]).collect());
+//! let mut sheet = Sheet::new(mesh, positions).with_masses(0.15)?.with(uv);
 //!
 //! let eye = Point::new(0.5, 0.5, 3.0);
 //! let a = Ray::new(eye, Vector::new(-0.6, 0.1, -3.0))?;
 //! let b = Ray::new(eye, Vector::new(0.6, -0.1, -3.0))?;
-//! let scissor = Scissor::new(a, b)?;
-//! let (_, report) =
-//!     scissor.cut_measured(CutMethod::Partition, &mut mesh, &mut positions, &mut edits)?;
-//! edits.replay(&mut (&mut uv, &mut masses));
+//! let (_, report) = sheet.cut_measured(CutMethod::Partition, &Scissor::new(a, b)?)?;
 //!
 //! assert_eq!((report.pieces, report.lost, report.crumbs), (2, 0, 0));
-//! assert!(masses.ledger().is_balanced());
+//! assert!(sheet.masses().unwrap().ledger().is_balanced());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -70,6 +66,7 @@
 //! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (of these), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) |
+//! | sheet | `sheet` (mesh, positions, masses, log and what else follows, held together) |
 //! | script | `script` (drives a kernel from bytes or text; behind a feature) |
 //!
 //! The solver layer is a separate crate, `tearmesh-cloth`, which builds on this one.
@@ -113,6 +110,7 @@ mod scissor;
 pub mod script;
 mod sets;
 pub mod shapes;
+mod sheet;
 pub mod slide;
 pub mod split;
 pub mod tear;
@@ -146,6 +144,7 @@ pub use scissor::{
     Scissor, ScissorError, SeamLine,
 };
 pub use sets::DisjointSets;
+pub use sheet::Sheet;
 pub use slide::SlideRefusal;
 pub use split::SplitRefusal;
 pub use undo::{FacePart, Insertions, RemovalPlan};

@@ -168,7 +168,7 @@ fn what_is_no_circle_is_not_called_one() {
 
 /// The floor of each module of the kernel; a module may import its own floor and those below.
 /// `script` drives everything, and nothing imports it.
-const FLOORS: [(&str, u32); 22] = [
+const FLOORS: [(&str, u32); 23] = [
     ("id", 0),
     ("geometry", 0),
     ("exact", 0),
@@ -190,6 +190,7 @@ const FLOORS: [(&str, u32); 22] = [
     ("shapes", 2),
     ("scissor", 3),
     ("tear", 3),
+    ("sheet", 4),
     ("script", 4),
 ];
 

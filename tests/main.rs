@@ -35,6 +35,7 @@ mod rational;
 mod rays;
 mod same_bytes;
 mod scissor;
+mod sheet;
 mod shrink;
 mod straight;
 mod straight_polylines;

@@ -1,0 +1,104 @@
+//! A sheet does what its parts do when they are held alone, and keeps them in step.
+
+use tearmesh::{
+    CutEnd, CutMethod, Edits, Masses, PerCorner, Plane, Point, Positions, Ray, Scissor, Sheet,
+    Vector, VertexId, mend, shapes, split, tear,
+};
+
+use crate::random::Random;
+
+fn texture(mesh: &tearmesh::Mesh, positions: &Positions) -> PerCorner<[f64; 3]> {
+    let place = |h| positions.at(mesh.origin(h)).coords.into();
+    PerCorner::new(mesh.half_edges().map(place).collect())
+}
+
+#[test]
+fn a_sheet_does_what_its_parts_do() {
+    let mut random = Random(11);
+    let mut done = [0; 4];
+    for _ in 0..40 {
+        let (mut mesh, mut positions) = shapes::grid(6, 5);
+        let mut masses = Masses::area(&mesh, &positions, 0.3).expect("a grid has an area");
+        let mut corners = texture(&mesh, &positions);
+        let mut edits = Edits::new();
+        let sheet = Sheet::new(mesh.clone(), positions.clone());
+        let sheet = sheet.with(corners.clone()).with_masses(0.3);
+        let mut sheet = sheet.expect("a grid has an area");
+        for _ in 0..8 {
+            let kind = (4.0 * random.next()) as usize;
+            let number = (mesh.vertex_count() as f64 * random.next()) as usize;
+            let v = VertexId::new(number).expect("a vertex of the mesh");
+            let first = edits.cursor();
+            match kind {
+                0 => {
+                    let moving: Vec<_> = mesh.faces_of(v).take(2).collect();
+                    let split = split::vertex(&mut mesh, v, &moving, &mut edits);
+                    let split = split.map(|split| split.new);
+                    assert_eq!(sheet.split(v, &moving), split);
+                }
+                1 => {
+                    let edge = mesh.half_edge_of(v).expect("all vertices have faces");
+                    let is_free = |v: VertexId| v.index() > 6;
+                    let mass = |v| is_free(v).then(|| masses.at(v));
+                    let torn = tear::edge(&mut mesh, edge, &positions, mass, &mut edits);
+                    let torn = torn.map(|split| split.new);
+                    assert_eq!(sheet.tear(edge, is_free), torn);
+                }
+                2 => {
+                    let at = Point::new(random.next(), random.next(), 0.0);
+                    let normal = Vector::new(random.next() - 0.5, random.next(), 0.0);
+                    let plane = Plane::new(at, normal).expect("not zero");
+                    let scissor = Scissor::by_plane(plane);
+                    let parts = (&mut mesh, &mut positions, &mut edits);
+                    let report = scissor.cut_measured(CutMethod::Exact, parts.0, parts.1, parts.2);
+                    let (_, report) = report.expect("positions are in step");
+                    let (_, of_sheet) = sheet
+                        .cut_measured(CutMethod::Exact, &scissor)
+                        .expect("positions are in step");
+                    assert_eq!(of_sheet, report);
+                }
+                _ => {
+                    let chosen = |v: VertexId| v.index() > 12;
+                    let stitches = mend::stitches(&mesh, chosen);
+                    let mass = |v| masses.at(v);
+                    let far = f64::INFINITY;
+                    let merges = mend::sew(&mut mesh, &positions, &stitches, mass, far, &mut edits);
+                    assert_eq!(Ok(sheet.mend(chosen)), merges);
+                }
+            }
+            edits.replay(&mut (&mut positions, &mut masses, &mut corners));
+            done[kind] += usize::from(edits.cursor() != first);
+            assert_eq!((sheet.mesh(), sheet.positions()), (&mesh, &positions));
+            assert_eq!(sheet.values(), &corners);
+            assert_eq!(sheet.edits().cursor(), edits.cursor());
+            let of_sheet = sheet.masses().expect("it was made with masses");
+            assert!(mesh.vertices().all(|v| of_sheet.at(v) == masses.at(v)));
+            assert!(of_sheet.ledger().is_balanced() && sheet.check().is_empty());
+        }
+    }
+    assert!(done.iter().all(|&done| done >= 20), "{done:?}");
+}
+
+#[test]
+fn an_end_of_a_cut_goes_on_if_it_followed_the_sheet() {
+    let (mesh, positions) = shapes::grid(8, 8);
+    let mut sheet = Sheet::new(mesh, positions);
+    let down = |x, y| Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
+    let [a, b, c] = [down(0.2, 0.3), down(0.5, 0.4), down(0.7, 0.7)].map(|ray| ray.expect("a ray"));
+    let scissor = Scissor::new(a, b).expect("two lines");
+    let cut = sheet.cut(CutMethod::Exact, &scissor).expect("in step");
+    let [_, end] = cut.ends().expect("there are rays");
+    let mut end = end.clone();
+    let v = VertexId::new(1).expect("small");
+    let face = sheet.mesh().faces_of(v).next().expect("a face");
+    sheet.split(v, &[face]).expect("it has several faces");
+    let go_on = |end: &CutEnd, sheet: &Sheet| {
+        Scissor::continued(end, c, sheet.positions()).expect("two lines")
+    };
+    let late = go_on(&end, &sheet);
+    assert!(sheet.clone().cut(CutMethod::Exact, &late).is_err(), "late");
+    sheet.edits().replay(&mut end);
+    let scissor = go_on(&end, &sheet);
+    sheet.cut(CutMethod::Exact, &scissor).expect("in step");
+    assert_eq!(sheet.mesh().boundary_loops().len(), 2);
+}
