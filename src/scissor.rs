@@ -22,6 +22,7 @@ mod quality;
 mod seam;
 mod strip;
 mod unshare;
+mod way;
 mod words;
 
 use std::fmt;
@@ -36,11 +37,12 @@ use crate::edit::{Cursor, Edits};
 use crate::geometry::{Plane, Ray, max_abs};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use exact::{Way, layers};
+use exact::layers;
 use measure::Survey;
 use outcome::Outcome;
 use paper::Form;
 use strip::Strip;
+use way::Way;
 
 /// The description of a cut: a plane and, for a cut between two rays, the two side planes that
 /// bound it.
@@ -431,16 +433,8 @@ impl Scissor {
                 ..way
             };
         }
-        let trace = is_exact.then(|| way.trace_snapped(self.exact.snap, mesh, positions));
-        let survey = is_measured.then(|| {
-            let expected = trace.as_ref().map(|trace| {
-                |census: &pieces::Census| way.pieces_expected(trace, census, mesh, positions)
-            });
-            let expected = expected
-                .as_ref()
-                .map(|expected| expected as &dyn Fn(&_) -> _);
-            Survey::new(&way, mesh, positions, expected)
-        });
+        let trace = is_exact.then(|| exact::trace(&way, self.exact.snap, mesh, positions));
+        let survey = is_measured.then(|| Survey::new(&way, mesh, positions, trace.as_ref()));
         let judged = |mesh: &Mesh, edits: &Edits| {
             let survey = survey.as_ref();
             survey.map_or_else(Vec::new, |survey| survey.judged(mesh, edits, first))
@@ -454,7 +448,7 @@ impl Scissor {
             }
             (CutMethod::Exact, Some(trace)) => {
                 let snap_move = self.exact.snap_move;
-                way.cut(trace, snap_move, mesh, positions, &judged, edits)
+                exact::cut(&way, trace, snap_move, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact | CutMethod::Partition, _) => {
                 partition::cut(&way, self.tips, mesh, positions, &judged, edits)

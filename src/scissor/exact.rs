@@ -32,11 +32,10 @@ mod tips;
 mod trace;
 mod tracer;
 
-use super::offsets::Offsets;
 use super::outcome::{Judged, Outcome, Sides, faces_at};
 use super::pieces::{Census, Pinch};
-use super::strip::Strip;
 use super::unshare;
+use super::way::Way;
 use crate::edit::{Cursor, Edit, Edits};
 use crate::geometry::{Point, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -47,7 +46,6 @@ use label::Patches;
 use planner::{Chain, Planner};
 pub(super) use trace::Trace;
 use trace::{Place, Site};
-use tracer::Aim;
 
 /// What the method is told beyond the strip.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,199 +56,167 @@ pub(super) struct Settings {
     pub(super) snap_move: bool,
 }
 
-/// Where a cut may go.
-pub(super) struct Way<'w> {
-    pub(super) strip: &'w Strip,
-    /// The faces that it may cross, ascending.
-    pub(super) among: &'w [FaceId],
-    /// Whether these are not all that the plane meets there.
-    pub(super) is_choice: bool,
-    /// Where this cut goes on from another, and where it comes back to one: vertices on the plane and
-    /// on the first side plane, and on the second.
-    pub(super) joints: &'w [Vec<VertexId>; 2],
-    pub(super) offsets: &'w Offsets,
+/// Finds where the slit runs, and where it has to end so that no face gets thin.
+pub(super) fn trace(way: &Way<'_>, snap: f64, mesh: &Mesh, positions: &Positions) -> Trace {
+    // Nodes that the slit does not meet but has to go on to. Each round adds one that was not
+    // there.
+    let mut met: Vec<Site> = Vec::new();
+    loop {
+        let mut trace = tracer::trace(way, snap, &met, mesh, positions);
+        let beyond = tips::settle(&mut trace, snap, mesh, positions);
+        let known = met.len();
+        met.extend(beyond);
+        met.sort_unstable();
+        met.dedup();
+        if met.len() == known {
+            return trace;
+        }
+    }
 }
 
-impl Way<'_> {
-    /// Where the slit runs, as the plane does.
-    pub(super) fn trace_of_plane(&self, mesh: &Mesh, positions: &Positions) -> Trace {
-        self.trace(0.0, &[], mesh, positions)
-    }
+/// The pieces that a cut along a trace should leave: those of the slit as it is, or more where
+/// the trace ends nearer than the snap to a boundary, which it opens. And the necks that it
+/// severs although the slit does not.
+pub(super) fn pieces_expected(
+    way: &Way<'_>,
+    trace: &Trace,
+    census: &Census,
+    mesh: &Mesh,
+    positions: &Positions,
+) -> (usize, Vec<Pinch>) {
+    let unsnapped = tracer::trace(way, 0.0, &[], mesh, positions);
+    let (whole, _) = pieces_of(way, &unsnapped, census, mesh);
+    let (pieces, pinches) = pieces_of(way, trace, census, mesh);
+    let more: usize = pinches.iter().map(|pinch| pinch.at.len()).sum();
+    (whole.max(pieces - more), pinches)
+}
 
-    fn trace(&self, snap: f64, met: &[Site], mesh: &Mesh, positions: &Positions) -> Trace {
-        let aim = Aim {
-            among: self.among,
-            snap,
-            joints: self.joints,
-            met,
-        };
-        tracer::trace(self.strip, &aim, mesh, positions, self.offsets)
-    }
-
-    /// Finds where the slit runs, and where it has to end so that no face gets thin.
-    pub(super) fn trace_snapped(&self, snap: f64, mesh: &Mesh, positions: &Positions) -> Trace {
-        // Nodes that the slit does not meet but has to go on to. Each round adds one that was not
-        // there.
-        let mut met: Vec<Site> = Vec::new();
-        loop {
-            let mut trace = self.trace(snap, &met, mesh, positions);
-            let beyond = tips::settle(&mut trace, snap, mesh, positions);
-            let known = met.len();
-            met.extend(beyond);
-            met.sort_unstable();
-            met.dedup();
-            if met.len() == known {
-                return trace;
-            }
+fn pieces_of(way: &Way<'_>, trace: &Trace, census: &Census, mesh: &Mesh) -> (usize, Vec<Pinch>) {
+    let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
+    on_plane.extend(way.joints.iter().flatten());
+    on_plane.sort_unstable();
+    let sign = |v: VertexId| match on_plane.binary_search(&v) {
+        Ok(_) => 0.0,
+        Err(_) => way.offsets.of(v),
+    };
+    let (mut faces, mut edges) = (Vec::new(), Vec::new());
+    let pieces = trace.pieces.iter();
+    for piece in pieces.filter(|piece| piece.ends_at_nodes() == [true; 2]) {
+        match piece.place {
+            Place::Face(f) => faces.push(f),
+            Place::Edge { h, .. } => edges.push(h),
         }
     }
+    faces.sort_unstable();
+    edges.sort_unstable();
+    let is_slit = |f: FaceId| faces.binary_search(&f).is_ok();
+    let is_slit_along = |h: HalfEdgeId| {
+        let pair = mesh.pair(h).unwrap_or(h);
+        edges.binary_search(&h).is_ok() || edges.binary_search(&pair).is_ok()
+    };
+    let passed = |v: VertexId| match on_plane.binary_search(&v) {
+        Ok(_) => way.offsets.of(v),
+        Err(_) => 0.0,
+    };
+    census.expected(mesh, sign, is_slit, is_slit_along, passed)
+}
 
-    /// The pieces that a cut along a trace should leave: those of the slit as it is, or more where
-    /// the trace ends nearer than the snap to a boundary, which it opens. And the necks that it
-    /// severs although the slit does not.
-    pub(super) fn pieces_expected(
-        &self,
-        trace: &Trace,
-        census: &Census,
-        mesh: &Mesh,
-        positions: &Positions,
-    ) -> (usize, Vec<Pinch>) {
-        let unsnapped = self.trace_of_plane(mesh, positions);
-        let (whole, _) = self.pieces_of(&unsnapped, census, mesh);
-        let (pieces, pinches) = self.pieces_of(trace, census, mesh);
-        let more: usize = pinches.iter().map(|pinch| pinch.at.len()).sum();
-        (whole.max(pieces - more), pinches)
+/// Cuts along a trace.
+pub(super) fn cut(
+    way: &Way<'_>,
+    mut trace: Trace,
+    snap_move: bool,
+    mesh: &mut Mesh,
+    positions: &mut Positions,
+    judged: Judged<'_>,
+    edits: &mut Edits,
+) -> Outcome {
+    let faces_before = mesh.face_count();
+    let (slit, insertion) = loop {
+        let (plan, slit) = Slit::plan(&trace, mesh);
+        match plan.prepare(mesh) {
+            Ok(insertion) => break (slit, (!plan.points().is_empty()).then_some(insertion)),
+            Err(InsertRefusal::Crowded { face }) => trace.leave_out(mesh, face),
+            Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
+        }
+    };
+    if snap_move {
+        slip::onto_plane(&trace, mesh, positions, edits);
     }
-
-    fn pieces_of(&self, trace: &Trace, census: &Census, mesh: &Mesh) -> (usize, Vec<Pinch>) {
-        let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
-        on_plane.extend(self.joints.iter().flatten());
-        on_plane.sort_unstable();
-        let sign = |v: VertexId| match on_plane.binary_search(&v) {
-            Ok(_) => 0.0,
-            Err(_) => self.offsets.of(v),
-        };
-        let (mut faces, mut edges) = (Vec::new(), Vec::new());
-        let pieces = trace.pieces.iter();
-        for piece in pieces.filter(|piece| piece.ends_at_nodes() == [true; 2]) {
-            match piece.place {
-                Place::Face(f) => faces.push(f),
-                Place::Edge { h, .. } => edges.push(h),
-            }
-        }
-        faces.sort_unstable();
-        edges.sort_unstable();
-        let is_slit = |f: FaceId| faces.binary_search(&f).is_ok();
-        let is_slit_along = |h: HalfEdgeId| {
-            let pair = mesh.pair(h).unwrap_or(h);
-            edges.binary_search(&h).is_ok() || edges.binary_search(&pair).is_ok()
-        };
-        let passed = |v: VertexId| match on_plane.binary_search(&v) {
-            Ok(_) => self.offsets.of(v),
-            Err(_) => 0.0,
-        };
-        census.expected(mesh, sign, is_slit, is_slit_along, passed)
+    if let Some(insertion) = insertion {
+        insertion.carry_out(mesh, edits);
     }
-
-    /// Cuts along a trace.
-    pub(super) fn cut(
-        &self,
-        mut trace: Trace,
-        snap_move: bool,
-        mesh: &mut Mesh,
-        positions: &mut Positions,
-        judged: Judged<'_>,
-        edits: &mut Edits,
-    ) -> Outcome {
-        let faces_before = mesh.face_count();
-        let (slit, insertion) = loop {
-            let (plan, slit) = Slit::plan(&trace, mesh);
-            match plan.prepare(mesh) {
-                Ok(insertion) => break (slit, (!plan.points().is_empty()).then_some(insertion)),
-                Err(InsertRefusal::Crowded { face }) => trace.leave_out(mesh, face),
-                Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
-            }
-        };
-        if snap_move {
-            slip::onto_plane(&trace, mesh, positions, edits);
-        }
-        if let Some(insertion) = insertion {
-            insertion.carry_out(mesh, edits);
-        }
-        edits.replay(positions);
-        let [touched, judged] = [faces_at(mesh, &slit.nodes), judged(mesh, edits)]
-            .map(|faces| self.sides(faces, faces_before, mesh, positions, &trace, &slit));
-        let before = edits.cursor();
-        let mut torn: Vec<HalfEdgeId> = slit.half_edges(mesh).collect();
-        torn.sort_unstable();
-        unshare::by_fan(mesh, &slit.nodes, |h| torn.binary_search(&h).is_ok(), edits);
-        Outcome {
-            touched,
-            judged,
-            refused: 0,
-            ends: slit.tips.map(|tips| with_copies(tips, edits, before)),
-            off_plane: with_copies(slit.off_plane, edits, before),
-        }
+    edits.replay(positions);
+    let [touched, judged] = [faces_at(mesh, &slit.nodes), judged(mesh, edits)]
+        .map(|faces| sides(way, faces, faces_before, mesh, positions, &trace, &slit));
+    let before = edits.cursor();
+    let mut torn: Vec<HalfEdgeId> = slit.half_edges(mesh).collect();
+    torn.sort_unstable();
+    unshare::by_fan(mesh, &slit.nodes, |h| torn.binary_search(&h).is_ok(), edits);
+    Outcome {
+        touched,
+        judged,
+        refused: 0,
+        ends: slit.tips.map(|tips| with_copies(tips, edits, before)),
+        off_plane: with_copies(slit.off_plane, edits, before),
     }
+}
 
-    /// The sides of faces, once all vertices are inserted. A face that still lies on both sides
-    /// has none: it is round a tip, beside a piece that leaves the plane, or where nothing was to be
-    /// cut.
-    fn sides(
-        &self,
-        faces: Vec<FaceId>,
-        faces_before: usize,
-        mesh: &Mesh,
-        positions: &Positions,
-        trace: &Trace,
-        slit: &Slit,
-    ) -> Sides {
-        let snapped = trace.snapped.iter().map(|one| one.vertex);
-        let mut on_plane: Vec<VertexId> = snapped.chain(slit.nodes.iter().copied()).collect();
-        on_plane.sort_unstable();
-        // Only the passive twin of a crossing is new and not on the plane.
-        let offset = |v: VertexId| match v.index() < self.offsets.len() {
-            true => self.offsets.of(v),
-            false => self.strip.plane.offset(positions.at(v)),
-        };
-        let sign = |v: VertexId| match on_plane.binary_search(&v) {
-            Ok(_) => 0.0,
-            Err(_) => offset(v),
-        };
-        let is_uncut = |f: FaceId| {
-            let corners = mesh.face_vertices(f);
-            let mut ends = slit.tips.iter().chain([&slit.off_plane]);
-            ends.any(|of_side| corners.iter().any(|v| of_side.contains(v)))
-                || !self.meets(corners.map(|v| positions.at(v)))
-                || (self.is_choice
-                    && f.index() < faces_before
-                    && self.among.binary_search(&f).is_err())
-        };
-        let lies_on_both = |f: FaceId| {
-            let signs = mesh.face_vertices(f).map(sign);
-            signs.iter().any(|&d| d < 0.0) && signs.iter().any(|&d| d > 0.0)
-        };
-        let patches = Patches::new(mesh, faces.iter().copied(), &sign, &offset);
-        let side = |f: FaceId| {
-            let goes_on = lies_on_both(f) && is_uncut(f);
-            (!goes_on).then(|| patches.side(mesh, f, &sign))
-        };
-        faces.into_iter().map(|f| (f, side(f))).collect()
-    }
+/// The sides of faces, once all vertices are inserted. A face that still lies on both sides
+/// has none: it is round a tip, beside a piece that leaves the plane, or where nothing was to be
+/// cut.
+fn sides(
+    way: &Way<'_>,
+    faces: Vec<FaceId>,
+    faces_before: usize,
+    mesh: &Mesh,
+    positions: &Positions,
+    trace: &Trace,
+    slit: &Slit,
+) -> Sides {
+    let snapped = trace.snapped.iter().map(|one| one.vertex);
+    let mut on_plane: Vec<VertexId> = snapped.chain(slit.nodes.iter().copied()).collect();
+    on_plane.sort_unstable();
+    // Only the passive twin of a crossing is new and not on the plane.
+    let offset = |v: VertexId| match v.index() < way.offsets.len() {
+        true => way.offsets.of(v),
+        false => way.strip.plane.offset(positions.at(v)),
+    };
+    let sign = |v: VertexId| match on_plane.binary_search(&v) {
+        Ok(_) => 0.0,
+        Err(_) => offset(v),
+    };
+    let is_uncut = |f: FaceId| {
+        let corners = mesh.face_vertices(f);
+        let mut ends = slit.tips.iter().chain([&slit.off_plane]);
+        ends.any(|of_side| corners.iter().any(|v| of_side.contains(v)))
+            || !meets(way, corners.map(|v| positions.at(v)))
+            || (way.is_choice && f.index() < faces_before && way.among.binary_search(&f).is_err())
+    };
+    let lies_on_both = |f: FaceId| {
+        let signs = mesh.face_vertices(f).map(sign);
+        signs.iter().any(|&d| d < 0.0) && signs.iter().any(|&d| d > 0.0)
+    };
+    let patches = Patches::new(mesh, faces.iter().copied(), &sign, &offset);
+    let side = |f: FaceId| {
+        let goes_on = lies_on_both(f) && is_uncut(f);
+        (!goes_on).then(|| patches.side(mesh, f, &sign))
+    };
+    faces.into_iter().map(|f| (f, side(f))).collect()
+}
 
-    /// Whether the plane crosses a triangle between the side planes.
-    fn meets(&self, corners: [Point; 3]) -> bool {
-        let crossing = |i: usize| {
-            let (p, q) = (corners[i], corners[(i + 1) % 3]);
-            let plane = self.strip.plane;
-            let (from, to) = (plane.offset(p), plane.offset(q));
-            ((from < 0.0) != (to < 0.0)).then(|| between(p, q, from / (from - to)))
-        };
-        let mut ends = (0..3).filter_map(crossing);
-        match (ends.next(), ends.next()) {
-            (Some(p), Some(q)) => self.strip.clip(p, q, self.offsets.bound()).is_some(),
-            _ => false,
-        }
+/// Whether the plane crosses a triangle between the side planes.
+fn meets(way: &Way<'_>, corners: [Point; 3]) -> bool {
+    let crossing = |i: usize| {
+        let (p, q) = (corners[i], corners[(i + 1) % 3]);
+        let plane = way.strip.plane;
+        let (from, to) = (plane.offset(p), plane.offset(q));
+        ((from < 0.0) != (to < 0.0)).then(|| between(p, q, from / (from - to)))
+    };
+    let mut ends = (0..3).filter_map(crossing);
+    match (ends.next(), ends.next()) {
+        (Some(p), Some(q)) => way.strip.clip(p, q, way.offsets.bound()).is_some(),
+        _ => false,
     }
 }
 

@@ -6,12 +6,13 @@
 //! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
 //! still share are counted.
 
-use super::exact::{Way, with_copies};
+use super::exact::{self, Trace, with_copies};
 use super::neck::{self, CutNeck};
 use super::outcome::{Outcome, side_of};
 use super::pieces::{Census, Pinch};
 use super::quality::{MARGIN, Quality, squares_of_sides};
 use super::seam::Nodes;
+use super::way::Way;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
 use crate::geometry::{Point, Side, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -80,9 +81,6 @@ pub struct CutReport {
     pub tip_overshoots: Vec<f64>,
 }
 
-/// How many pieces a cut will leave, and where it pinches some off, by a census of the mesh before.
-pub(super) type Expected<'a> = &'a dyn Fn(&Census) -> (usize, Vec<Pinch>);
-
 /// The mesh before a cut, as the slit sees it.
 pub(super) struct Survey<'w> {
     way: &'w Way<'w>,
@@ -101,12 +99,12 @@ pub(super) struct Survey<'w> {
 }
 
 impl<'w> Survey<'w> {
-    /// `pieces_expected` is for a method that decides where the slit runs before it cuts.
+    /// `trace` is that of a method that decides where the slit runs before it cuts.
     pub(super) fn new(
         way: &'w Way<'w>,
         mesh: &Mesh,
         positions: &Positions,
-        pieces_expected: Option<Expected<'_>>,
+        trace: Option<&Trace>,
     ) -> Survey<'w> {
         let mut touched = way.offsets.touched().to_vec();
         let joints = way.joints.iter().flatten();
@@ -127,8 +125,8 @@ impl<'w> Survey<'w> {
             nearest_vertex: nearest_vertex(way, mesh, positions),
         };
         survey.follow_slit(mesh, positions);
-        (survey.pieces_expected, survey.pinches) = match pieces_expected {
-            Some(expected) => expected(&survey.census),
+        (survey.pieces_expected, survey.pinches) = match trace {
+            Some(trace) => exact::pieces_expected(way, trace, &survey.census, mesh, positions),
             None => (survey.pieces_expected(mesh, positions), Vec::new()),
         };
         survey

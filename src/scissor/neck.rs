@@ -13,9 +13,9 @@
 //!
 //! Vertices are snapped all the same, since a face as thin as that neck is what a snap keeps away.
 
-use super::exact::Way;
 use super::outcome::{Outcome, side_of};
 use super::pieces::Pinch;
+use super::way::Way;
 use crate::geometry::{Point, Side};
 use crate::id::VertexId;
 use crate::mesh::Mesh;

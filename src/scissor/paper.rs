@@ -18,9 +18,9 @@
 //! [`CutMethod::Exact`](super::CutMethod::Exact), or
 //! [`CutMethod::Partition`](super::CutMethod::Partition) for a cut that adds no faces.
 
-use super::exact::Way;
 use super::hub::Hubs;
 use super::outcome::{Judged, Outcome, faces_at};
+use super::way::Way;
 use crate::edit::Edits;
 use crate::geometry::{Plane, Side, Vector, cross};
 use crate::id::{FaceId, HalfEdgeId, VertexId};

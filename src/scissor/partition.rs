@@ -13,10 +13,10 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use super::exact::Way;
 use super::offsets::Offsets;
 use super::outcome::{Judged, Outcome, faces_at};
 use super::unshare;
+use super::way::Way;
 use crate::classify;
 use crate::edit::Edits;
 use crate::geometry::{Point, Side};
@@ -53,8 +53,28 @@ pub(super) fn cut(
     // Decided before the first split: positions know no vertex that is made on the way.
     let inside = |p: Point| way.strip.depth(p, offsets.bound()) >= 0.0;
     let may_cut = |h: HalfEdgeId| !way.is_choice || way.among.binary_search(&h.face()).is_ok();
-    let seam = Seam::new(tips, mesh, positions, &labels, may_cut, inside);
-    let vertices = seam.vertices(tips, mesh, positions, inside);
+    let is_at_midpoint = tips == CutTips::Midpoint;
+    let is_cut = |h: HalfEdgeId| {
+        let Some(pair) = mesh.pair(h) else {
+            return false;
+        };
+        let [one, other] = [h, pair].map(|h| labels[h.face().index()]);
+        // A sum does not depend on the order of two, so both half-edges agree.
+        let midpoint = || {
+            let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v).coords);
+            Point::from((a + b) / 2.0)
+        };
+        let is_inside = || !is_at_midpoint || inside(midpoint());
+        one != other && (may_cut(h) || may_cut(pair)) && is_inside()
+    };
+    let seam: Vec<bool> = mesh.half_edges().map(is_cut).collect();
+    let on_seam = mesh.half_edges().filter(|h| seam[h.index()]);
+    let on_seam = on_seam.map(|h| mesh.origin(h));
+    let mut vertices: Vec<VertexId> = on_seam
+        .filter(|&v| is_at_midpoint || inside(positions.at(v)))
+        .collect();
+    vertices.sort_unstable();
+    vertices.dedup();
     let labelled = |faces: Vec<FaceId>| {
         let faces = faces.into_iter();
         faces.map(|f| (f, Some(labels[f.index()]))).collect()
@@ -64,7 +84,7 @@ pub(super) fn cut(
         judged: labelled(judged(mesh, edits)),
         ..Outcome::default()
     };
-    unshare::by_fan(mesh, &vertices, |h| seam.cuts(h), edits);
+    unshare::by_fan(mesh, &vertices, |h| seam[h.index()], edits);
     outcome
 }
 
@@ -131,63 +151,4 @@ fn is_crumb(mesh: &Mesh, offsets: &Offsets, labels: &[Side], f: FaceId) -> bool 
         }
     }
     false
-}
-
-/// The edges whose faces the cut separates, by half-edge.
-struct Seam {
-    cut: Vec<bool>,
-}
-
-impl Seam {
-    fn new(
-        tips: CutTips,
-        mesh: &Mesh,
-        positions: &Positions,
-        labels: &[Side],
-        may_cut: impl Fn(HalfEdgeId) -> bool,
-        inside: impl Fn(Point) -> bool,
-    ) -> Seam {
-        let is_cut = |h: HalfEdgeId| {
-            let Some(pair) = mesh.pair(h) else {
-                return false;
-            };
-            let [one, other] = [h, pair].map(|h| labels[h.face().index()]);
-            if one == other || !(may_cut(h) || may_cut(pair)) {
-                return false;
-            }
-            match tips {
-                CutTips::Vertex => true,
-                CutTips::Midpoint => {
-                    let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v).coords);
-                    // A sum does not depend on the order of two, so both half-edges agree.
-                    inside(Point::from((a + b) / 2.0))
-                }
-            }
-        };
-        Seam {
-            cut: mesh.half_edges().map(is_cut).collect(),
-        }
-    }
-
-    fn cuts(&self, h: HalfEdgeId) -> bool {
-        self.cut[h.index()]
-    }
-
-    /// The vertices to unshare, ascending.
-    fn vertices(
-        &self,
-        tips: CutTips,
-        mesh: &Mesh,
-        positions: &Positions,
-        inside: impl Fn(Point) -> bool,
-    ) -> Vec<VertexId> {
-        let mut on_seam = vec![false; mesh.vertex_count()];
-        for h in mesh.half_edges().filter(|&h| self.cuts(h)) {
-            on_seam[mesh.origin(h).index()] = true;
-        }
-        let unshared = |&v: &VertexId| {
-            on_seam[v.index()] && (tips == CutTips::Midpoint || inside(positions.at(v)))
-        };
-        mesh.vertices().filter(unshared).collect()
-    }
 }

@@ -4,13 +4,14 @@
 //! to face. A sheet that the strip passes once gives one, the front and the back of a garment one
 //! each. They are those of the plane itself, before any vertex is snapped.
 
-use super::Way;
 use super::trace::{Piece, Place, Site, Trace};
+use super::tracer;
 use crate::geometry::{Point, Ray, between, dot, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::scissor::offsets::Offsets;
+use crate::scissor::way::Way;
 use crate::sets::DisjointSets;
 
 /// The layers of the mesh that a cut passes through.
@@ -59,7 +60,7 @@ pub(in crate::scissor) fn first(
     mesh: &Mesh,
     positions: &Positions,
 ) -> Choice {
-    let trace = way.trace_of_plane(mesh, positions);
+    let trace = tracer::trace(way, 0.0, &[], mesh, positions);
     let chains = chains(&trace);
     let mut choice = Choice::default();
     let mut chosen = Vec::new();

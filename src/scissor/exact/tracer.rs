@@ -1,55 +1,42 @@
 //! Finding where the slit runs: signs, snapping, and the pieces between nodes.
 
-use super::super::offsets::Offsets;
-use super::super::strip::Strip;
 use super::label::Patches;
 use super::trace::{Crossing, Piece, Place, Site, Snapped, Trace};
 use crate::geometry::{Point, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use crate::scissor::way::Way;
 
 /// Tips nearer to a node than this part of the way between nodes are the node, also where
 /// snapping is off: the faces round them could not be told from nothing.
 const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// What a slit is to pass.
-pub(in crate::scissor) struct Aim<'t> {
-    /// The faces that it may cross, those of joints besides; ascending.
-    pub(super) among: &'t [FaceId],
-    /// How near an end of its edge a crossing is taken for that end.
-    pub(super) snap: f64,
-    /// Vertices on the plane and on the first side plane, and on the second.
-    pub(super) joints: &'t [Vec<VertexId>; 2],
-    /// Nodes beyond the side planes that are snapped like those between them, ascending.
-    pub(super) met: &'t [Site],
-}
-
-/// Traces the slit.
-pub(super) fn trace(
-    strip: &Strip,
-    aim: &Aim<'_>,
+/// Traces the slit. `snap` is how near an end of its edge a crossing is taken for that end; `met` are
+/// nodes beyond the side planes that are snapped like those between them, ascending.
+pub(in crate::scissor) fn trace(
+    way: &Way<'_>,
+    snap: f64,
+    met: &[Site],
     mesh: &Mesh,
     positions: &Positions,
-    offsets: &Offsets,
 ) -> Trace {
     let mut tracer = Tracer {
-        strip,
-        aim,
+        way,
         mesh,
         positions,
-        offsets,
-        near: aim.snap.max(TIP_MIN),
+        snap,
+        near: snap.max(TIP_MIN),
         round_joints: Default::default(),
         snapped: Vec::new(),
         passed: Vec::new(),
     };
-    let mut touched = aim.among.to_vec();
-    touched.extend(aim.joints.iter().flatten().flat_map(|&v| mesh.faces_of(v)));
+    let mut touched = way.among.to_vec();
+    touched.extend(way.joints.iter().flatten().flat_map(|&v| mesh.faces_of(v)));
     touched.sort_unstable();
     touched.dedup();
     tracer.look_round_joints();
-    tracer.snap(&touched);
+    tracer.snap(&touched, met);
     tracer.look_round_joints();
     tracer.look_beside_joints();
     tracer.trace(&touched)
@@ -71,11 +58,10 @@ struct Span {
 
 /// A trace in the making.
 struct Tracer<'t> {
-    strip: &'t Strip,
-    aim: &'t Aim<'t>,
+    way: &'t Way<'t>,
     mesh: &'t Mesh,
     positions: &'t Positions,
-    offsets: &'t Offsets,
+    snap: f64,
     near: f64,
     /// For each side plane, nodes in the faces of its joints, and the depth of the joint inside it.
     /// By site.
@@ -90,11 +76,11 @@ impl Tracer<'_> {
     /// Zero on the plane, else the sign of the side.
     fn sign(&self, v: VertexId) -> f64 {
         let is_on = self.snap_of(v).is_some() || self.is_joint(v);
-        if is_on { 0.0 } else { self.offsets.of(v) }
+        if is_on { 0.0 } else { self.way.offsets.of(v) }
     }
 
     fn is_joint(&self, v: VertexId) -> bool {
-        self.aim.joints.iter().any(|of_side| of_side.contains(&v))
+        self.way.joints.iter().any(|of_side| of_side.contains(&v))
     }
 
     fn snap_of(&self, v: VertexId) -> Option<&Snapped> {
@@ -104,7 +90,7 @@ impl Tracer<'_> {
 
     /// How far a point is inside each side plane.
     fn depths(&self, p: Point) -> [f64; 2] {
-        self.strip.depths(p, self.offsets.bound())
+        self.way.strip.depths(p, self.way.offsets.bound())
     }
 
     /// The side plane passes through one joint, and by the others, on other sheets, as far
@@ -114,8 +100,8 @@ impl Tracer<'_> {
         self.round_joints = Default::default();
         let round = [0, 1].map(|side| {
             let mut round = Vec::new();
-            for &v in &self.aim.joints[side] {
-                let sides = self.strip.sides.expect("what has a joint has rays");
+            for &v in &self.way.joints[side] {
+                let sides = self.way.strip.sides.expect("what has a joint has rays");
                 let depth = sides[side].offset(self.positions.at(v));
                 let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
                 round.extend(faces.flatten().map(|node| (node.site, depth)));
@@ -132,7 +118,7 @@ impl Tracer<'_> {
     /// it by. It goes along the edge between them, and that neighbour counts as where the joint is.
     fn look_beside_joints(&mut self) {
         for side in 0..2 {
-            for &joint in &self.aim.joints[side] {
+            for &joint in &self.way.joints[side] {
                 let is_node = |f: FaceId| {
                     let nodes = self.nodes(f).into_iter().flatten();
                     nodes
@@ -179,7 +165,7 @@ impl Tracer<'_> {
         let [a, b] = [self.mesh.origin(half_edge), self.mesh.target(half_edge)];
         let forward = is_before(self.positions.at(a), self.positions.at(b));
         let [from, to] = if forward { [a, b] } else { [b, a] };
-        let [near, far] = [from, to].map(|v| self.offsets.of(v).abs());
+        let [near, far] = [from, to].map(|v| self.way.offsets.of(v).abs());
         Crossing {
             half_edge,
             t: near / (near + far),
@@ -274,8 +260,8 @@ impl Tracer<'_> {
 
     /// Puts vertices on the plane that are near a crossing that the slit meets: nearer than
     /// the snap, as a part of the edge.
-    fn snap(&mut self, touched: &[FaceId]) {
-        if self.aim.snap == 0.0 {
+    fn snap(&mut self, touched: &[FaceId], met: &[Site]) {
+        if self.snap == 0.0 {
             return;
         }
         let mut snapped = Vec::new();
@@ -287,7 +273,7 @@ impl Tracer<'_> {
             };
             for (node, at_node) in nodes.into_iter().zip(at_node) {
                 let inside = node.depths.into_iter().all(|depth| depth >= 0.0);
-                let met = at_node || inside || self.aim.met.contains(&node.site);
+                let is_met = at_node || inside || met.contains(&node.site);
                 let Site::Edge(h) = node.site else { continue };
                 if self.joint_depths(node.site) != [None; 2] {
                     continue;
@@ -296,7 +282,7 @@ impl Tracer<'_> {
                 let near = [crossing.t, 1.0 - crossing.t];
                 let [a, b] = self.ends(&crossing);
                 for ([vertex, toward], t) in [[a, b], [b, a]].into_iter().zip(near) {
-                    if met && t < self.aim.snap {
+                    if is_met && t < self.snap {
                         snapped.push(Snapped {
                             vertex,
                             t,
@@ -393,7 +379,7 @@ impl Tracer<'_> {
         lone_tips: &mut Vec<(usize, Site)>,
     ) {
         let sign = |v: VertexId| self.sign(v);
-        let offset = |v: VertexId| self.offsets.of(v);
+        let offset = |v: VertexId| self.way.offsets.of(v);
         let faces = edges.iter().flat_map(|&h| {
             let pair = self.mesh.pair(h);
             std::iter::once(h).chain(pair).map(HalfEdgeId::face)
