@@ -5,18 +5,8 @@ use std::ops::RangeInclusive;
 use super::grammar::{Odds, Source};
 use super::{Operation, Script, Shape};
 
-/// The names of shapes, by code.
-const SHAPES: [&str; 9] = [
-    "grid",
-    "fan",
-    "saddle",
-    "tube",
-    "torus",
-    "tetrahedron",
-    "octahedron",
-    "grown",
-    "glued",
-];
+/// The names of shapes, in the order of their codes.
+const SHAPES: &str = "grid fan saddle tube torus tetrahedron octahedron grown glued";
 
 /// The names of operations, by code. Further codes make most operations sound ones; tearing to pieces
 /// ends what can happen, so it is rare.
@@ -109,8 +99,9 @@ impl Bytes<'_> {
     }
 
     fn shape(&mut self) -> Shape {
-        let name = SHAPES[usize::from(self.byte()) % SHAPES.len()];
-        Shape::read(name, self).expect("every shape has a name")
+        let name = SHAPES.split(' ').nth(usize::from(self.byte() % 9));
+        let shape = name.and_then(|name| Shape::read(name, self));
+        shape.expect("every shape has a name")
     }
 
     fn operation(&mut self) -> Operation {

@@ -148,60 +148,51 @@ fn grown(moves: &[u8]) -> Mesh {
     let mut triangles = vec![[0, 1, 2]];
     let mut mesh = Mesh::build(vertices, &triangles).expect("a triangle is a manifold");
     for &code in moves {
-        let place = usize::from(code / 4);
-        let mut trial = triangles.clone();
-        let new = vertices as u32;
-        let added = match code % 4 {
-            0 => {
-                let [a, b, c] = trial[place % triangles.len()];
-                trial[place % triangles.len()] = [a, b, new];
-                trial.extend([[b, c, new], [c, a, new]]);
-                1
-            }
-            1 => {
-                let Some(h) = nth(&mesh, place, false) else {
-                    continue;
-                };
-                trial.push([mesh.target(h).into(), mesh.origin(h).into(), new]);
-                1
-            }
-            2 => {
-                let Some(h) = nth(&mesh, place, true) else {
-                    continue;
-                };
-                let g = mesh.pair(h).expect("an inner edge has a pair");
-                let [a, b] = [mesh.origin(h), mesh.origin(g)].map(u32::from);
-                let [c, d] = [h, g].map(|side| mesh.origin(side.prev()).into());
-                trial[h.face().index()] = [a, d, c];
-                trial[g.face().index()] = [d, b, c];
-                0
-            }
-            _ => {
-                let Some(h) = nth(&mesh, place, false) else {
-                    continue;
-                };
-                let Some(after) = mesh.boundary_loop(h).nth(1) else {
-                    continue;
-                };
-                let [a, b, c] = [mesh.origin(h), mesh.origin(after), mesh.target(after)];
-                trial.push([a, c, b].map(u32::from));
-                0
-            }
+        let Some((more, trial)) = moved(&mesh, &triangles, code) else {
+            continue;
         };
-        if let Ok(grown) = Mesh::build(vertices + added, &trial) {
-            (mesh, triangles, vertices) = (grown, trial, vertices + added);
+        if let Ok(grown) = Mesh::build(vertices + more, &trial) {
+            (mesh, triangles, vertices) = (grown, trial, vertices + more);
         }
     }
     mesh
 }
 
-/// A half-edge with a pair, or one without, by number modulo how many there are.
-fn nth(mesh: &Mesh, number: usize, paired: bool) -> Option<HalfEdgeId> {
-    let wanted = || {
-        mesh.half_edges()
-            .filter(|&h| mesh.pair(h).is_some() == paired)
+/// The triangles after a move, and how many vertices it adds; `None` if there is no place for it.
+fn moved(mesh: &Mesh, triangles: &[[u32; 3]], code: u8) -> Option<(usize, Vec<[u32; 3]>)> {
+    let (place, new) = (usize::from(code / 4), mesh.vertex_count() as u32);
+    // A half-edge with a pair, or one without, by number modulo how many there are.
+    let nth = |paired: bool| {
+        let wanted = |h: &HalfEdgeId| mesh.pair(*h).is_some() == paired;
+        let count = mesh.half_edges().filter(wanted).count();
+        mesh.half_edges().filter(wanted).nth(place % count.max(1))
     };
-    wanted().nth(number % wanted().count().max(1))
+    let ends = |h: HalfEdgeId| [mesh.origin(h), mesh.target(h)].map(u32::from);
+    let mut trial = triangles.to_vec();
+    match code % 4 {
+        0 => {
+            let [a, b, c] = trial[place % triangles.len()];
+            trial[place % triangles.len()] = [a, b, new];
+            trial.extend([[b, c, new], [c, a, new]]);
+        }
+        1 => {
+            let [a, b] = ends(nth(false)?);
+            trial.push([b, a, new]);
+        }
+        2 => {
+            let h = nth(true)?;
+            let g = mesh.pair(h)?;
+            let ([a, b], [c, _], [d, _]) = (ends(h), ends(h.prev()), ends(g.prev()));
+            trial[h.face().index()] = [a, d, c];
+            trial[g.face().index()] = [d, b, c];
+        }
+        _ => {
+            let h = nth(false)?;
+            let ([a, b], [_, c]) = (ends(h), ends(mesh.boundary_loop(h).nth(1)?));
+            trial.push([a, c, b]);
+        }
+    }
+    Some((usize::from(code % 4 < 2), trial))
 }
 
 fn glued(faces: u8, sides: &[[u8; 2]]) -> Mesh {
@@ -217,13 +208,8 @@ fn glued(faces: u8, sides: &[[u8; 2]]) -> Mesh {
         });
         let mut trial = triangles.clone();
         for v in trial.as_flattened_mut() {
-            *v = if *v == d {
-                a
-            } else if *v == c {
-                b
-            } else {
-                *v
-            };
+            let glued = [(d, a), (c, b)].into_iter().find(|(of, _)| of == v);
+            *v = glued.map_or(*v, |(_, to)| to);
         }
         if Mesh::build(corners as usize, &trial).is_ok() {
             triangles = trial;

@@ -261,11 +261,20 @@ impl World {
                 any,
                 part,
             } => {
-                let v = self.vertex(vertex);
-                let faces = self.mesh.faces_of(v);
+                let vertex = self.vertex(vertex);
+                let faces = self.mesh.faces_of(vertex);
                 let around: Vec<_> = faces.flat_map(|f| self.mesh.face_vertices(f)).collect();
-                let toward = self.among(toward, |w| any || (w != v && around.contains(&w)));
-                self.slide(v, toward, f64::from(part) / 64.0, observe);
+                let toward = self.among(toward, |w| any || (w != vertex && around.contains(&w)));
+                let t = f64::from(part) / 64.0;
+                let slide = slide::toward(&self.mesh, vertex, toward, t, &mut self.edits);
+                let outcome = slide.map(|slide| slide.before);
+                let step = Step::Slide {
+                    vertex,
+                    toward,
+                    t,
+                    outcome,
+                };
+                self.end(&step, observe);
             }
             Operation::Sew { mask } => {
                 let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
@@ -389,25 +398,6 @@ impl World {
             one,
             other,
             weights,
-            outcome,
-        };
-        self.end(&step, observe);
-    }
-
-    /// Slides a vertex toward another, and calls `observe` after this step.
-    pub fn slide(
-        &mut self,
-        vertex: VertexId,
-        toward: VertexId,
-        t: f64,
-        observe: impl FnMut(&World, &Step<'_>),
-    ) {
-        let slide = slide::toward(&self.mesh, vertex, toward, t, &mut self.edits);
-        let outcome = slide.map(|slide| slide.before);
-        let step = Step::Slide {
-            vertex,
-            toward,
-            t,
             outcome,
         };
         self.end(&step, observe);
