@@ -11,13 +11,13 @@
 //! | split | push a copy of the old vertex | some become the new vertex's | |
 //! | insertion | push each point between its sources | divide each family | divide each family |
 //! | merge | set the one kept between both; take out the other, whose place the last one takes | those of both become others' | |
-//! | slide | set the vertex between itself and its neighbour | carry them along | |
+//! | slide | set the vertex between itself and its neighbour | slide them along | |
 //!
 //! A quantity that is *divided* rather than copied, such as mass, is not a value in this sense:
 //! each half of a split vertex weighs less than the whole did. [`Masses`](crate::Masses) therefore
 //! reads the records themselves.
 
-use super::record::{ChildFace, CornerSource, Edit, Insert, InsertLocation};
+use super::record::{ChildFace, CornerSource, Edit, Insert, InsertLocation, Slide};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// The one, two or three values that a new value derives from.
@@ -262,18 +262,10 @@ pub enum CornerOp<'e> {
     },
     /// Divides a face. See [`ChildFace::corner_mixes`] for the values of the new corners.
     Divide(FaceFamily<'e>),
-    /// Slides a vertex along an edge, which changes the values of its corners.
-    Carry {
-        /// For each of the up to two faces of the edge, its corner at the vertex and its corner at
-        /// the other end. The corner at the vertex gets the value at the fraction `t` of the way to
-        /// that of the other corner. `None` stands for a face that does not exist.
-        along: [Option<[HalfEdgeId; 2]>; 2],
-        /// The fraction of the way to the other end: strictly between 0 and 1.
-        t: f64,
-        /// All corners of the vertex. A corner that is not in `along`, but has the same value as a
-        /// corner in it, gets the same new value.
-        corners: &'e [HalfEdgeId],
-    },
+    /// Slides a vertex along an edge. A corner in [`Slide::along`] gets the value at the fraction `t` of
+    /// the way to that of the other corner. A corner of the vertex that is not in it, but has the same
+    /// value as a corner in it, gets the same new value.
+    Slide(Slide<'e>),
 }
 
 impl CornerOp<'_> {
@@ -287,7 +279,7 @@ impl CornerOp<'_> {
         match self {
             CornerOp::Relabel { .. } => {}
             CornerOp::Divide(family) => family.apply_to_corners(values, &mut mix),
-            CornerOp::Carry { along, t, corners } => carry(along, t, corners, values, mix),
+            CornerOp::Slide(slide) => slide_values(slide, values, mix),
         }
     }
 
@@ -314,19 +306,20 @@ impl CornerOp<'_> {
                     }
                 }
             }
-            CornerOp::Carry { .. } => {}
+            CornerOp::Slide(_) => {}
         }
     }
 }
 
 /// Moves the values of corners along an edge.
-fn carry<T: PartialEq>(
-    along: [Option<[HalfEdgeId; 2]>; 2],
-    t: f64,
-    corners: &[HalfEdgeId],
+fn slide_values<T: PartialEq>(
+    slide: Slide<'_>,
     values: &mut [T],
     mut mix: impl FnMut(Mix<&T>) -> T,
 ) {
+    let Slide {
+        along, t, corners, ..
+    } = slide;
     let changes = along.map(|ends| {
         let [corner, toward] = ends?;
         let before = mix(Mix::Copy(corner.of(values)));
@@ -397,10 +390,7 @@ impl<'e> Edit<'e> {
                     to: renumbered.to,
                 });
             }
-            Edit::Slide(slide) => {
-                let (along, t, corners) = (slide.along, slide.t, slide.corners);
-                changes[0] = Some(CornerOp::Carry { along, t, corners });
-            }
+            Edit::Slide(slide) => changes[0] = Some(CornerOp::Slide(slide)),
         }
         let divisions = self.families().map(CornerOp::Divide);
         divisions.chain(changes.into_iter().flatten())
