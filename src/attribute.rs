@@ -10,6 +10,8 @@
 //! Each of these lists carries its place in the log. A list of any other type can follow a log too:
 //! see [`Edits::replay_vertices`](crate::Edits::replay_vertices).
 
+use std::marker::PhantomData;
+
 use crate::edit::{Cursor, Edit, Follower, Mix};
 use crate::geometry::{Point, Vector, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -105,83 +107,7 @@ impl Blend for Point {
 /// assert_eq!(speeds.at(VertexId::new(4).unwrap()), &0.5);
 /// # Ok::<(), tearmesh::SplitRefusal>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PerVertex<T> {
-    values: Vec<T>,
-    seen: Cursor,
-}
-
-impl<T: Blend> PerVertex<T> {
-    /// Creates the list from one value for each vertex, in the order of the ids. The list has seen
-    /// no edit yet.
-    #[must_use]
-    pub fn new(values: Vec<T>) -> Self {
-        let seen = Cursor::START;
-        PerVertex { values, seen }
-    }
-
-    /// Sets the place in the log up to which these values have been replayed.
-    #[must_use]
-    pub fn starting_at(self, seen: Cursor) -> Self {
-        PerVertex { seen, ..self }
-    }
-
-    /// Returns the place in the log up to which these values have been replayed.
-    #[must_use]
-    pub fn seen(&self) -> Cursor {
-        self.seen
-    }
-
-    /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
-    /// nothing except for cloning values.
-    pub fn reserve(&mut self, vertices: usize) {
-        self.values.reserve(vertices);
-    }
-
-    /// Returns the value of the vertex `v`.
-    ///
-    /// # Panics
-    ///
-    /// If `v` is not a vertex of the list.
-    #[must_use]
-    pub fn at(&self, v: VertexId) -> &T {
-        v.of(&self.values)
-    }
-
-    /// Returns a mutable reference to the value of the vertex `v`.
-    ///
-    /// # Panics
-    ///
-    /// If `v` is not a vertex of the list.
-    #[must_use]
-    pub fn at_mut(&mut self, v: VertexId) -> &mut T {
-        &mut self.values[v.index()]
-    }
-
-    /// Returns the values of all vertices, indexed by vertex.
-    #[must_use]
-    pub fn as_slice(&self) -> &[T] {
-        &self.values
-    }
-
-    /// Returns mutable access to the values of all vertices, indexed by vertex.
-    #[must_use]
-    pub fn as_mut_slice(&mut self) -> &mut [T] {
-        &mut self.values
-    }
-}
-
-impl<T: Blend> Follower for PerVertex<T> {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
-        for op in edit.vertex_ops() {
-            op.apply(&mut self.values, T::blend);
-        }
-    }
-}
+pub type PerVertex<T> = Values<VertexId, T>;
 
 /// One value for each corner. A split or a merge does not change corner values. Where a face is
 /// divided, the values of its children's corners are interpolated from the corners of that face
@@ -202,55 +128,7 @@ impl<T: Blend> Follower for PerVertex<T> {
 /// assert_eq!(uv.as_slice().iter().filter(|uv| **uv == [0.25, 0.0]).count(), 2);
 /// # Ok::<(), tearmesh::InsertRefusal>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PerCorner<T> {
-    values: Vec<T>,
-    seen: Cursor,
-}
-
-impl<T: Blend> PerCorner<T> {
-    /// Creates the list from three values per face, in the order of the half-edge ids. The list has
-    /// seen no edit yet.
-    #[must_use]
-    pub fn new(values: Vec<T>) -> Self {
-        let seen = Cursor::START;
-        PerCorner { values, seen }
-    }
-
-    /// Sets the place in the log up to which these values have been replayed.
-    #[must_use]
-    pub fn starting_at(self, seen: Cursor) -> Self {
-        PerCorner { seen, ..self }
-    }
-
-    /// Returns the value of the corner at which the half-edge `h` starts.
-    ///
-    /// # Panics
-    ///
-    /// If `h` is not a corner of the list.
-    #[must_use]
-    pub fn at(&self, h: HalfEdgeId) -> &T {
-        h.of(&self.values)
-    }
-
-    /// Returns the values of all corners, indexed by half-edge.
-    #[must_use]
-    pub fn as_slice(&self) -> &[T] {
-        &self.values
-    }
-}
-
-impl<T: Blend> Follower for PerCorner<T> {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
-        for op in edit.corner_ops() {
-            op.apply(&mut self.values, T::blend);
-        }
-    }
-}
+pub type PerCorner<T> = Values<HalfEdgeId, T>;
 
 /// One value for each face, such as a material. Where a face is divided, each of its children gets
 /// a copy. No other edit changes a face.
@@ -268,26 +146,89 @@ impl<T: Blend> Follower for PerCorner<T> {
 /// assert_eq!(materials.as_slice(), ["silk", "wool", "silk"]);
 /// # Ok::<(), tearmesh::InsertRefusal>(())
 /// ```
+pub type PerFace<T> = Values<FaceId, T>;
+
+/// One value for each id of a kind, and their place in the log: see [`PerVertex`], [`PerCorner`] and
+/// [`PerFace`].
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PerFace<T> {
+pub struct Values<I, T> {
     values: Vec<T>,
     seen: Cursor,
+    of: PhantomData<I>,
 }
 
-impl<T: Clone> PerFace<T> {
-    /// Creates the list from one value for each face, in the order of the ids. The list has seen no edit yet.
+impl<I, T> Values<I, T> {
+    /// Creates the list from one value for each id, in the order of the ids. The list has seen no
+    /// edit yet.
     #[must_use]
     pub fn new(values: Vec<T>) -> Self {
-        let seen = Cursor::START;
-        PerFace { values, seen }
+        Values {
+            values,
+            seen: Cursor::START,
+            of: PhantomData,
+        }
     }
 
     /// Sets the place in the log up to which these values have been replayed.
     #[must_use]
     pub fn starting_at(self, seen: Cursor) -> Self {
-        PerFace { seen, ..self }
+        Values { seen, ..self }
     }
 
+    /// Returns the place in the log up to which these values have been replayed.
+    #[must_use]
+    pub fn seen(&self) -> Cursor {
+        self.seen
+    }
+
+    /// Reserves memory for `more` values. With as many as splits make vertices, replaying these
+    /// allocates nothing except for cloning values.
+    pub fn reserve(&mut self, more: usize) {
+        self.values.reserve(more);
+    }
+
+    /// Returns all values, indexed by id.
+    #[must_use]
+    pub fn as_slice(&self) -> &[T] {
+        &self.values
+    }
+}
+
+impl<T> Values<VertexId, T> {
+    /// Returns the value of the vertex `v`.
+    ///
+    /// # Panics
+    ///
+    /// If `v` is not a vertex of the list.
+    #[must_use]
+    pub fn at(&self, v: VertexId) -> &T {
+        v.of(&self.values)
+    }
+
+    /// Returns a mutable reference to the value of the vertex `v`.
+    ///
+    /// # Panics
+    ///
+    /// If `v` is not a vertex of the list.
+    #[must_use]
+    pub fn at_mut(&mut self, v: VertexId) -> &mut T {
+        &mut self.values[v.index()]
+    }
+}
+
+impl<T> Values<HalfEdgeId, T> {
+    /// Returns the value of the corner at which the half-edge `h` starts.
+    ///
+    /// # Panics
+    ///
+    /// If `h` is not a corner of the list.
+    #[must_use]
+    pub fn at(&self, h: HalfEdgeId) -> &T {
+        h.of(&self.values)
+    }
+}
+
+impl<T> Values<FaceId, T> {
     /// Returns the value of the face `f`.
     ///
     /// # Panics
@@ -297,11 +238,29 @@ impl<T: Clone> PerFace<T> {
     pub fn at(&self, f: FaceId) -> &T {
         f.of(&self.values)
     }
+}
 
-    /// Returns the values of all faces, indexed by face.
-    #[must_use]
-    pub fn as_slice(&self) -> &[T] {
-        &self.values
+impl<T: Blend> Follower for PerVertex<T> {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        for op in edit.vertex_ops() {
+            op.apply(&mut self.values, T::blend);
+        }
+    }
+}
+
+impl<T: Blend> Follower for PerCorner<T> {
+    fn cursor(&mut self) -> &mut Cursor {
+        &mut self.seen
+    }
+
+    fn follow(&mut self, edit: &Edit<'_>) {
+        for op in edit.corner_ops() {
+            op.apply(&mut self.values, T::blend);
+        }
     }
 }
 

@@ -117,7 +117,7 @@ pub mod tear;
 mod undo;
 pub mod weld;
 
-pub use attribute::{Blend, PerCorner, PerFace, PerVertex};
+pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};
 pub use draw::{DrawBuffers, DrawChanges};
 pub use edit::{
     ChildFace, CornerOp, CornerSource, Cursor, Edit, Edits, FaceFamily, Follower, Followers,
