@@ -225,15 +225,14 @@ fn check_maps(mesh: &Mesh, made: &DerivedMesh) {
     );
     for h in own.half_edges() {
         let source = made.corners()[h.index()];
-        assert_eq!(made.corner_of(source), Some(h));
         assert_eq!(
             made.vertices()[own.origin(h).index()],
             mesh.origin(source),
             "{h}"
         );
     }
-    let here = mesh.half_edges().filter(|&h| made.corner_of(h).is_some());
-    assert_eq!(here.count(), own.half_edge_count(), "corners that are gone");
+    let corners: BTreeSet<_> = made.corners().iter().collect();
+    assert_eq!(corners.len(), own.half_edge_count(), "corners that differ");
     for v in own.vertices() {
         let [source, root] = [v, own.root(v)].map(|v| made.vertices()[v.index()]);
         assert_eq!(root, mesh.root(source), "the root of {v}");

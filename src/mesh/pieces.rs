@@ -44,10 +44,10 @@ impl Mesh {
     /// let mut pieces = mesh.pieces(&mesh.components());
     /// pieces.sort_by_key(|piece| std::cmp::Reverse(piece.faces().len())); // the largest first
     /// let piece = &pieces[1];
-    /// let own_positions = Positions::new(piece.vertex_values(positions.as_slice()))?;
-    /// let own_heat = PerVertex::new(piece.vertex_values(heat.as_slice()));
-    /// let v = piece.mesh().vertices().next().unwrap();
-    /// assert_eq!(own_positions.at(v), positions.at(piece.vertices()[v.index()]));
+    /// let vertices = piece.vertices().iter().copied();
+    /// let own_positions = Positions::new(vertices.clone().map(|v| positions.at(v)))?;
+    /// let own_heat = PerVertex::new(vertices.map(|v| *heat.at(v)).collect());
+    /// assert_eq!(own_positions.len(), piece.mesh().vertex_count());
     /// assert_eq!(own_heat.as_slice().len(), piece.mesh().vertex_count());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

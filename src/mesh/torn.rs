@@ -33,14 +33,6 @@ impl Mesh {
     /// # Ok::<(), tearmesh::TornError>(())
     /// ```
     pub fn build_torn(triangles: &[[u32; 3]], roots: &[u32]) -> Result<Mesh, TornError> {
-        let vertices = roots.len();
-        if let Some(&index) = triangles
-            .as_flattened()
-            .iter()
-            .find(|&&v| v as usize >= vertices)
-        {
-            return Err(TornError::Index { index, vertices });
-        }
         let wrong = |&(v, &root): &(usize, &u32)| {
             root as usize > v || roots.get(root as usize).is_none_or(|&of| of != root)
         };
@@ -50,9 +42,9 @@ impl Mesh {
         }
         let whole: Vec<[u32; 3]> = triangles
             .iter()
-            .map(|triangle| triangle.map(|v| roots[v as usize]))
+            .map(|triangle| triangle.map(|v| roots.get(v as usize).copied().unwrap_or(v)))
             .collect();
-        let mut mesh = Mesh::build(vertices, &whole).map_err(TornError::Build)?;
+        let mut mesh = Mesh::build(roots.len(), &whole).map_err(TornError::Build)?;
         mesh.origin.copy_from_slice(triangles.as_flattened());
         mesh.outgoing.fill(NO_HALF_EDGE);
         for (h, &v) in mesh.origin.iter().enumerate().rev() {
@@ -94,13 +86,6 @@ impl Mesh {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TornError {
-    /// A triangle refers to a vertex that does not exist.
-    Index {
-        /// The vertex index in the triangle.
-        index: u32,
-        /// The number of roots given, which is the number of vertices.
-        vertices: usize,
-    },
     /// A root is not the smallest of the vertices that have this root, or a vertex without faces
     /// shares its root with another vertex.
     Root {
@@ -116,12 +101,6 @@ pub enum TornError {
 impl fmt::Display for TornError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            TornError::Index { index, vertices } => {
-                write!(
-                    f,
-                    "a triangle names vertex {index}, but there are {vertices} vertices"
-                )
-            }
             TornError::Root { vertex, root } => {
                 write!(f, "vertex {root} cannot be the root of {vertex}")
             }

@@ -240,7 +240,8 @@ fn a_chosen_sheet_of_a_stack_is_torn_as_if_it_were_alone() {
             let mut expected = BTreeSet::new();
             for &number in &sheets {
                 let own = &alone[number];
-                let at = Positions::new(own.vertex_values(positions.as_slice())).expect("usable");
+                let at = Positions::new(own.vertices().iter().map(|&v| positions.at(v)));
+                let at = at.expect("usable");
                 let (_, torn) = torn_by(method, &all, own.mesh(), &at);
                 expected.extend(torn.into_iter().map(|h| own.corners()[h].index()));
             }
