@@ -90,7 +90,10 @@ pub struct Scissor {
     rays: Option<[Ray; 2]>,
     tips: CutTips,
     layers: CutLayers,
-    exact: exact::Settings,
+    /// How near an end of its edge a crossing is taken for that end: 0 … 0.49 of the edge.
+    snap: f64,
+    /// Whether what was taken for a crossing slides onto the plane.
+    snap_move: bool,
     /// Where the cut goes on from another, and where it comes back to one.
     joints: [Option<CutEnd>; 2],
 }
@@ -155,10 +158,8 @@ impl Scissor {
             rays,
             tips: CutTips::default(),
             layers: CutLayers::default(),
-            exact: exact::Settings {
-                snap: Scissor::SNAP,
-                snap_move: false,
-            },
+            snap: Scissor::SNAP,
+            snap_move: false,
             joints: [None, None],
         }
     }
@@ -179,7 +180,7 @@ impl Scissor {
     /// by 0.7. [`CutReport::tip_overshoots`] reports the difference for each cut.
     #[must_use]
     pub fn snap(mut self, snap: f64) -> Scissor {
-        self.exact.snap = if snap.is_nan() {
+        self.snap = if snap.is_nan() {
             0.0
         } else {
             snap.clamp(0.0, 0.49)
@@ -195,7 +196,7 @@ impl Scissor {
     /// is already torn, or if the vertex is on the boundary but the edge is not.
     #[must_use]
     pub fn snap_move(mut self, snap_move: bool) -> Scissor {
-        self.exact.snap_move = snap_move;
+        self.snap_move = snap_move;
         self
     }
 
@@ -433,7 +434,7 @@ impl Scissor {
                 ..way
             };
         }
-        let trace = is_exact.then(|| exact::trace(&way, self.exact.snap, mesh, positions));
+        let trace = is_exact.then(|| exact::trace(&way, self.snap, mesh, positions));
         let survey = is_measured.then(|| Survey::new(&way, mesh, positions, trace.as_ref()));
         let judged = |mesh: &Mesh, edits: &Edits| {
             let survey = survey.as_ref();
@@ -447,7 +448,7 @@ impl Scissor {
                 paper::cut(&way, Form::Alternating, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact, Some(trace)) => {
-                let snap_move = self.exact.snap_move;
+                let snap_move = self.snap_move;
                 exact::cut(&way, trace, snap_move, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact | CutMethod::Partition, _) => {

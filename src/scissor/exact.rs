@@ -47,15 +47,6 @@ use planner::{Chain, Planner};
 pub(super) use trace::Trace;
 use trace::{Place, Site};
 
-/// What the method is told beyond the strip.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Settings {
-    /// How near an end of its edge a crossing is taken for that end: 0 … 0.49 of the edge.
-    pub(super) snap: f64,
-    /// Whether what was taken for a crossing slides onto the plane.
-    pub(super) snap_move: bool,
-}
-
 /// Finds where the slit runs, and where it has to end so that no face gets thin.
 pub(super) fn trace(way: &Way<'_>, snap: f64, mesh: &Mesh, positions: &Positions) -> Trace {
     // Nodes that the slit does not meet but has to go on to. Each round adds one that was not

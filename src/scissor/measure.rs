@@ -23,7 +23,7 @@ use crate::place::Positions;
 ///
 /// A *component* is a set of faces joined by shared edges. The *seam* is the set of edges that this cut
 /// tore. The *slit* is the part of the plane between the side planes. Lengths are in units of the model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct CutReport {
@@ -87,15 +87,13 @@ pub(super) struct Survey<'w> {
     census: Census,
     /// The faces that the slit meets, ascending.
     slit: Vec<FaceId>,
-    faces_crossed: usize,
     slit_length: f64,
-    pieces_before: usize,
-    pieces_expected: usize,
     pinches: Vec<Pinch>,
     mean_edge: f64,
     /// Of the faces that no cut changes: those far from the plane.
     quality_far_away: Quality,
-    nearest_vertex: f64,
+    /// What is known before the cut.
+    report: CutReport,
 }
 
 impl<'w> Survey<'w> {
@@ -113,19 +111,20 @@ impl<'w> Survey<'w> {
         let (mean_edge, quality_far_away) = edges_and_far_faces(mesh, positions, &census);
         let mut survey = Survey {
             way,
-            pieces_before: census.before(mesh),
-            census,
             slit: Vec::new(),
-            faces_crossed: 0,
             slit_length: 0.0,
-            pieces_expected: 0,
             pinches: Vec::new(),
             mean_edge,
             quality_far_away,
-            nearest_vertex: nearest_vertex(way, mesh, positions),
+            report: CutReport {
+                pieces_before: census.before(mesh),
+                nearest_vertex: nearest_vertex(way, mesh, positions),
+                ..CutReport::default()
+            },
+            census,
         };
         survey.follow_slit(mesh, positions);
-        (survey.pieces_expected, survey.pinches) = match trace {
+        (survey.report.pieces_expected, survey.pinches) = match trace {
             Some(trace) => exact::pieces_expected(way, trace, &survey.census, mesh, positions),
             None => (survey.pieces_expected(mesh, positions), Vec::new()),
         };
@@ -138,7 +137,7 @@ impl<'w> Survey<'w> {
         for &f in among {
             let crossing = self.crossing(mesh, positions, f);
             if let Some(length) = crossing.and_then(|ends| self.length_inside(ends)) {
-                self.faces_crossed += 1;
+                self.report.faces_crossed += 1;
                 self.slit.push(f);
                 self.slit_length += length;
             }
@@ -261,7 +260,7 @@ impl<'w> Survey<'w> {
     ) -> CutReport {
         let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
         let mut ends: Vec<VertexId> = Vec::new();
-        let pieces = self.census.after(mesh);
+        let (pieces, expected) = (self.census.after(mesh), self.report.pieces_expected);
         let mut quality = self.quality_far_away.clone();
         for f in self.census.near_now(mesh) {
             let corners = mesh.face_vertices(f).map(|v| positions.at(v));
@@ -297,15 +296,12 @@ impl<'w> Survey<'w> {
             _ => 0.0,
         };
         CutReport {
-            faces_crossed: self.faces_crossed,
             splits,
             refused: outcome.refused,
             ghost_pairs: ends.len(),
-            pieces_before: self.pieces_before,
             pieces,
-            pieces_expected: self.pieces_expected,
-            crumbs: pieces.saturating_sub(self.pieces_expected),
-            lost: self.pieces_expected.saturating_sub(pieces),
+            crumbs: pieces.saturating_sub(expected),
+            lost: expected.saturating_sub(pieces),
             necks: {
                 let copies = |of: &[VertexId]| with_copies(of.to_vec(), edits, first_edit);
                 neck::severed(&self.pinches, copies, self.way, (mesh, positions), outcome)
@@ -322,8 +318,8 @@ impl<'w> Survey<'w> {
             angle_min_deg: quality.angle_min_deg(),
             altitude_min: quality.altitude_min(),
             missed: self.slit.is_empty(),
-            nearest_vertex: self.nearest_vertex,
             tip_overshoots: self.overshoots(mesh, positions, ends),
+            ..self.report.clone()
         }
     }
 

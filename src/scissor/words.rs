@@ -31,10 +31,10 @@ impl Scissor {
             None => vec![plane.point().coords, plane.scaled_normal()],
         };
         let numbers = vectors.iter().flat_map(|v| [v.x, v.y, v.z]);
-        let numbers = numbers.chain([self.exact.snap]);
+        let numbers = numbers.chain([self.snap]);
         let settings = [
             self.strip.through,
-            self.exact.snap_move,
+            self.snap_move,
             self.tips == CutTips::Midpoint,
             self.layers == CutLayers::First,
         ];
@@ -63,16 +63,8 @@ impl Scissor {
             _ => return None,
         };
         let [through, snap_move, midpoint, first] = [1, 2, 4, 8].map(|flag| flags & flag != 0);
-        let tips = if midpoint {
-            CutTips::Midpoint
-        } else {
-            CutTips::Vertex
-        };
-        let layers = if first {
-            CutLayers::First
-        } else {
-            CutLayers::All
-        };
+        let tips = [CutTips::Vertex, CutTips::Midpoint][usize::from(midpoint)];
+        let layers = [CutLayers::All, CutLayers::First][usize::from(first)];
         let scissor = scissor.through(through).snap_move(snap_move);
         let is_ours = rest.is_empty() && flags < 16;
         is_ours.then(|| scissor.snap(f64::from_bits(snap)).tips(tips).layers(layers))

@@ -62,31 +62,29 @@ pub(in crate::scissor) fn first(
 ) -> Choice {
     let trace = tracer::trace(way, 0.0, &[], mesh, positions);
     let chains = chains(&trace);
+    let pieces = || trace.pieces.iter().zip(chains.iter().copied());
+    let runs =
+        pieces().map(|(piece, chain)| (Run::new(way, &trace, piece, mesh, positions), chain));
+    let runs: Vec<(Run, u32)> = runs.collect();
+    let faces_of = |is_one: &dyn Fn(u32) -> bool| {
+        let pieces = pieces().filter(|&(_, chain)| is_one(chain));
+        let faces = pieces.flat_map(|(piece, _)| faces_of(piece, mesh));
+        faces.collect::<Vec<FaceId>>()
+    };
     let mut choice = Choice::default();
     let mut chosen = Vec::new();
     for side in 0..2 {
-        let pieces = trace.pieces.iter().zip(&chains);
-        let runs =
-            pieces.map(|(piece, &chain)| (Run::new(way, &trace, piece, mesh, positions), chain));
-        let runs: Vec<(Run, u32)> = runs.collect();
-        let Some((at, chain)) = hit(&runs, rays, side).or_else(|| beside(way, &runs, rays, side))
-        else {
+        let hit = hit(&runs, rays, side).or_else(|| beside(way, &runs, rays, side));
+        let Some((at, chain)) = hit else {
             continue;
         };
-        let pieces = trace.pieces.iter().zip(&chains);
-        let of_chain = pieces.filter(|&(_, &other)| other == chain);
-        let faces = of_chain.flat_map(|(piece, _)| faces_of(piece, mesh));
-        let faces: Vec<FaceId> = faces.collect();
+        let faces = faces_of(&|other| other == chain);
         let least = faces.iter().min().copied();
         choice.hits[side] = least.map(|chain| LayerHit { at, chain });
         choice.faces.extend(faces);
         chosen.push(chain);
     }
-    let pieces = trace.pieces.iter().zip(&chains);
-    let others = pieces.filter(|(_, chain)| !chosen.contains(chain));
-    choice.others = others
-        .flat_map(|(piece, _)| faces_of(piece, mesh))
-        .collect();
+    choice.others = faces_of(&|chain| !chosen.contains(&chain));
     choice.faces.sort_unstable();
     choice.faces.dedup();
     let faces = &choice.faces;
