@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use tearmesh::geometry::{Point, Vector, check_point};
+
 /// The particle or constraint at which a blow-up was noticed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -84,6 +86,17 @@ impl fmt::Display for BlowUpSite {
             BlowUpSite::Unknown => f.write_str("the method gave up"),
         }
     }
+}
+
+/// The first particle whose position or velocity is bad, which both are looked at as a point.
+pub(crate) fn first(is_bad: fn(Point) -> bool, x: &[Point], v: &[Vector]) -> Option<usize> {
+    let mut particles = x.iter().zip(v);
+    particles.position(|(&x, &v)| is_bad(x) || is_bad(v.into()))
+}
+
+/// Whether a point is farther away than is usable, or a velocity too fast.
+pub(crate) fn is_beyond(point: Point) -> bool {
+    check_point(point).is_err()
 }
 
 /// A number to three digits or all of those before the point.

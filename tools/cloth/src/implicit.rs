@@ -59,9 +59,10 @@
 
 pub(crate) mod settings;
 
-use tearmesh::geometry::{Point, Vector, check_point, dot, length};
+use tearmesh::geometry::{Point, Vector, dot, length};
 
 pub use self::settings::{Method, Settings, Stats, StepError};
+use crate::blow_up::{first, is_beyond};
 use crate::constraint::Colour;
 use crate::matrix::{Hessian, Layout, Pcg, Solution, Weights};
 use crate::solver::{Abilities, Failure, Quality, SettingError, Solver};
@@ -185,14 +186,8 @@ impl Implicit {
         is_last: bool,
         stats: &mut Stats,
     ) -> Result<bool, Failure> {
-        let System {
-            positions: x,
-            velocities: v,
-            model,
-            counters,
-            changes,
-            ..
-        } = system;
+        let (x, v) = (&mut system.positions, &mut system.velocities);
+        let (model, counters) = (&system.model, &mut system.counters);
         let weights = Weights {
             masses: &model.masses,
             inverse_masses: &model.inverse_masses,
@@ -218,7 +213,7 @@ impl Implicit {
         self.reached.clear();
         let ends = self.start.iter().zip(&self.velocities);
         self.reached.extend(ends.map(|(x, v)| x + v * stage.h));
-        if let Some(particle) = first_bad(&self.reached, &self.velocities) {
+        if let Some(particle) = first(is_beyond, &self.reached, &self.velocities) {
             return Err(Failure::Implicit(StepError::NotFinite { particle }));
         }
         if overstretches(model, x, &self.reached) {
@@ -232,7 +227,7 @@ impl Implicit {
         // The shortest part is taken also if it makes energy: what is left then is the solver's error, which
         // no shorter one would lower.
         if !is_last {
-            let known_j = self.history.elastic_j(x, *changes);
+            let known_j = self.history.elastic_j(x, system.changes);
             let from_j = known_j.unwrap_or_else(|| elastic_j(x, counters));
             if self.makes_energy(model, weights, (x, v), [from_j, to_j], counters) {
                 return Ok(false);
@@ -240,7 +235,7 @@ impl Implicit {
         }
         let reached = (&self.reached[..], &self.velocities[..]);
         self.history.note((x, v), reached, dt_s);
-        self.history.stored_j = (*changes, to_j);
+        self.history.stored_j = (system.changes, to_j);
         x.copy_from_slice(reached.0);
         v.copy_from_slice(reached.1);
         stats.parts += 1;
@@ -341,7 +336,7 @@ impl Implicit {
         let (mut sums, mut is_clamped) = (1, false);
         let solution = loop {
             self.hessian.clear(&self.layout);
-            let slots = |kind| self.layout.slots(kind);
+            let slots = |kind: usize| &self.layout.slots[kind][..];
             let clamped = model.add_hessian(x, is_clamped, slots, &mut self.hessian);
             let pcg = &mut self.pcg;
             self.hessian.product(&self.layout, &self.shift, &mut pcg.b);
@@ -421,7 +416,7 @@ impl Implicit {
 
     /// Gives each piece that nothing holds the momentum that the exact answer has.
     fn keep_momentum(&mut self, weights: Weights<'_>, stage: Stage) {
-        let pieces = self.layout.pieces();
+        let pieces = &self.layout.pieces;
         // By lowest particle: the momentum that is missing; the mass, or NaN where something is
         // held.
         let missing = &mut self.shift;
@@ -464,7 +459,7 @@ impl Solver for Implicit {
         system.keep();
         system.scratch.is_fresh = false;
         // A state that is too far away or too fast already is no matter of the method.
-        Failure::unless(first_bad(&system.positions, &system.velocities).is_none())?;
+        Failure::unless(first(is_beyond, &system.positions, &system.velocities).is_none())?;
         let mut stats = self.stats;
         self.divide(system, dt_s, 1, &mut stats)?;
         let ratio_max = system.model.stretch_ratio_max;
@@ -569,11 +564,4 @@ fn overstretches(model: &Model, x: &[Point], reached: &[Point]) -> bool {
                 .map(|points| triangle.derivatives(triangle.vertices.map(|v| points[v as usize])));
             (0..2).any(|c| is_long(before[c], after[c], 1.0))
         })
-}
-
-/// The first particle whose position or velocity is unusable.
-fn first_bad(x: &[Point], v: &[Vector]) -> Option<usize> {
-    let bad = x.iter().position(|&p| check_point(p).is_err());
-    let fast = v.iter().position(|v| check_point(Point::from(*v)).is_err());
-    bad.or(fast)
 }

@@ -174,10 +174,10 @@ impl Hessian {
 pub(crate) struct Layout {
     /// The pair (i, j), i < j, of each slot, in ascending order.
     pairs: Vec<[u32; 2]>,
-    /// The lowest particle of the piece of each particle.
-    pieces: Vec<u32>,
+    /// For each particle, the lowest among those that constraints connect with it, itself included.
+    pub(crate) pieces: Vec<u32>,
     /// By kind of constraint and by the number of a constraint's pair; [`NO_SLOT`] without a pair.
-    slots: Vec<Vec<u32>>,
+    pub(crate) slots: [Vec<u32>; 3],
     /// How many pairs the constraints have, where those of several coincide counted for each.
     count: usize,
     sets: DisjointSets,
@@ -195,7 +195,7 @@ impl Layout {
         let (mut count, mut is_same) = (0, self.pieces.len() == particles);
         each_pair(&mut |kind, number, ends| {
             count += 1;
-            let slot = self.slots.get(kind).and_then(|slots| slots.get(number));
+            let slot = self.slots[kind].get(number);
             let pair = slot.and_then(|&slot| self.pairs.get(slot as usize));
             is_same &= pair == Some(&sorted(ends));
         });
@@ -210,9 +210,6 @@ impl Layout {
         self.slots.iter_mut().for_each(|slots| slots.fill(NO_SLOT));
         each_pair(&mut |kind, number, ends| {
             let slot = self.pairs.binary_search(&sorted(ends));
-            if self.slots.len() <= kind {
-                self.slots.resize(kind + 1, Vec::new());
-            }
             let slots = &mut self.slots[kind];
             if slots.len() <= number {
                 slots.resize(number + 1, NO_SLOT);
@@ -224,16 +221,6 @@ impl Layout {
         let particles = 0..particles as u32;
         self.pieces.clear();
         self.pieces.extend(particles.map(|i| self.sets.leader(i)));
-    }
-
-    /// The slots of the constraints of a kind, by the numbers of their pairs.
-    pub(crate) fn slots(&self, kind: usize) -> &[u32] {
-        self.slots.get(kind).map_or(&[], |slots| slots)
-    }
-
-    /// For each particle, the lowest among those that constraints connect with it, itself included.
-    pub(crate) fn pieces(&self) -> &[u32] {
-        &self.pieces
     }
 }
 

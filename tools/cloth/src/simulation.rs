@@ -174,6 +174,9 @@ impl Simulation {
     /// recorded. Every number is the same to the bit. (A fraction of a step that was left to the
     /// next call of [`advance`](Simulation::advance) is not in the log.)
     ///
+    /// For followers of its edits, `follow` is given the edits of the steps before each input, and then those of
+    /// the input and whether it is a cut.
+    ///
     /// ```
     /// use tearmesh_cloth::{InputLog, Simulation, SimulationDef};
     /// use tearmesh::{VertexId, shapes};
@@ -185,7 +188,7 @@ impl Simulation {
     /// sim.advance(0.1, 1000)?;
     ///
     /// let log: InputLog = sim.log().ok_or("it is recorded")?.to_string().parse()?;
-    /// let again = Simulation::replayed(mesh, positions, def, &log)?;
+    /// let again = Simulation::replayed(mesh, positions, def, &log, |_, _| {})?;
     /// assert_eq!(again.cloth().positions(), sim.cloth().positions());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -194,21 +197,6 @@ impl Simulation {
     ///
     /// [`ReplayError`] if the log is that of another mesh or definition, or not of a simulation.
     pub fn replayed(
-        mesh: Mesh,
-        positions: Positions,
-        def: SimulationDef,
-        log: &InputLog,
-    ) -> Result<Simulation, ReplayError> {
-        Simulation::replayed_by(mesh, positions, def, log, |_, _| {})
-    }
-
-    /// Repeats what a log says, as [`Simulation::replayed`] does, for followers of its edits. `follow` is given
-    /// the edits of the steps before each input, and then those of the input and whether it is a cut.
-    ///
-    /// # Errors
-    ///
-    /// [`ReplayError`] if the log is that of another mesh or definition, or not of a simulation.
-    pub fn replayed_by(
         mesh: Mesh,
         positions: Positions,
         mut def: SimulationDef,
@@ -337,14 +325,8 @@ impl Simulation {
         &mut self,
         balance: Option<&mut Balance>,
     ) -> Result<StepReport, StepError> {
-        let (cloth, solver) = (&mut self.cloth, &mut *self.solver);
-        let report = match balance {
-            None => cloth.step(solver, self.step_s)?,
-            Some(balance) => {
-                let system = cloth.system_mut();
-                system.step_observed(solver, self.step_s, balance)?
-            }
-        };
+        let system = self.cloth.system_mut();
+        let report = system.step_with(&mut *self.solver, self.step_s, balance)?;
         self.steps += 1;
         if let Some(log) = &mut self.log {
             log.steps = self.steps;
@@ -482,7 +464,7 @@ impl Simulation {
     /// or not finite.
     pub fn grab(&mut self, vertex: VertexId, radius_m: f64) -> Result<HandId, InputError> {
         self.not_in_hand(vertex)?;
-        if self.is_held(vertex) {
+        if self.cloth.system().is_held(vertex.index()) {
             return Err(InputError::Held(vertex));
         }
         if !(radius_m >= 0.0 && radius_m.is_finite()) {
@@ -587,20 +569,19 @@ impl Simulation {
     /// [`InputError::NoCut`] if there was no such cut.
     pub fn heal(&mut self, wounds: Wounds) -> Result<usize, InputError> {
         let (sheet, system) = (&self.sheet, self.cloth.system());
-        let opened = match wounds {
-            Wounds::All => self.healing.begin(sheet.mesh.half_edges(), sheet, system),
+        let (opened, number) = match wounds {
+            Wounds::All => {
+                let torn = sheet.mesh.half_edges();
+                (self.healing.begin(torn, sheet, system), None)
+            }
             Wounds::Cut(cut) => {
                 let torn = self.seams.torn_by(cut).ok_or(InputError::NoCut(cut))?;
-                self.healing.begin(torn, sheet, system)
+                (self.healing.begin(torn, sheet, system), Some(cut.0.into()))
             }
         };
         if opened > 0 {
             self.strengthen();
         }
-        let number = match wounds {
-            Wounds::All => None,
-            Wounds::Cut(cut) => Some(cut.0.into()),
-        };
         self.note("heal", number);
         Ok(opened)
     }
@@ -621,12 +602,10 @@ impl Simulation {
         }
         let set = system.set_loads(loads);
         debug_assert!(set.is_ok(), "loads without a fault can be set");
-        let numbers = wind.map(
-            |Wind {
-                 velocity_m_per_s: u,
-                 coefficient,
-             }| [u.x, u.y, u.z, coefficient],
-        );
+        let numbers = wind.map(|wind| {
+            let velocity: [f64; 3] = wind.velocity_m_per_s.into();
+            velocity.into_iter().chain([wind.coefficient])
+        });
         self.note("wind", numbers.into_iter().flatten().map(f64::to_bits));
         Ok(())
     }
@@ -639,10 +618,6 @@ impl Simulation {
             Some(hand) => Err(InputError::InHand(vertex, hand)),
             None => Ok(()),
         }
-    }
-
-    fn is_held(&self, v: VertexId) -> bool {
-        self.cloth.system().is_held(v.index())
     }
 
     /// Returns what happened since the previous call, and forgets it.

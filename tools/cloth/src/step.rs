@@ -6,10 +6,10 @@
 //! go beside where they were ([`kick_and_drift`](motion::kick_and_drift)), and for all others, whoever
 //! changes the state first copies it ([`System::keep`]).
 
-use tearmesh::geometry::{Point, Vector, check_point};
+use tearmesh::geometry::{Point, Vector};
 
 use crate::balance::Balance;
-use crate::blow_up::BlowUpSite;
+use crate::blow_up::{BlowUpSite, first, is_beyond};
 use crate::motion;
 use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
 use crate::stability::admit;
@@ -44,7 +44,8 @@ impl System {
         self.step_with(solver, dt_s, Some(balance))
     }
 
-    fn step_with(
+    /// Advances the system as [`System::step`] does, with or without a balance.
+    pub(crate) fn step_with(
         &mut self,
         solver: &mut (impl Solver + ?Sized),
         dt_s: f64,
@@ -182,24 +183,12 @@ type State<'a> = (&'a [Point], &'a [Vector]);
 /// stretch ratio, or else the first particle that is too far away or too fast. The first state that
 /// shows any of these counts.
 fn blow_up_site(model: &Model, states: &[State<'_>]) -> BlowUpSite {
-    let shown = states.iter().find_map(|&state| {
-        let too_long = || model.longest_beyond(state.0, model.stretch_ratio_max);
-        let named = broken(state).or_else(too_long);
-        named.or_else(|| beyond(state))
+    let is_broken = |point: Point| !point.iter().all(|x| x.is_finite());
+    let shown = states.iter().find_map(|&(x, v)| {
+        let broken = first(is_broken, x, v).map(BlowUpSite::Particle);
+        let named = broken.or_else(|| model.longest_beyond(x, model.stretch_ratio_max));
+        named.or_else(|| first(is_beyond, x, v).map(BlowUpSite::Beyond))
     });
     let last = || model.longest_beyond(states.last()?.0, f64::NEG_INFINITY);
     shown.or_else(last).unwrap_or(BlowUpSite::Unknown)
-}
-
-fn broken((positions, velocities): State<'_>) -> Option<BlowUpSite> {
-    let mut particles = positions.iter().zip(velocities);
-    let bad = |(p, v): (&Point, &Vector)| !p.iter().chain(v.iter()).all(|x| x.is_finite());
-    particles.position(bad).map(BlowUpSite::Particle)
-}
-
-fn beyond((positions, velocities): State<'_>) -> Option<BlowUpSite> {
-    let mut particles = positions.iter().zip(velocities);
-    let far =
-        |(&p, &v): (&Point, &Vector)| [p, v.into()].map(check_point).iter().any(Result::is_err);
-    particles.position(far).map(BlowUpSite::Beyond)
 }

@@ -94,13 +94,25 @@ impl FromStr for InputLog {
     type Err = LogError;
 
     fn from_str(text: &str) -> Result<InputLog, LogError> {
-        let mut lines = (1..).zip(text.lines().chain(std::iter::repeat("")));
-        let mut line = Line::of(lines.next());
-        line.read(HEAD.len(), HEAD, |head| (head == HEAD).then_some(()))?;
+        let (mut lines, mut number) = (text.lines(), 0);
+        let mut next = || {
+            number += 1;
+            let text = lines.next().unwrap_or_default();
+            Line {
+                number,
+                text,
+                read: 0,
+            }
+        };
+        let mut line = next();
+        if !line.text.starts_with(HEAD) {
+            return Err(line.error(HEAD));
+        }
+        line.read = HEAD.len();
         let mut log = InputLog::new(line.number()?);
         line.end()?;
         loop {
-            let mut line = Line::of(lines.next());
+            let mut line = next();
             let ascends = |step: &u64| *step >= log.steps;
             let step = |word: &str| word.parse().ok().filter(ascends);
             log.steps = line.word("a number of steps that does not descend", step)?;
@@ -116,55 +128,33 @@ impl FromStr for InputLog {
             }
             log.note(verb, words);
         }
-        let is_over = text.lines().count() == log.records.len() + 2;
-        let after = Line::of(lines.next());
-        is_over
-            .then_some(log)
-            .ok_or(after.error("the end of the log"))
+        match text.lines().nth(log.records.len() + 2) {
+            None => Ok(log),
+            Some(_) => Err(next().error("the end of the log")),
+        }
     }
 }
 
 /// A line that is read from left to right.
 struct Line<'t> {
-    line: usize,
+    number: usize,
     text: &'t str,
-    /// The number of bytes read.
+    /// Where the next word begins: after a space, or one beyond the end.
     read: usize,
 }
 
-impl<'t> Line<'t> {
-    fn of(numbered: Option<(usize, &'t str)>) -> Line<'t> {
-        let (line, text) = numbered.unwrap_or_default();
-        Line {
-            line,
-            text,
-            read: 0,
-        }
-    }
-
-    fn read<T>(
-        &mut self,
-        length: usize,
-        expected: &'static str,
-        read: impl Fn(&str) -> Option<T>,
-    ) -> Result<T, LogError> {
-        let part = self.text.get(self.read..self.read + length);
-        let value = part.and_then(read).ok_or(self.error(expected))?;
-        self.read += length;
-        Ok(value)
-    }
-
-    /// Reads a word; but for the first, a space parts it from the one before.
+impl Line<'_> {
+    /// Reads a word, and the space after it.
     fn word<T>(
         &mut self,
         expected: &'static str,
         read: impl Fn(&str) -> Option<T>,
     ) -> Result<T, LogError> {
-        if self.read > 0 && !self.text[..self.read].ends_with(' ') {
-            self.read(1, "a space", |part| (part == " ").then_some(()))?;
-        }
-        let rest = &self.text[self.read..];
-        self.read(rest.find(' ').unwrap_or(rest.len()), expected, read)
+        let rest = self.text.get(self.read..).unwrap_or_default();
+        let word = rest.split(' ').next().unwrap_or_default();
+        let value = read(word).ok_or(self.error(expected))?;
+        self.read += word.len() + 1;
+        Ok(value)
     }
 
     fn number(&mut self) -> Result<u64, LogError> {
@@ -173,18 +163,20 @@ impl<'t> Line<'t> {
         self.word("a number of up to 16 hexadecimal digits", hex)
     }
 
+    /// Whether the word that was read last is that of the line.
     fn end(&self) -> Result<(), LogError> {
-        let is_over = self.read == self.text.len();
-        is_over
-            .then_some(())
-            .ok_or(self.error("the end of the line"))
+        let is_over = self.read > self.text.len();
+        let error = LogError {
+            column: self.read,
+            ..self.error("the end of the line")
+        };
+        is_over.then_some(()).ok_or(error)
     }
 
     fn error(&self, expected: &'static str) -> LogError {
-        let (line, column) = (self.line, self.read + 1);
         LogError {
-            line,
-            column,
+            line: self.number,
+            column: self.read.min(self.text.len()) + 1,
             expected,
         }
     }

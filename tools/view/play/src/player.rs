@@ -125,7 +125,7 @@ impl<'d> Player<'d> {
                 torn.next_cut();
             }
         };
-        let sim = Simulation::replayed_by(start.mesh, start.positions, start.def, &inputs, follow);
+        let sim = Simulation::replayed(start.mesh, start.positions, start.def, &inputs, follow);
         let sim = sim.map_err(|error| error.to_string())?;
         let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
         player.torn = torn;
