@@ -16,6 +16,7 @@ use crate::parts::scenes::square;
 
 const ONE: NonZero<u32> = NonZero::<u32>::MIN;
 const TWO: NonZero<u32> = ONE.saturating_add(1);
+const TORN: Quantity = Quantity::ALL[2];
 
 /// A cloth with a scene, which a [`Subject`] borrows.
 struct Staged {
@@ -89,7 +90,7 @@ fn an_ensemble_is_the_same_in_any_order_of_its_jobs() {
         let seeds = ensemble.members.iter().map(|member| member.seed);
         assert_eq!(seeds.collect::<Vec<_>>(), [1, 2, 3]);
         // A rip is chaotic, so no two seeds tear the same length.
-        let (torn_m, is_whole) = ensemble.numbers(Quantity::Torn);
+        let (torn_m, is_whole) = ensemble.numbers(TORN);
         assert!(is_whole);
         assert!(torn_m[0] != torn_m[1], "{torn_m:?}");
         assert!(torn_m[1] != torn_m[2], "{torn_m:?}");
@@ -188,7 +189,7 @@ fn an_interrupted_ensemble_keeps_the_runs_that_were_done() {
         assert_eq!(found, statuses, "{allowed} checks");
         let done = statuses.iter().filter(|&&one| one == MemberStatus::Done);
         let torn_m = vec![0.0; done.count()];
-        assert_eq!(ensemble.numbers(Quantity::Torn), (torn_m, false));
+        assert_eq!(ensemble.numbers(TORN), (torn_m, false));
     }
 }
 
@@ -206,7 +207,7 @@ fn a_failed_run_is_a_member_and_a_refused_scene_is_an_error() {
         assert_eq!(member.status, MemberStatus::Failed);
         assert!(member.why.contains("stab"), "{}", member.why);
     }
-    assert_eq!(ensembles[0].numbers(Quantity::Torn), (Vec::new(), false));
+    assert_eq!(ensembles[0].numbers(TORN), (Vec::new(), false));
     let backwards = Staged::new(4, |frame| Scene {
         duration_s: -1.0,
         ..Scene::hang(frame)

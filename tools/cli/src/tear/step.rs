@@ -60,7 +60,7 @@ fn compared(ensembles: &[Ensemble], quantity: Quantity) -> Option<report::StepQu
         comparison.verdict = Verdict::CannotTell;
     }
     Some(report::StepQuantity {
-        name: quantity.key(),
+        name: quantity.key,
         spread: [statistics::spread(&whole), statistics::spread(&half)],
         comparison,
     })
@@ -77,11 +77,11 @@ pub(super) fn summary(check: &report::StepCheck) -> Vec<String> {
         short(half.step_s),
     )];
     for quantity in Quantity::ALL {
-        let named = |one: &&report::StepQuantity| one.name == quantity.key();
+        let named = |one: &&report::StepQuantity| one.name == quantity.key;
         let Some(told) = check.quantities.iter().find(named) else {
             continue;
         };
-        let [name, unit] = quantity.name();
+        let [name, unit] = quantity.name;
         let [whole, half] = told.spread.map(|points| spread(points, unit));
         let verdict = told.comparison.verdict.name();
         lines.push(format!("  {name:<14} {whole:<30} {half:<30} {verdict}"));
@@ -111,8 +111,8 @@ pub(super) fn warnings(check: &report::StepCheck) -> Vec<Fault> {
     let mut faults = Vec::new();
     let name = |one: &report::StepQuantity| {
         let mut all = Quantity::ALL.into_iter();
-        let found = all.find(|quantity| quantity.key() == one.name);
-        found.map(|quantity| quantity.name()[0])
+        let found = all.find(|quantity| quantity.key == one.name);
+        found.map(|quantity| quantity.name[0])
     };
     let differs = |one: &&report::StepQuantity| one.comparison.verdict == Verdict::Differ;
     let names: Vec<&str> = check

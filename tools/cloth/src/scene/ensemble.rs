@@ -96,75 +96,44 @@ pub struct Observed {
     pub(crate) visits: u64,
 }
 
-/// A measured quantity of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// The time of the first tear, [`Observed::first_tear_s`]; infinite if nothing tore.
-    FirstTear,
-    /// The force at the first tear, [`Observed::first_force_n`]; infinite if nothing tore, unless it is
-    /// unknown.
-    FirstForce,
-    /// The torn length, [`Observed::torn_m`].
-    Torn,
-    /// The number of pieces, [`Observed::pieces`].
-    Pieces,
-    /// The largest force at a hold, [`Observed::largest_force_n`].
-    LargestForce,
-    /// The work of all holds, [`Observed::work_j`].
-    Work,
+/// A measured quantity of a run: its names, and how it is read.
+#[derive(Clone, Copy, Debug)]
+pub struct Quantity {
+    /// The key of the quantity in reports, which is the name of a field of [`Observed`].
+    pub key: &'static str,
+    /// The name of the quantity in words, and its unit; the unit is empty for a number.
+    pub name: [&'static str; 2],
+    /// The value of the quantity in a run; `None` if the method does not know it.
+    of: fn(&Observed) -> Option<f64>,
 }
 
 impl Quantity {
-    /// All quantities, in the order of the fields of [`Observed`].
+    /// All quantities, in the order of the fields of [`Observed`]. In a run without a tear the first
+    /// tear is infinitely late, at a force that was never reached, unless forces are unknown.
     pub const ALL: [Quantity; 6] = [
-        Quantity::FirstTear,
-        Quantity::FirstForce,
-        Quantity::Torn,
-        Quantity::Pieces,
-        Quantity::LargestForce,
-        Quantity::Work,
+        Quantity::new("first_tear_s", ["first tear", "s"], |run| {
+            Some(run.first_tear_s.unwrap_or(f64::INFINITY))
+        }),
+        Quantity::new("first_force_n", ["force then", "N"], |run| {
+            match run.first_tear_s {
+                Some(_) => run.first_force_n,
+                None => run.largest_force_n.map(|_| f64::INFINITY),
+            }
+        }),
+        Quantity::new("torn_m", ["torn length", "m"], |run| Some(run.torn_m)),
+        Quantity::new("pieces", ["pieces", ""], |run| Some(run.pieces as f64)),
+        Quantity::new("largest_force_n", ["largest force", "N"], |run| {
+            run.largest_force_n
+        }),
+        Quantity::new("work_j", ["work of holds", "J"], |run| run.work_j),
     ];
 
-    /// Returns the name of the quantity in words, and its unit; the unit is empty for a number.
-    #[must_use]
-    pub fn name(self) -> [&'static str; 2] {
-        match self {
-            Quantity::FirstTear => ["first tear", "s"],
-            Quantity::FirstForce => ["force then", "N"],
-            Quantity::Torn => ["torn length", "m"],
-            Quantity::Pieces => ["pieces", ""],
-            Quantity::LargestForce => ["largest force", "N"],
-            Quantity::Work => ["work of holds", "J"],
-        }
-    }
-
-    /// Returns the key of the quantity in reports.
-    #[must_use]
-    pub fn key(self) -> &'static str {
-        match self {
-            Quantity::FirstTear => "first_tear_s",
-            Quantity::FirstForce => "first_force_n",
-            Quantity::Torn => "torn_m",
-            Quantity::Pieces => "pieces",
-            Quantity::LargestForce => "largest_force_n",
-            Quantity::Work => "work_j",
-        }
-    }
-
-    /// The value of the quantity in a run; `None` if the method does not know it. In a run without
-    /// a tear the first tear is infinitely late, at a force that was never reached.
-    fn of(self, observed: &Observed) -> Option<f64> {
-        match self {
-            Quantity::FirstTear => Some(observed.first_tear_s.unwrap_or(f64::INFINITY)),
-            Quantity::FirstForce => match observed.first_tear_s {
-                Some(_) => observed.first_force_n,
-                None => observed.largest_force_n.map(|_| f64::INFINITY),
-            },
-            Quantity::Torn => Some(observed.torn_m),
-            Quantity::Pieces => Some(observed.pieces as f64),
-            Quantity::LargestForce => observed.largest_force_n,
-            Quantity::Work => observed.work_j,
-        }
+    const fn new(
+        key: &'static str,
+        name: [&'static str; 2],
+        of: fn(&Observed) -> Option<f64>,
+    ) -> Quantity {
+        Quantity { key, name, of }
     }
 }
 
@@ -174,7 +143,7 @@ impl Ensemble {
     #[must_use]
     pub fn numbers(&self, quantity: Quantity) -> (Vec<f64>, bool) {
         let observed = self.members.iter().filter_map(|member| member.observed);
-        let numbers: Vec<f64> = observed.filter_map(|one| quantity.of(&one)).collect();
+        let numbers: Vec<f64> = observed.filter_map(|one| (quantity.of)(&one)).collect();
         let is_whole = numbers.len() == self.members.len();
         (numbers, is_whole)
     }
@@ -211,7 +180,8 @@ pub struct Job {
 /// let ensembles = ensemble::play(subject, 1..=3, &step_divisors, &|| false, |jobs, member| {
 ///     jobs.iter().map(member).collect()
 /// })?;
-/// let [(whole, _), (half, _)] = [0, 1].map(|i| ensembles[i].numbers(Quantity::Torn));
+/// let [_, _, torn_m, ..] = Quantity::ALL;
+/// let [(whole, _), (half, _)] = [0, 1].map(|i| ensembles[i].numbers(torn_m));
 /// assert_eq!(compare(&whole, &half).verdict, Verdict::Same); // Nothing tears at either step.
 /// # Ok::<(), tearmesh_cloth::scene::RunError>(())
 /// ```
@@ -269,53 +239,54 @@ pub fn member(
     seed: u64,
     stop: &dyn Fn() -> bool,
 ) -> Member {
-    let ended = |status, why: String, observed| Member {
+    let (status, why, observed) = match observe(subject, step_divisor, seed, stop) {
+        Ok(Some(observed)) => (MemberStatus::Done, String::new(), Some(observed)),
+        Ok(None) => (MemberStatus::Interrupted, String::new(), None),
+        Err(why) => (MemberStatus::Failed, why, None),
+    };
+    Member {
         seed,
         status,
         why,
         observed,
-    };
-    let interrupted = || ended(MemberStatus::Interrupted, String::new(), None);
-    let failed = |why| ended(MemberStatus::Failed, why, None);
+    }
+}
+
+/// Plays a subject once; `None` if it was stopped, or the reason for a failure.
+fn observe(
+    subject: Subject<'_>,
+    step_divisor: NonZero<u32>,
+    seed: u64,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<Observed>, String> {
     if stop() {
-        return interrupted();
+        return Ok(None);
     }
     let Disturbance { mesh, offsets_m } = Disturbance::new(subject.mesh, seed);
-    let mut run = match begin(subject, mesh, step_divisor) {
-        Ok(run) => match run.displaced(|v| offsets_m[v.index()]) {
-            Ok(run) => run,
-            Err(error) => return failed(error.to_string()),
-        },
-        Err(error) => return failed(error.to_string()),
-    };
+    let run = begin(subject, mesh, step_divisor).map_err(|error| error.to_string())?;
+    let run = run.displaced(|v| offsets_m[v.index()]);
+    let mut run = run.map_err(|error| error.to_string())?;
     let torn_before_m = run.torn_length_m();
     let mut tear_log = TearLog::new(&run);
     while !run.is_over() {
         if stop() {
-            return interrupted();
+            return Ok(None);
         }
-        match run.step() {
-            Ok(tear) => tear_log.note(&run, &tear),
-            Err(error) => return failed(error.to_string()),
-        }
+        let tear = run.step().map_err(|error| error.to_string())?;
+        tear_log.note(&run, &tear);
     }
     let first_tear = tear_log.first_tear();
     let largest_force_n = tear_log.largest_force_n();
-    let observed = Observed {
+    let visits = run.cloth().system().counters().visits;
+    Ok(Some(Observed {
         first_tear_s: first_tear.map(|first| first.event.time_s),
         first_force_n: first_tear.and_then(|first| first.force_n),
         torn_m: run.torn_length_m() - torn_before_m,
         pieces: run.mesh().components().count(),
         largest_force_n,
         work_j: largest_force_n.map(|_| run.energy_balance().held_j),
-        visits: visits(&run),
-    };
-    ended(MemberStatus::Done, String::new(), Some(observed))
-}
-
-fn visits(run: &Run) -> u64 {
-    let visits = run.cloth().system().counters().visits;
-    visits.project + visits.force + visits.detect
+        visits: visits.project + visits.force + visits.detect,
+    }))
 }
 
 /// A run of the subject on `mesh`, with its step divided.
