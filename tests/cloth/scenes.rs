@@ -4,7 +4,7 @@
 use tearmesh::{Plane, Point, Ray, Vector, VertexId, shapes};
 use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{
-    Axis, Frame, HeldVertices, Names, Region, Run, RunError, Scene, SwayingWind, TimedCut,
+    Axis, Frame, HeldVertices, Region, Run, RunError, Scene, SwayingWind, TimedCut,
 };
 use tearmesh_cloth::{
     Collider, Limiter, Method, Path, Pbd, Quality, SimulationError, StepError, Tearing, Threshold,
@@ -532,18 +532,15 @@ fn scenes_that_make_no_sense_are_refused() {
     assert_eq!(
         nowhere,
         RunError::NoVertices {
-            named_by: Names::Hold,
+            named_by: "hold",
             number: 1
         }
     );
     let region = || Region::Vertices([3, 25].map(|v| VertexId::new(v).expect("an id")).to_vec());
     for (names, refused) in [
+        ("hold", refused(&|scene| scene.holds[0].region = region())),
         (
-            Names::Hold,
-            refused(&|scene| scene.holds[0].region = region()),
-        ),
-        (
-            Names::Strength,
+            "strength",
             refused(&|scene| scene.strengths = vec![(region(), 2.0)]),
         ),
     ] {
@@ -560,7 +557,7 @@ fn scenes_that_make_no_sense_are_refused() {
     assert_eq!(
         weak,
         RunError::NoVertices {
-            named_by: Names::Strength,
+            named_by: "strength",
             number: 0
         }
     );

@@ -14,7 +14,7 @@ mod tear_log;
 mod warning;
 
 pub use frame::{Axis, Frame};
-pub use run::{CutMade, EnergyGain, Names, Run, RunError, RunTally};
+pub use run::{CutMade, EnergyGain, Run, RunError, RunTally};
 pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
 pub use warning::Warning;
 
@@ -177,43 +177,42 @@ impl Region {
     /// the order of the list, without those that the mesh does not have.
     #[must_use]
     pub fn vertices(&self, mesh: &Mesh, points: &[Point], frame: &Frame) -> Vec<VertexId> {
-        if let Region::Vertices(named) = self {
-            let exists = |v: &&VertexId| v.index() < mesh.vertex_count();
-            return named.iter().filter(exists).copied().collect();
-        }
         let used = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
-        let at = |v: VertexId| points[v.index()];
+        let at = |v: &VertexId| points[v.index()];
         let within = |x: f64, [low, high]: [f64; 2]| low <= x && x <= high;
-        match *self {
+        match self {
             Region::Near { at: place, radius } => {
-                let away = |v: VertexId| {
+                let away = |v: &VertexId| {
                     let [across, along] = frame.parts(at(v));
                     let x = (across - place[0]) * frame.extents_m[0];
                     let y = (along - place[1]) * frame.extents_m[1];
                     x * x + y * y
                 };
                 // Of those that are as near the first one counts.
-                let nearest = used.clone().min_by(|&a, &b| away(a).total_cmp(&away(b)));
-                let Some(centre) = nearest else {
-                    return Vec::new();
-                };
+                let nearest = used.clone().min_by(|a, b| away(a).total_cmp(&away(b)));
                 let reach = radius * frame.size_m();
-                used.filter(|&v| length(at(v) - at(centre)) <= reach)
-                    .collect()
+                let is_near = |v: &VertexId| {
+                    nearest.is_some_and(|nearest| length(at(v) - at(&nearest)) <= reach)
+                };
+                used.filter(is_near).collect()
             }
-            Region::Patch { across, along } => used
-                .filter(|&v| {
-                    let parts = frame.parts(at(v));
-                    within(parts[0], across) && within(parts[1], along)
-                })
-                .collect(),
-            Region::Box { from, to } => used
-                .filter(|&v| (0..3).all(|i| within(at(v)[i], [from[i], to[i]])))
-                .collect(),
-            Region::Ball { centre, radius_m } => used
-                .filter(|&v| length(at(v) - centre) <= radius_m)
-                .collect(),
-            Region::Vertices(_) => Vec::new(),
+            Region::Patch { across, along } => {
+                let parts = |v: &VertexId| frame.parts(at(v));
+                let is_in = |[x, y]: [f64; 2]| within(x, *across) && within(y, *along);
+                used.filter(|v| is_in(parts(v))).collect()
+            }
+            Region::Box { from, to } => {
+                let is_in = |x: Point| (0..3).all(|i| within(x[i], [from[i], to[i]]));
+                used.filter(|v| is_in(at(v))).collect()
+            }
+            Region::Ball { centre, radius_m } => {
+                let is_in = |x: Point| length(x - centre) <= *radius_m;
+                used.filter(|v| is_in(at(v))).collect()
+            }
+            Region::Vertices(named) => {
+                let exists = |v: &&VertexId| v.index() < mesh.vertex_count();
+                named.iter().filter(exists).copied().collect()
+            }
         }
     }
 }

@@ -157,7 +157,7 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
         RunError::NoVertices { named_by, number } => {
             let help = "give it a larger region, or `near` with a place";
             return blame(
-                (&named_by.to_string(), number, ""),
+                (named_by, number, ""),
                 "E-SCENE-EMPTY",
                 error.to_string(),
                 Some(help),
@@ -175,8 +175,12 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
                 vertex.index() + 1,
                 opened.document.vertex_statement_count()
             );
-            let table = named_by.to_string();
-            return blame((&table, number, "vertices"), "E-SCENE-RANGE", message, None);
+            return blame(
+                (named_by, number, "vertices"),
+                "E-SCENE-RANGE",
+                message,
+                None,
+            );
         }
         RunError::Simulation(SimulationError::Tearing(TearingError::Axis { .. })) => {
             return blame(

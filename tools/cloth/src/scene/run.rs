@@ -9,7 +9,7 @@ mod error;
 mod gain;
 mod held;
 
-pub use self::error::{Names, RunError};
+pub use self::error::RunError;
 pub use self::gain::EnergyGain;
 
 use std::num::NonZero;
@@ -24,7 +24,7 @@ use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::energy;
 use crate::load::{Collider, Loads};
-use crate::method::{Softness, speed_m_per_s};
+use crate::method::Softness;
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
 use crate::solver::{Quality, Solver, StepError};
@@ -108,33 +108,10 @@ impl Run {
             return Err(RunError::Wind { field, given });
         }
         let points = positions.as_slice();
-        let vertices = |(number, hold): (usize, &_)| Held::new(number, hold, &mesh, points, frame);
-        let held: Vec<Held> = scene
-            .holds
-            .iter()
-            .enumerate()
-            .map(vertices)
-            .collect::<Result<_, _>>()?;
-        let scissor = |(number, cut): (usize, &TimedCut)| {
-            Scissor::new(cut.rays[0], cut.rays[1])
-                .map(|scissor| scissor.through(cut.through))
-                .map_err(|error| RunError::Cut { number, error })
-        };
-        let timeless = |cut: &TimedCut| !(cut.at_s >= 0.0 && cut.at_s.is_finite());
-        if let Some(number) = scene.cuts.iter().position(timeless) {
-            let given_s = scene.cuts[number].at_s;
-            return Err(RunError::CutTime { number, given_s });
-        }
-        let earlier = |pair: &[TimedCut]| pair[1].at_s < pair[0].at_s;
-        if let Some(before) = scene.cuts.windows(2).position(earlier) {
-            return Err(RunError::CutTimes { number: before + 1 });
-        }
-        let scissors = scene
-            .cuts
-            .iter()
-            .enumerate()
-            .map(scissor)
-            .collect::<Result<_, _>>()?;
+        let held = scene.holds.iter().enumerate();
+        let held = held.map(|(number, hold)| Held::new(number, hold, &mesh, points, frame));
+        let held = held.collect::<Result<Vec<_>, _>>()?;
+        let scissors = scissors(&scene.cuts)?;
         let loads = Loads {
             gravity_m_per_s2: Some(scene.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
@@ -360,13 +337,8 @@ impl Run {
         let Some(wind) = self.scene.wind.filter(sways) else {
             return;
         };
-        let step_s = self.step_s();
-        let system = self.sim.cloth.system_mut();
-        let loads = Loads {
-            wind: Some(wind.at(now as f64 * step_s)),
-            ..system.loads().clone()
-        };
-        let set = system.set_loads(loads);
+        let wind = wind.at(now as f64 * self.step_s());
+        let set = self.sim.set_wind(Some(wind));
         set.expect("wind between two usable winds is usable");
     }
 
@@ -432,17 +404,6 @@ impl Run {
     #[must_use]
     pub fn step_s(&self) -> f64 {
         self.sim.step_s()
-    }
-
-    /// Returns the longest step at which PBD or XPBD is about as stiff as the fabric, in seconds;
-    /// `None` for other methods. With a longer step, cloth that merely hangs is overstretched, and
-    /// may tear without cause.
-    #[must_use]
-    pub(crate) fn step_wanted_s(&self) -> Option<f64> {
-        let scene = &self.scene;
-        let speed_m_per_s = speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2);
-        let system = self.cloth().system();
-        scene.solver.wanted_step_s(system, speed_m_per_s)
     }
 
     /// Returns an estimate, from the masses, of how much softer XPBD leaves the cloth than its
@@ -585,6 +546,25 @@ impl Run {
     }
 }
 
+/// The scissors of cuts, whose times must ascend.
+fn scissors(cuts: &[TimedCut]) -> Result<Vec<Scissor>, RunError> {
+    let (mut scissors, mut last_s) = (Vec::new(), 0.0);
+    for (number, cut) in cuts.iter().enumerate() {
+        let given_s = cut.at_s;
+        if !(given_s >= 0.0 && given_s.is_finite()) {
+            return Err(RunError::CutTime { number, given_s });
+        }
+        if given_s < last_s {
+            return Err(RunError::CutTimes { number });
+        }
+        last_s = given_s;
+        let scissor = Scissor::new(cut.rays[0], cut.rays[1]);
+        let scissor = scissor.map_err(|error| RunError::Cut { number, error })?;
+        scissors.push(scissor.through(cut.through));
+    }
+    Ok(scissors)
+}
+
 /// The strength of each vertex by the regions of a scene; empty for 1 everywhere.
 fn strengths(
     scene: &Scene,
@@ -597,7 +577,7 @@ fn strengths(
     }
     let mut strengths = vec![1.0; mesh.vertex_count()];
     for (number, (region, strength)) in scene.strengths.iter().enumerate() {
-        let name = (Names::Strength, number);
+        let name = ("strength", number);
         for v in held::vertices_in(region, name, mesh, points, frame)? {
             strengths[v.index()] = *strength;
         }
@@ -607,10 +587,8 @@ fn strengths(
 
 /// The largest ratio of an edge's length to its rest length, before Provot's limiter; 0 without edges.
 fn longest_ratio(system: &System) -> f64 {
-    let ratios = system
-        .stretches()
-        .iter()
-        .map(|id| system.unlimited_ratio(id));
+    let edges = system.stretches().iter();
+    let ratios = edges.map(|id| system.unlimited_ratio(id));
     ratios.fold(0.0, f64::max)
 }
 

@@ -4,7 +4,7 @@ use super::run::EnergyGain;
 use super::{Frame, Run};
 use crate::guard::Frequency;
 use crate::load::Collider;
-use crate::method::{Method, Softness};
+use crate::method::{Method, Softness, speed_m_per_s};
 use crate::solver::{LimiterStats, Quality};
 use crate::stability::frequency_bound;
 
@@ -133,7 +133,9 @@ impl Warning {
         let softness = softness.filter(|softness| softness.extra > Softness::TOLERABLE);
         warnings.extend(softness.map(Warning::Soft));
         if matches!(scene.solver, Method::Pbd(_)) {
-            let wanted_s = run.step_wanted_s();
+            let speed_m_per_s = speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2);
+            let system = run.cloth().system();
+            let wanted_s = scene.solver.wanted_step_s(system, speed_m_per_s);
             let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s);
             warnings.extend(wanted_s.map(|wanted_s| Warning::Coarse { wanted_s }));
             warnings.push(Warning::Rigid);

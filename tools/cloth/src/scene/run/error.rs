@@ -31,15 +31,15 @@ pub enum RunError {
     },
     /// The region of a hold or a strength contains no vertex.
     NoVertices {
-        /// The part of the scene that has the region.
-        named_by: Names,
+        /// The part of the scene that has the region: `hold` or `strength`.
+        named_by: &'static str,
         /// The index of that hold or strength in the scene, from 0.
         number: usize,
     },
     /// A hold or a strength names a vertex that the mesh does not have.
     NoVertex {
-        /// The part of the scene that names the vertex.
-        named_by: Names,
+        /// The part of the scene that names the vertex: `hold` or `strength`.
+        named_by: &'static str,
         /// The index of that hold or strength in the scene, from 0.
         number: usize,
         /// The first vertex that the mesh does not have.
@@ -74,24 +74,6 @@ pub enum RunError {
     },
 }
 
-/// The part of a scene that names vertices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Names {
-    /// A hold of the scene.
-    Hold,
-    /// A strength of the scene.
-    Strength,
-}
-
-impl fmt::Display for Names {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Names::Hold => "hold",
-            Names::Strength => "strength",
-        })
-    }
-}
-
 impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -103,9 +85,9 @@ impl fmt::Display for RunError {
                 write!(f, "{field} is {given}, which gives no usable wind")
             }
             RunError::NoVertices { named_by, number } => {
-                let verb = match named_by {
-                    Names::Hold => "holds",
-                    Names::Strength => "contains",
+                let verb = match *named_by {
+                    "hold" => "holds",
+                    _ => "contains",
                 };
                 write!(f, "{named_by} {} {verb} no vertex", number + 1)
             }

@@ -6,7 +6,7 @@
 use tearmesh::geometry::Point;
 use tearmesh::{Edit, Edits, Mesh, VertexId};
 
-use super::error::{Names, RunError};
+use super::error::RunError;
 use crate::balance::Balance;
 use crate::load::Path;
 use crate::scene::{Frame, HeldVertices, Region};
@@ -30,7 +30,7 @@ pub(super) fn step_at(time_s: f64, step_s: f64) -> u64 {
 /// be there.
 pub(super) fn vertices_in(
     region: &Region,
-    (named_by, number): (Names, usize),
+    (named_by, number): (&'static str, usize),
     mesh: &Mesh,
     points: &[Point],
     frame: &Frame,
@@ -98,7 +98,7 @@ impl Held {
         points: &[Point],
         frame: &Frame,
     ) -> Result<Held, RunError> {
-        let name = (Names::Hold, number);
+        let name = ("hold", number);
         let vertices = vertices_in(&hold.region, name, mesh, points, frame)?;
         let later = |until_s: f64| until_s > hold.from_s;
         let finite = hold.from_s >= 0.0 && hold.from_s.is_finite();
@@ -136,14 +136,9 @@ impl Held {
     fn path(&self, from: Point) -> Option<Path> {
         // The way itself was looked at when the scene was set; from the edge of what is usable it
         // leads a little beyond, and not to nowhere.
-        let points: Vec<_> = self
-            .hold
-            .moves
-            .iter()
-            .map(|&(s, d)| (s, from + d))
-            .collect();
-        (!points.is_empty()).then_some(Path {
-            points: points.into(),
+        let points = self.hold.moves.iter().map(|&(s, d)| (s, from + d));
+        (!self.hold.moves.is_empty()).then(|| Path {
+            points: points.collect(),
         })
     }
 
