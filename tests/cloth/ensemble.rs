@@ -3,14 +3,13 @@
 
 use std::cell::Cell;
 use std::num::NonZero;
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
 
 use tearmesh::{Mesh, Positions};
 use tearmesh_cloth::scene::ensemble::{
-    self, Disturbance, Job, Member, MemberStatus, NOISE_M, Quantity, Subject,
+    self, Disturbance, Ensemble, Member, MemberStatus, NOISE_M, Quantity, Subject,
 };
-use tearmesh_cloth::scene::{Axis, Frame, Run, RunError, Scene, TearLog};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, TearLog};
 
 use crate::parts::scenes::square;
 
@@ -49,51 +48,42 @@ impl Staged {
     }
 }
 
-type RunJob<'a> = &'a (dyn Fn(&Job) -> Member + Sync);
-
-fn last_job_first(jobs: &[Job], member: RunJob<'_>) -> Vec<Member> {
-    let mut members: Vec<Member> = jobs.iter().rev().map(member).collect();
-    members.reverse();
-    members
-}
-
-fn one_thread_per_job(jobs: &[Job], member: RunJob<'_>) -> Vec<Member> {
-    thread::scope(|scope| {
-        let start = |job| scope.spawn(move || member(job));
-        let threads: Vec<_> = jobs.iter().map(start).collect();
-        let joined = threads.into_iter().map(|thread| thread.join());
-        joined.map(|member| member.expect("no panic")).collect()
-    })
-}
-
-/// Carries out jobs one after the other.
-fn in_series(jobs: &[Job], member: &(dyn Fn(&Job) -> Member + Sync)) -> Vec<Member> {
-    jobs.iter().map(member).collect()
+/// The run of a seed at a part of the step.
+fn member(staged: &Staged, (step_divisor, seed): (NonZero<u32>, u64)) -> Member {
+    ensemble::member(staged.subject(), step_divisor, seed, &|| false)
 }
 
 #[test]
-fn an_ensemble_is_the_same_in_any_order_of_its_jobs() {
+fn a_member_is_the_same_in_any_order_and_on_any_thread() {
     let staged = Staged::new(8, Scene::rip);
-    let play = |map: fn(&[Job], RunJob<'_>) -> Vec<Member>| {
-        let ensembles = ensemble::play(staged.subject(), 1..=3, &[ONE, TWO], &|| false, map);
-        ensembles.expect("a scene that can be played")
-    };
-    let ensembles = play(in_series);
-    assert_eq!(play(last_job_first), ensembles);
-    assert_eq!(play(one_thread_per_job), ensembles);
-    let [whole, half] = &ensembles[..] else {
-        panic!("{ensembles:?}");
-    };
-    assert_eq!((whole.step_divisor, half.step_divisor), (ONE, TWO));
-    assert_eq!(half.step_s, whole.step_s / 2.0);
-    for ensemble in &ensembles {
-        let seeds = ensemble.members.iter().map(|member| member.seed);
+    let jobs = [ONE, TWO].map(|divisor| [1, 2, 3].map(|seed| (divisor, seed)));
+    let jobs = jobs.as_flattened();
+    let members: Vec<Member> = jobs.iter().map(|&job| member(&staged, job)).collect();
+    let last_first = jobs.iter().rev().map(|&job| member(&staged, job));
+    assert!(last_first.eq(members.iter().rev().cloned()));
+    let of_threads = thread::scope(|scope| {
+        let staged = &staged;
+        let start = |&job| scope.spawn(move || member(staged, job));
+        let threads = [&jobs[0], &jobs[5]].map(start);
+        threads.map(|thread| thread.join().expect("no panic"))
+    });
+    assert_eq!(of_threads, [0, 5].map(|i| members[i].clone()));
+    for members in members.chunks(3) {
+        let seeds = members.iter().map(|member| member.seed);
         assert_eq!(seeds.collect::<Vec<_>>(), [1, 2, 3]);
         // A rip is chaotic, so no two seeds tear the same length.
-        let (torn_m, is_whole) = ensemble.numbers(TORN);
+        let (torn_m, is_whole) = gathered(members.to_vec()).numbers(TORN);
         assert!(is_whole);
         assert!(torn_m[0] != torn_m[1], "{torn_m:?}");
         assert!(torn_m[1] != torn_m[2], "{torn_m:?}");
+    }
+}
+
+fn gathered(members: Vec<Member>) -> Ensemble {
+    Ensemble {
+        step_divisor: ONE,
+        step_s: 1.0,
+        members,
     }
 }
 
@@ -159,7 +149,7 @@ fn a_member_is_a_run_that_was_disturbed() {
 }
 
 #[test]
-fn an_interrupted_ensemble_keeps_the_runs_that_were_done() {
+fn an_interrupted_run_is_a_member_without_numbers() {
     let staged = Staged::new(4, |frame| Scene {
         duration_s: 0.05,
         ..Scene::hang(frame)
@@ -173,44 +163,46 @@ fn an_interrupted_ensemble_keeps_the_runs_that_were_done() {
     assert_eq!(whole.status, MemberStatus::Done);
     let checks_of_a_run = checks.get();
     assert!(checks_of_a_run > 10, "{checks_of_a_run}");
-    for (allowed, statuses) in [
-        (0, [MemberStatus::Interrupted; 2]),
-        (checks_of_a_run - 1, [MemberStatus::Interrupted; 2]),
-        (
-            checks_of_a_run + 2,
-            [MemberStatus::Done, MemberStatus::Interrupted],
-        ),
+    for (allowed, status) in [
+        (0, MemberStatus::Interrupted),
+        (checks_of_a_run - 1, MemberStatus::Interrupted),
+        (checks_of_a_run, MemberStatus::Done),
     ] {
-        let checks = AtomicU32::new(0);
-        let stop = || checks.fetch_add(1, Ordering::SeqCst) >= allowed;
-        let ensembles = ensemble::play(staged.subject(), 1..=2, &[ONE], &stop, in_series);
-        let ensemble = ensembles.expect("a scene").remove(0);
-        let found = [0, 1].map(|i| ensemble.members[i].status);
-        assert_eq!(found, statuses, "{allowed} checks");
-        let done = statuses.iter().filter(|&&one| one == MemberStatus::Done);
-        let torn_m = vec![0.0; done.count()];
-        assert_eq!(ensemble.numbers(TORN), (torn_m, false));
+        checks.set(0);
+        let stop = || checks.replace(checks.get() + 1) >= allowed;
+        let stopped = ensemble::member(staged.subject(), ONE, 1, &stop);
+        assert_eq!(stopped.status, status, "{allowed} checks");
+        assert_eq!(stopped.observed.is_some(), status == MemberStatus::Done);
+        let numbers = gathered(vec![whole.clone(), stopped]).numbers(TORN);
+        let both = (vec![0.0; 2], true);
+        let one = (vec![0.0], false);
+        assert_eq!(
+            numbers,
+            if status == MemberStatus::Done {
+                both
+            } else {
+                one
+            }
+        );
     }
 }
 
 #[test]
-fn a_failed_run_is_a_member_and_a_refused_scene_is_an_error() {
+fn a_failed_run_and_one_of_a_refused_scene_are_members() {
     // Such a step is far beyond what is stable, and is not divided since the scene names it.
     let unstable = Staged::new(4, |frame| Scene {
         step_s: Some(0.1),
         ..Scene::hang(frame)
     });
-    let play =
-        |staged: &Staged| ensemble::play(staged.subject(), 1..=2, &[ONE], &|| false, in_series);
-    let ensembles = play(&unstable).expect("a scene that begins");
-    for member in &ensembles[0].members {
-        assert_eq!(member.status, MemberStatus::Failed);
-        assert!(member.why.contains("stab"), "{}", member.why);
-    }
-    assert_eq!(ensembles[0].numbers(TORN), (Vec::new(), false));
+    let failed = member(&unstable, (ONE, 1));
+    assert_eq!(failed.status, MemberStatus::Failed);
+    assert!(failed.why.contains("stab"), "{}", failed.why);
+    assert_eq!(gathered(vec![failed]).numbers(TORN), (Vec::new(), false));
     let backwards = Staged::new(4, |frame| Scene {
         duration_s: -1.0,
         ..Scene::hang(frame)
     });
-    assert!(matches!(play(&backwards), Err(RunError::Times { .. })));
+    let refused = member(&backwards, (ONE, 1));
+    assert_eq!(refused.status, MemberStatus::Failed);
+    assert!(refused.why.starts_with("-1 s cannot be"), "{}", refused.why);
 }

@@ -3,10 +3,7 @@
 use std::num::NonZero;
 
 use indicatif::ProgressBar;
-use tearmesh_cloth::scene::RunError;
-use tearmesh_cloth::scene::ensemble::{
-    self, Ensemble, Job, MemberStatus, NOISE_M, Quantity, Subject,
-};
+use tearmesh_cloth::scene::ensemble::{self, Ensemble, MemberStatus, NOISE_M, Quantity, Subject};
 use tearmesh_cloth::statistics::{self, Verdict, compare};
 use tearmesh_lab::experiment::{side_by_side, workers};
 
@@ -17,32 +14,43 @@ use crate::say::{Fault, count, short, three_digits, two_digits};
 /// Runs at each of the two steps.
 const SEEDS: u64 = 8;
 
-/// Plays a subject again and again; what was not done when it was interrupted stands as such.
+/// The numbers by which the step is divided.
+const DIVISORS: [NonZero<u32>; 2] = [NonZero::<u32>::MIN, NonZero::<u32>::MIN.saturating_add(1)];
+
+/// Plays a subject with this step again and again; what was not done when it was interrupted stands as such.
 pub(super) fn check(
     subject: Subject<'_>,
+    step_s: f64,
     guard: &Guard,
     bar: &ProgressBar,
-) -> Result<report::StepCheck, RunError> {
-    const WHOLE: NonZero<u32> = NonZero::<u32>::MIN;
-    let step_divisors = [WHOLE, WHOLE.saturating_add(1)];
-    let stop = || guard.is_interrupted();
-    let ensembles = ensemble::play(subject, 1..=SEEDS, &step_divisors, &stop, |jobs, member| {
-        let cost = |job: &Job| f64::from(job.step_divisor.get());
-        let whole: f64 = jobs.iter().map(cost).sum();
-        let mut done = 0.0;
-        side_by_side(jobs, workers(), member, |i| {
-            done += cost(&jobs[i]);
-            bar.set_position((done / whole * bar.length().unwrap_or(0) as f64) as u64);
-        })
-    })?;
+) -> report::StepCheck {
+    let jobs = DIVISORS.map(|divisor| (1..=SEEDS).map(move |seed| (divisor, seed)));
+    let jobs: Vec<_> = jobs.into_iter().flatten().collect();
+    let cost = |(divisor, _): (NonZero<u32>, u64)| f64::from(divisor.get());
+    let whole: f64 = jobs.iter().map(|&job| cost(job)).sum();
+    let mut done = 0.0;
+    let play = |&(step_divisor, seed): &_| {
+        ensemble::member(subject, step_divisor, seed, &|| guard.is_interrupted())
+    };
+    let members = side_by_side(&jobs, workers(), play, |i| {
+        done += cost(jobs[i]);
+        bar.set_position((done / whole * bar.length().unwrap_or(0) as f64) as u64);
+    });
     bar.finish_and_clear();
+    let ensembles = DIVISORS.into_iter().zip(members.chunks(SEEDS as usize));
+    let ensembles = ensembles.map(|(step_divisor, members)| Ensemble {
+        step_divisor,
+        step_s: step_s / f64::from(step_divisor.get()),
+        members: members.to_vec(),
+    });
+    let ensembles: Vec<_> = ensembles.collect();
     let quantities = Quantity::ALL.into_iter();
     let quantities = quantities.filter_map(|quantity| compared(&ensembles, quantity));
-    Ok(report::StepCheck {
+    report::StepCheck {
         noise_m: NOISE_M,
         quantities: quantities.collect(),
         ensembles,
-    })
+    }
 }
 
 /// None where the method does not say it, or all runs of an ensemble failed. Where some did, nobody can tell:

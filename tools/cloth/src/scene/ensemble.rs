@@ -5,16 +5,14 @@
 //! disturbed runs does. The members of an ensemble differ by a [`Disturbance`] and by nothing else.
 //! Two ensembles are compared by [`compare`](crate::statistics::compare), for each [`Quantity`].
 //!
-//! [`play`] lists the runs as [`Job`]s, and leaves it to its caller to carry them out: this crate
-//! starts no threads.
+//! [`member`] plays one of them. Its caller decides which, in which order and on which threads.
 
 use std::num::NonZero;
-use std::ops::RangeInclusive;
 
 use tearmesh::geometry::Vector;
 use tearmesh::{Mesh, Positions, VertexId};
 
-use super::{Frame, Run, RunError, Scene, TearLog};
+use super::{Frame, Run, Scene, TearLog};
 use crate::statistics::Random;
 
 /// The largest random displacement of a vertex from its starting position along each axis, in
@@ -149,85 +147,30 @@ impl Ensemble {
     }
 }
 
-/// One run to carry out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Job {
-    /// The number by which to divide the step of the scene.
-    pub step_divisor: NonZero<u32>,
-    /// The seed of the disturbance.
-    pub seed: u64,
-}
-
-/// Plays a subject once for each of `step_divisors` and each of `seeds`.
-///
-/// The result has one ensemble per divisor, in the order of `step_divisors`. `map` carries out the
-/// jobs in any order, by calling its second argument for each, and returns the members in the order
-/// of the jobs. It is the place for threads and for progress. When `stop` returns true, every run ends before its next step and is marked as
-/// interrupted.
+/// Plays a subject once, with its step divided by `step_divisor` and the [`Disturbance`] of `seed`.
+/// When `stop` returns true, the run ends before its next step and is marked as interrupted.
 ///
 /// ```
 /// use std::num::NonZero;
 /// use tearmesh::shapes;
-/// use tearmesh_cloth::scene::ensemble::{self, Quantity, Subject};
+/// use tearmesh_cloth::scene::ensemble::{self, Ensemble, Quantity, Subject};
 /// use tearmesh_cloth::scene::{Axis, Frame, Scene};
 /// use tearmesh_cloth::statistics::{Verdict, compare};
 ///
 /// let (mesh, positions) = shapes::grid(4, 4);
 /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-/// let scene = &Scene { duration_s: 0.1, ..Scene::hang(&frame) };
+/// let scene = &Scene { step_s: Some(1e-3), duration_s: 0.1, ..Scene::hang(&frame) };
 /// let subject = Subject { mesh: &mesh, positions: &positions, frame: &frame, scene };
-/// let step_divisors = [1, 2].map(|divisor| NonZero::new(divisor).unwrap());
-/// let ensembles = ensemble::play(subject, 1..=3, &step_divisors, &|| false, |jobs, member| {
-///     jobs.iter().map(member).collect()
-/// })?;
+/// let [whole, half] = [1, 2].map(|divisor| {
+///     let step_divisor = NonZero::new(divisor).unwrap();
+///     let member = |seed| ensemble::member(subject, step_divisor, seed, &|| false);
+///     let members = (1..=3).map(member).collect();
+///     Ensemble { step_divisor, step_s: 1e-3 / f64::from(divisor), members }
+/// });
 /// let [_, _, torn_m, ..] = Quantity::ALL;
-/// let [(whole, _), (half, _)] = [0, 1].map(|i| ensembles[i].numbers(torn_m));
+/// let [(whole, _), (half, _)] = [whole, half].map(|of| of.numbers(torn_m));
 /// assert_eq!(compare(&whole, &half).verdict, Verdict::Same); // Nothing tears at either step.
-/// # Ok::<(), tearmesh_cloth::scene::RunError>(())
 /// ```
-///
-/// # Errors
-///
-/// [`RunError`] if the scene cannot be played.
-///
-/// # Panics
-///
-/// If a divided step leads to more than 2⁴⁰ steps, or if `map` does not return one
-/// member per job, in the order of the jobs.
-pub fn play(
-    subject: Subject<'_>,
-    seeds: RangeInclusive<u64>,
-    step_divisors: &[NonZero<u32>],
-    stop: &(dyn Fn() -> bool + Sync),
-    map: impl FnOnce(&[Job], &(dyn Fn(&Job) -> Member + Sync)) -> Vec<Member>,
-) -> Result<Vec<Ensemble>, RunError> {
-    let whole_step_s = begin(subject, subject.mesh.clone(), NonZero::<u32>::MIN)?.step_s();
-    let with_all_seeds = |&step_divisor: &NonZero<u32>| {
-        let seeds = seeds.clone();
-        seeds.map(move |seed| Job { step_divisor, seed })
-    };
-    let jobs: Vec<Job> = step_divisors.iter().flat_map(with_all_seeds).collect();
-    let members = map(&jobs, &|job| {
-        member(subject, job.step_divisor, job.seed, stop)
-    });
-    assert!(
-        members
-            .iter()
-            .map(|member| member.seed)
-            .eq(jobs.iter().map(|job| job.seed)),
-        "`map` returns one member per job, in order"
-    );
-    let mut members = members.into_iter();
-    let ensemble = |&step_divisor: &NonZero<u32>| Ensemble {
-        step_divisor,
-        step_s: whole_step_s / f64::from(step_divisor.get()),
-        members: members.by_ref().take(seeds.clone().count()).collect(),
-    };
-    Ok(step_divisors.iter().map(ensemble).collect())
-}
-
-/// Plays a subject once, with its step divided by `step_divisor` and the [`Disturbance`] of `seed`.
-/// When `stop` returns true, the run ends before its next step and is marked as interrupted.
 ///
 /// # Panics
 ///
@@ -263,7 +206,14 @@ fn observe(
         return Ok(None);
     }
     let Disturbance { mesh, offsets_m } = Disturbance::new(subject.mesh, seed);
-    let run = begin(subject, mesh, step_divisor).map_err(|error| error.to_string())?;
+    let run = Run::new(
+        mesh,
+        subject.positions,
+        subject.scene.clone(),
+        subject.frame,
+    );
+    let run = run.map_err(|error| error.to_string())?;
+    let run = run.in_smaller_steps(step_divisor);
     let run = run.displaced(|v| offsets_m[v.index()]);
     let mut run = run.map_err(|error| error.to_string())?;
     let torn_before_m = run.torn_length_m();
@@ -287,13 +237,6 @@ fn observe(
         work_j: largest_force_n.map(|_| run.energy_balance().held_j),
         visits: visits.project + visits.force + visits.detect,
     }))
-}
-
-/// A run of the subject on `mesh`, with its step divided.
-fn begin(subject: Subject<'_>, mesh: Mesh, step_divisor: NonZero<u32>) -> Result<Run, RunError> {
-    let scene = subject.scene.clone();
-    let run = Run::new(mesh, subject.positions, scene, subject.frame)?;
-    Ok(run.in_smaller_steps(step_divisor))
 }
 
 /// The difference of one member of an ensemble from the subject. It is public so that a program can
