@@ -117,14 +117,10 @@ impl Method {
         let stable_s = whole_step_s(system, &*self.solver(), springs_part);
         let stable_s = stable_s.map_or(LONGEST_S, |stable_s| part * stable_s);
         let limit_s = match self {
-            Method::Provot(_) | Method::Verlet => stable_s,
-            Method::Implicit(_) => FRAME_S / 4.0,
-            Method::Pbd(_) | Method::Xpbd(_) => {
-                let wanted_s = self.wanted_step_s(system, speed_m_per_s);
-                wanted_s.unwrap_or(LONGEST_S)
-            }
+            Method::Implicit(_) => Some(FRAME_S / 4.0),
+            _ => self.wanted_step_s(system, speed_m_per_s),
         };
-        let shortest_s = limit_s.min(stable_s).min(LONGEST_S);
+        let shortest_s = limit_s.unwrap_or(stable_s).min(stable_s).min(LONGEST_S);
         FRAME_S / (FRAME_S / shortest_s).ceil().max(1.0)
     }
 

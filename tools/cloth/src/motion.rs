@@ -13,27 +13,18 @@ use crate::system::{Model, System};
 /// largest stretch ratio.
 #[must_use]
 pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Option<f64>) -> bool {
-    let System {
-        positions,
-        velocities,
-        model,
-        scratch,
-        counters,
-        guard,
-        ..
-    } = system;
-    let count = positions.len();
+    let (model, scratch) = (&system.model, &mut system.scratch);
+    let (positions, velocities) = (&system.positions, &system.velocities);
     scratch.is_fresh = false;
-    scratch.accelerations.resize(count, Vector::zeros());
-    let crush = guarded_s.map(|dt_s| Crush { velocities, dt_s });
-    let winds = if is_predicted {
-        &scratch.predicted
-    } else {
-        &*velocities
-    };
     let accelerations = &mut scratch.accelerations;
-    let is_sane = model.pull(positions, winds, crush, accelerations, counters);
-    model.weigh(guarded_s.map(|_| guard.carry()), accelerations);
+    accelerations.resize(positions.len(), Vector::zeros());
+    let crush = guarded_s.map(|dt_s| Crush { velocities, dt_s });
+    let winds = match is_predicted {
+        true => &scratch.predicted,
+        false => velocities,
+    };
+    let is_sane = model.pull(positions, winds, crush, accelerations, &mut system.counters);
+    model.weigh(guarded_s.map(|_| system.guard.carry()), accelerations);
     scratch.guarded_s = guarded_s.unwrap_or(0.0);
     is_sane
 }
@@ -41,13 +32,8 @@ pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Opt
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which
 /// divides them; then all fly for `dt_s` seconds.
 pub(crate) fn kick_and_drift(system: &mut System, kick_s: f64, dt_s: f64) {
-    let System {
-        positions,
-        velocities,
-        model,
-        scratch,
-        ..
-    } = system;
+    let (model, scratch) = (&system.model, &mut system.scratch);
+    let (positions, velocities) = (&mut system.positions, &mut system.velocities);
     let fade = 1.0 + kick_s * model.drag_per_s();
     let moved = |x: Point, v: Vector, a: Vector, w: f64| {
         let v = if w > 0.0 { (v + a * kick_s) / fade } else { v };
@@ -98,36 +84,24 @@ pub(crate) fn force_scale(model: &Model, dt_s: f64) -> f64 {
 /// projects. Velocities stay those of before: [`finish`] takes new ones from the positions.
 pub(crate) fn predict(system: &mut System, dt_s: f64) {
     system.keep();
-    let System {
-        positions,
-        velocities,
-        model,
-        scratch,
-        counters,
-        ..
-    } = system;
+    let (model, scratch) = (&system.model, &mut system.scratch);
+    let (positions, velocities) = (&mut system.positions, &system.velocities);
     scratch.is_fresh = false;
     scratch.before.resize(positions.len(), Point::origin());
     let accelerations = &mut scratch.accelerations;
+    // Without wind, all accelerations are one.
+    accelerations.clear();
     if model.loads.wind.is_some() {
-        accelerations.clear();
         accelerations.resize(positions.len(), Vector::zeros());
-        model.external(positions, velocities, accelerations, counters);
+        model.external(positions, velocities, accelerations, &mut system.counters);
     }
     let flight = FreeStep::new(model, dt_s);
     let particles = positions.iter_mut().zip(&mut scratch.before);
-    let particles = particles.zip(&*velocities).zip(&model.inverse_masses);
-    if model.loads.wind.is_some() {
-        for ((((x, before), v), &w), &a) in particles.zip(&*accelerations) {
-            *before = *x;
-            *x += flight.moved(*v, a, w);
-        }
-    } else {
-        // Without wind, all accelerations are one.
-        for (((x, before), v), &w) in particles {
-            *before = *x;
-            *x += flight.moved(*v, flight.gravity, w);
-        }
+    let particles = particles.zip(velocities).zip(&model.inverse_masses);
+    for (i, (((x, before), v), &w)) in particles.enumerate() {
+        let acceleration = accelerations.get(i).copied();
+        *before = *x;
+        *x += flight.moved(*v, acceleration.unwrap_or(flight.gravity), w);
     }
 }
 

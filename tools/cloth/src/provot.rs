@@ -72,15 +72,9 @@ impl Provot {
         let Some(limiter) = self.limiter else {
             return;
         };
-        system.scratch.is_fresh = false;
-        let System {
-            positions,
-            velocities,
-            model,
-            scratch,
-            counters,
-            ..
-        } = system;
+        let (model, scratch) = (&mut system.model, &mut system.scratch);
+        let (positions, counters) = (&mut system.positions, &mut system.counters);
+        scratch.is_fresh = false;
         scratch.before.clone_from(positions);
         for colour in model.stretch.colours_mut() {
             spring::ratios(colour, positions);
@@ -103,7 +97,7 @@ impl Provot {
         }
         if has_shortened {
             let moved = positions.iter().zip(&scratch.before);
-            for (v, (x, before)) in velocities.iter_mut().zip(moved) {
+            for (v, (x, before)) in system.velocities.iter_mut().zip(moved) {
                 *v += (x - before) / dt_s;
             }
         }

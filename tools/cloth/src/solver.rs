@@ -189,12 +189,8 @@ impl SettingError {
 
 impl fmt::Display for SettingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let SettingError {
-            setting,
-            given,
-            allowed,
-        } = self;
-        write!(f, "{setting} is {given}, and may be {allowed}")
+        let (given, allowed) = (self.given, self.allowed);
+        write!(f, "{} is {given}, and may be {allowed}", self.setting)
     }
 }
 

@@ -218,12 +218,12 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        self.connect(
-            |model| &mut model.stretch,
+        let given = Constraint {
             ends,
             rest_length_m,
             stiffness_n_per_m,
-        )
+        };
+        self.connect(|model| &mut model.stretch, given)
     }
 
     /// Adds a bend constraint and returns its id. It is a spring between two particles that are
@@ -243,12 +243,12 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        self.connect(
-            |model| &mut model.bend,
+        let given = Constraint {
             ends,
             rest_length_m,
             stiffness_n_per_m,
-        )
+        };
+        self.connect(|model| &mut model.bend, given)
     }
 
     /// Sets the law by which all bend constraints buckle, present and future ones; `None` makes
@@ -277,14 +277,9 @@ impl System {
     ///
     /// If the system is that of a cloth, whose bends follow its fabric.
     pub fn set_buckling(&mut self, buckling: Option<Buckling>) {
-        assert!(
-            self.model.faces.is_empty(),
-            "the bends of a cloth follow its fabric"
-        );
+        self.is_no_cloth();
         self.model.buckling = buckling;
-        self.scratch.is_fresh = false;
-        self.changes += 1;
-        self.guard.forget();
+        self.rebuilt();
     }
 
     /// Adds a triangle that resists stretch and shear (Baraff and Witkin 1998 §4), and returns its
@@ -321,36 +316,33 @@ impl System {
     pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
         let index = self.model.triangles.as_slice().len();
         self.model.triangles.push(triangle);
-        self.touched();
-        self.guard.forget();
+        self.rebuilt();
         index
     }
 
     fn connect(
         &mut self,
         family: fn(&mut Model) -> &mut Constraints,
-        ends: [usize; 2],
-        rest_length_m: f64,
-        stiffness_n_per_m: f64,
+        given: Constraint,
     ) -> Result<ConstraintId, SystemError> {
         self.is_no_cloth();
-        let constraint = Constraint {
-            ends,
-            rest_length_m,
-            stiffness_n_per_m,
-        };
-        check_constraint(&constraint, self.positions.len())?;
-        let id = family(&mut self.model).add(constraint);
-        self.guard.forget();
-        self.touched();
+        check_constraint(given, self.positions.len())?;
+        let id = family(&mut self.model).add(given);
+        self.rebuilt();
         Ok(id)
     }
 
     fn is_no_cloth(&self) {
         assert!(
             self.model.faces.is_empty(),
-            "the constraints of a cloth follow its mesh"
+            "the constraints of a cloth follow its mesh and fabric"
         );
+    }
+
+    /// Notes that the system is another one.
+    fn rebuilt(&mut self) {
+        self.touched();
+        self.guard.forget();
     }
 
     /// Notes that masses or constraints have changed.
@@ -374,14 +366,13 @@ impl System {
         id: ConstraintId,
         stiffness_n_per_m: f64,
     ) -> Result<(), SystemError> {
-        let constraint = Constraint {
+        let given = Constraint {
             stiffness_n_per_m,
             ..self.model.stretch.get(id)
         };
-        check_constraint(&constraint, self.positions.len())?;
+        check_constraint(given, self.positions.len())?;
         self.model.stretch.set_stiffness(id, stiffness_n_per_m);
-        self.guard.forget();
-        self.touched();
+        self.rebuilt();
         Ok(())
     }
 
@@ -395,8 +386,7 @@ impl System {
     pub fn cut(&mut self, id: ConstraintId) -> Constraint {
         self.is_no_cloth();
         let constraint = self.model.stretch.remove(id);
-        self.guard.forget();
-        self.touched();
+        self.rebuilt();
         constraint
     }
 
@@ -608,13 +598,10 @@ fn inverse(mass: f64, held: bool) -> f64 {
     if held || mass == 0.0 { 0.0 } else { 1.0 / mass }
 }
 
-fn check_constraint(constraint: &Constraint, particles: usize) -> Result<(), SystemError> {
-    let [a, b] = constraint.ends;
+fn check_constraint(given: Constraint, particles: usize) -> Result<(), SystemError> {
+    let [a, b] = given.ends;
     let positive = |x: f64| x > 0.0 && x.is_finite();
-    let numbers = positive(constraint.rest_length_m) && positive(constraint.stiffness_n_per_m);
-    if numbers && a != b && a.max(b) < particles {
-        Ok(())
-    } else {
-        Err(SystemError::Constraint { given: *constraint })
-    }
+    let numbers = positive(given.rest_length_m) && positive(given.stiffness_n_per_m);
+    let holds = numbers && a != b && a.max(b) < particles;
+    holds.then_some(()).ok_or(SystemError::Constraint { given })
 }

@@ -180,12 +180,7 @@ impl Solver for Pbd {
 /// Sweeps over all constraints: a part of the errors of stretch and of bend constraints, with the
 /// compliances of a step by `scale`. What blew up is left as it is.
 fn sweep(system: &mut System, sweeps: u32, fractions: [f64; 2], scale: f64) -> Result<(), Failure> {
-    let System {
-        positions,
-        model,
-        counters,
-        ..
-    } = system;
+    let (model, counters) = (&mut system.model, &mut system.counters);
     for sweep in 0..sweeps.max(1) {
         let project = match sweep {
             0 => spring::project::<true>,
@@ -195,17 +190,16 @@ fn sweep(system: &mut System, sweeps: u32, fractions: [f64; 2], scale: f64) -> R
         counters.visits.project += stretch + bend;
         counters.features.stretch += stretch;
         counters.features.bend += bend;
-        for (family, fraction) in [&mut model.stretch, &mut model.bend]
-            .into_iter()
-            .zip(fractions)
-        {
+        let families = [&mut model.stretch, &mut model.bend];
+        for (family, fraction) in families.into_iter().zip(fractions) {
             let correction = Correction {
                 fraction,
                 scale,
                 ratio_max: model.stretch_ratio_max,
             };
             for colour in family.colours_mut() {
-                let is_sane = project(colour, &model.inverse_masses, correction, positions);
+                let (weights, x) = (&model.inverse_masses, &mut system.positions);
+                let is_sane = project(colour, weights, correction, x);
                 Failure::unless(is_sane)?;
             }
         }
