@@ -31,7 +31,7 @@ use std::fmt;
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
     Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Mesh, Mix, PerVertex, PositionError,
-    Positions, Scissor, Vector, VertexId, pick,
+    Positions, Scissor, VertexId, pick,
 };
 
 use self::hand::Hands;
@@ -44,6 +44,7 @@ use crate::load::{Loads, Wind};
 use crate::method::speed_m_per_s;
 use crate::sheet::Cloth;
 use crate::solver::{Solver, StepError, StepReport};
+use crate::system::SystemError;
 use crate::tearing::{Tear, TearReport};
 
 /// A cloth with its mesh, in motion.
@@ -119,18 +120,12 @@ impl Simulation {
         if strengths.is_empty() {
             strengths.resize(mesh.vertex_count(), 1.0);
         }
-        let mut tear = match def.tearing {
-            None => None,
-            Some(tearing) => {
-                let tear = Tear::new(&cloth, tearing);
-                let tear = tear.and_then(|tear| tear.with_strengths(strengths.clone()));
-                Some(tear.map_err(SimulationError::Tearing)?)
-            }
-        };
+        let tear = |tearing| Tear::new(&cloth, tearing)?.with_strengths(strengths.clone());
+        let tear = def.tearing.map(tear).transpose();
+        let mut tear = tear.map_err(SimulationError::Tearing)?;
         let system = cloth.system_mut();
-        system
-            .set_loads(def.loads)
-            .map_err(SimulationError::Loads)?;
+        let set = system.set_loads(def.loads);
+        set.map_err(SimulationError::Loads)?;
         system.when_unstable(def.when_unstable);
         let speed_m_per_s = speed_m_per_s(&def.fabric, def.density_kg_per_m2);
         let step_s = def.step_s;
@@ -242,27 +237,23 @@ impl Simulation {
         let number = |word: u64| u32::try_from(word).map_err(|_| None);
         let id = |word: u64| VertexId::new(number(word)? as usize).ok_or(None);
         let ids = || record.words.iter().map(|&word| id(word));
+        let floats = |words: [u64; 3]| words.map(f64::from_bits);
         match (record.verb, &record.words[..]) {
             ("hold", _) => self.hold(ids().collect::<Result<Vec<_>, _>>()?)?,
             ("free", _) => self.free(ids().collect::<Result<Vec<_>, _>>()?)?,
             ("grab", &[v, radius_m]) => drop(self.grab(id(v)?, f64::from_bits(radius_m))?),
             ("lead", &[hand, x, y, z]) => {
-                let [x, y, z] = [x, y, z].map(f64::from_bits);
-                self.lead(HandId(number(hand)?), Point::new(x, y, z))?;
+                self.lead(HandId(number(hand)?), floats([x, y, z]).into())?;
             }
             ("release", &[hand]) => self.release(HandId(number(hand)?))?,
             ("cut", words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
             ("heal", &[]) => drop(self.heal(Wounds::All)?),
             ("heal", &[cut]) => drop(self.heal(Wounds::Cut(CutId(number(cut)?)))?),
             ("wind", &[]) => self.set_wind(None)?,
-            ("wind", &[x, y, z, coefficient]) => {
-                let [x, y, z, coefficient] = [x, y, z, coefficient].map(f64::from_bits);
-                let velocity_m_per_s = Vector::new(x, y, z);
-                self.set_wind(Some(Wind {
-                    velocity_m_per_s,
-                    coefficient,
-                }))?;
-            }
+            ("wind", &[x, y, z, coefficient]) => self.set_wind(Some(Wind {
+                velocity_m_per_s: floats([x, y, z]).into(),
+                coefficient: f64::from_bits(coefficient),
+            }))?,
             _ => return Err(None),
         }
         Ok(())
@@ -597,11 +588,9 @@ impl Simulation {
             wind,
             ..system.loads().clone()
         };
-        if let Some((field, given)) = loads.fault() {
+        if let Err(SystemError::Loads { field, given }) = system.set_loads(loads) {
             return Err(InputError::Number(field, given));
         }
-        let set = system.set_loads(loads);
-        debug_assert!(set.is_ok(), "loads without a fault can be set");
         let numbers = wind.map(|wind| {
             let velocity: [f64; 3] = wind.velocity_m_per_s.into();
             velocity.into_iter().chain([wind.coefficient])
@@ -614,10 +603,8 @@ impl Simulation {
         if vertex.index() >= self.sheet.mesh.vertex_count() {
             return Err(InputError::NoVertex(vertex));
         }
-        match self.hands.of(vertex) {
-            Some(hand) => Err(InputError::InHand(vertex, hand)),
-            None => Ok(()),
-        }
+        let hand = self.hands.of(vertex);
+        hand.map_or(Ok(()), |hand| Err(InputError::InHand(vertex, hand)))
     }
 
     /// Returns what happened since the previous call, and forgets it.
