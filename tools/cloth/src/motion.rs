@@ -89,19 +89,25 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
     scratch.is_fresh = false;
     scratch.before.resize(positions.len(), Point::origin());
     let accelerations = &mut scratch.accelerations;
-    // Without wind, all accelerations are one.
-    accelerations.clear();
     if model.loads.wind.is_some() {
+        accelerations.clear();
         accelerations.resize(positions.len(), Vector::zeros());
         model.external(positions, velocities, accelerations, &mut system.counters);
     }
     let flight = FreeStep::new(model, dt_s);
     let particles = positions.iter_mut().zip(&mut scratch.before);
     let particles = particles.zip(velocities).zip(&model.inverse_masses);
-    for (i, (((x, before), v), &w)) in particles.enumerate() {
-        let acceleration = accelerations.get(i).copied();
-        *before = *x;
-        *x += flight.moved(*v, acceleration.unwrap_or(flight.gravity), w);
+    if model.loads.wind.is_some() {
+        for ((((x, before), v), &w), &a) in particles.zip(&*accelerations) {
+            *before = *x;
+            *x += flight.moved(*v, a, w);
+        }
+    } else {
+        // Without wind, all accelerations are one. (One loop for both takes 5 % more of a step of XPBD.)
+        for (((x, before), v), &w) in particles {
+            *before = *x;
+            *x += flight.moved(*v, flight.gravity, w);
+        }
     }
 }
 
