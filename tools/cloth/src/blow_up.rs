@@ -54,37 +54,26 @@ impl BlowUpSite {
 
 impl fmt::Display for BlowUpSite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            BlowUpSite::Particle(particle) => write!(f, "particle {particle} is not finite"),
-            BlowUpSite::Beyond(particle) => {
-                write!(f, "particle {particle} is too far away or too fast")
+        let what = match *self {
+            BlowUpSite::Particle(particle) => {
+                return write!(f, "particle {particle} is not finite");
             }
-            BlowUpSite::Constraint {
-                ends: [a, b],
-                stretch_ratio,
-            } => write!(
-                f,
-                "edge {a}-{b} is {} times its rest length",
-                Digits(stretch_ratio)
-            ),
-            BlowUpSite::Bend {
-                ends: [a, b],
-                stretch_ratio,
-            } => write!(
-                f,
-                "the bend {a}-{b} is {} times its rest length",
-                Digits(stretch_ratio)
-            ),
+            BlowUpSite::Beyond(particle) => {
+                return write!(f, "particle {particle} is too far away or too fast");
+            }
+            BlowUpSite::Constraint { ends: [a, b], .. } => format!("edge {a}-{b}"),
+            BlowUpSite::Bend { ends: [a, b], .. } => format!("the bend {a}-{b}"),
             BlowUpSite::Triangle {
-                corners: [a, b, c],
-                stretch_ratio,
-            } => write!(
-                f,
-                "triangle {a}-{b}-{c} is {} times its size at rest",
-                Digits(stretch_ratio)
-            ),
-            BlowUpSite::Unknown => f.write_str("the method gave up"),
-        }
+                corners: [a, b, c], ..
+            } => format!("triangle {a}-{b}-{c}"),
+            BlowUpSite::Unknown => return f.write_str("the method gave up"),
+        };
+        let at_rest = match self {
+            BlowUpSite::Triangle { .. } => "size at rest",
+            _ => "rest length",
+        };
+        let ratio = Digits(self.stretch_ratio().unwrap_or(f64::NAN));
+        write!(f, "{what} is {ratio} times its {at_rest}")
     }
 }
 

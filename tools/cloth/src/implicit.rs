@@ -210,9 +210,8 @@ impl Implicit {
             }));
         }
         self.keep_momentum(weights, stage);
-        self.reached.clear();
         let ends = self.start.iter().zip(&self.velocities);
-        self.reached.extend(ends.map(|(x, v)| x + v * stage.h));
+        refill(&mut self.reached, ends.map(|(x, v)| x + v * stage.h));
         if let Some(particle) = first(is_beyond, &self.reached, &self.velocities) {
             return Err(Failure::Implicit(StepError::NotFinite { particle }));
         }
@@ -299,9 +298,8 @@ impl Implicit {
                 }
             }
         }
-        self.shift.clear();
         let guess = self.start.iter().zip(v).map(|(s, v)| s + v * h);
-        self.shift.extend(guess.zip(x).map(|(y, x)| y - x));
+        refill(&mut self.shift, guess.zip(x).map(|(y, x)| y - x));
         let dragged = 1.0 + h * model.drag_per_s();
         // The order is that of the method asked for, also where it starts.
         let by_order = match self.settings.method {
@@ -325,9 +323,8 @@ impl Implicit {
         stats: &mut Stats,
         counters: &mut Counters,
     ) -> Solution {
-        self.forces.clear();
         let loads = self.outside.iter().zip(weights.masses);
-        self.forces.extend(loads.map(|(g, m)| g * *m));
+        refill(&mut self.forces, loads.map(|(g, m)| g * *m));
         // What is far too long is found in the state in which a step ends.
         let _ = model.add_forces(x, f64::INFINITY, None, &mut self.forces);
         let drag_per_s = model.drag_per_s();
@@ -382,8 +379,7 @@ impl Implicit {
         counters: &mut Counters,
     ) -> bool {
         let moved = &mut self.shift;
-        moved.clear();
-        moved.extend(self.reached.iter().zip(x).map(|(to, x)| to - x));
+        refill(moved, self.reached.iter().zip(x).map(|(to, x)| to - x));
         let pulls = &mut self.pcg.b;
         // The forces that hold still do no work.
         let is_led = |i: usize| !weights.is_free(i) && moved[i] != Vector::zeros();
@@ -524,12 +520,10 @@ impl History {
         reached: (&[Point], &[Vector]),
         time_step_s: f64,
     ) {
-        self.moved.clear();
-        self.sped.clear();
-        self.moved
-            .extend(reached.0.iter().zip(x).map(|(to, x)| to - x));
-        self.sped
-            .extend(reached.1.iter().zip(v).map(|(to, v)| to - v));
+        let ends = reached.0.iter().zip(x);
+        refill(&mut self.moved, ends.map(|(to, x)| to - x));
+        let ends = reached.1.iter().zip(v);
+        refill(&mut self.sped, ends.map(|(to, v)| to - v));
         reached.0.clone_into(&mut self.positions);
         reached.1.clone_into(&mut self.velocities);
         self.time_step_s = time_step_s;
@@ -541,6 +535,12 @@ impl History {
         let pushed = v - self.velocities[i];
         [self.moved[i] + pushed * self.time_step_s, self.sped[i]]
     }
+}
+
+/// Puts these items in the place of all that a list has, in the room that it has.
+fn refill<T>(list: &mut Vec<T>, items: impl Iterator<Item = T>) {
+    list.clear();
+    list.extend(items);
 }
 
 /// Whether an edge, or a triangle along warp or weft, ends longer than a linearised step knows of, by more than

@@ -33,14 +33,6 @@
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
-#![cfg_attr(
-    test,
-    allow(
-        clippy::unwrap_used,
-        reason = "a test that unwraps an error has failed"
-    )
-)]
-
 pub use tearmesh;
 
 pub mod air;

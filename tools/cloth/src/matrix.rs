@@ -11,6 +11,8 @@
 //!
 //! Why not compressed rows? Symmetry halves the blocks, and a product reads each of them once.
 
+use std::array::from_fn;
+
 use tearmesh::DisjointSets;
 use tearmesh::geometry::{Vector, dot};
 
@@ -38,24 +40,14 @@ impl Block {
     /// Returns the transpose of this matrix.
     #[inline]
     pub(crate) fn transposed(&self) -> Block {
-        let m = &self.0;
-        Block([
-            [m[0][0], m[1][0], m[2][0]],
-            [m[0][1], m[1][1], m[2][1]],
-            [m[0][2], m[1][2], m[2][2]],
-        ])
+        Block(from_fn(|row| from_fn(|column| self.0[column][row])))
     }
 
     /// Returns the sum of this matrix and `s` times another.
     #[inline]
     pub(crate) fn plus(&self, s: f64, other: &Block) -> Block {
-        let mut sum = *self;
-        for (row, from) in sum.0.iter_mut().zip(&other.0) {
-            for (x, y) in row.iter_mut().zip(from) {
-                *x += s * y;
-            }
-        }
-        sum
+        let [a, b] = [&self.0, &other.0];
+        Block(from_fn(|i| from_fn(|j| a[i][j] + s * b[i][j])))
     }
 
     /// Returns the sum of the diagonal.
@@ -251,11 +243,8 @@ impl Weights<'_> {
                 sum += dot(force, force) / m;
             }
         }
-        if total > 0.0 {
-            (sum / total).sqrt()
-        } else {
-            0.0
-        }
+        let mean = if total > 0.0 { sum / total } else { 0.0 };
+        mean.sqrt()
     }
 }
 
@@ -311,12 +300,9 @@ impl Pcg {
                 *b = Vector::zeros();
             }
         }
-        for vectors in [
-            &mut self.delta,
-            &mut self.direction,
-            &mut self.product,
-            &mut self.preconditioned,
-        ] {
+        let solution = [&mut self.delta, &mut self.preconditioned];
+        let of_directions = [&mut self.direction, &mut self.product];
+        for vectors in solution.into_iter().chain(of_directions) {
             vectors.clear();
             vectors.resize(n, Vector::zeros());
         }

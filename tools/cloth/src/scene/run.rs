@@ -604,15 +604,11 @@ struct Measured {
 impl Measured {
     fn of(cloth: &Cloth) -> Measured {
         let system = cloth.system();
-        let mut measured = Measured {
-            momentum: Vector::zeros(),
-            size: 0.0,
+        let particles = system.velocities().iter().zip(system.masses());
+        Measured {
+            momentum: particles.clone().map(|(v, m)| v * *m).sum(),
+            size: particles.map(|(v, m)| length(*v) * m).sum(),
             energy_j: energy::total_j(system),
-        };
-        for (&v, &m) in system.velocities().iter().zip(system.masses()) {
-            measured.momentum += v * m;
-            measured.size += length(v) * m;
         }
-        measured
     }
 }
