@@ -315,65 +315,52 @@ impl StepError {
 
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            StepError::Step { given_s } => {
-                write!(f, "dt {given_s} s is not a positive finite step")
+        let text = match self {
+            StepError::Step { given_s } => format!("dt {given_s} s is not a positive finite step"),
+            StepError::Setting(error) => error.to_string(),
+            StepError::Triangles { count } => {
+                format!("the method supports springs only, and {count} triangles resist stretch")
             }
-            StepError::Setting(error) => error.fmt(f),
-            StepError::Triangles { count } => write!(
-                f,
-                "the method supports springs only, and {count} triangles resist stretch"
-            ),
-            StepError::Buckling { count } => write!(
-                f,
-                "the method supports springs only, and {count} bends buckle"
-            ),
+            StepError::Buckling { count } => {
+                format!("the method supports springs only, and {count} bends buckle")
+            }
             StepError::Unstable {
                 given_s,
                 limit_s,
                 frequency,
             } => {
-                let omega = frequency.omega_rad_per_s;
-                write!(
-                    f,
-                    "dt {given_s} s exceeds the stability limit {} s (bound of frequencies {} rad/s",
-                    Digits(*limit_s),
-                    Digits(omega)
-                )?;
-                if let Some([a, b]) = frequency.ends {
-                    write!(f, " at edge {a}-{b}")?;
-                }
-                f.write_str(")")
+                let (limit, omega) = (Digits(*limit_s), Digits(frequency.omega_rad_per_s));
+                let at = frequency.ends.map(|[a, b]| format!(" at edge {a}-{b}"));
+                let at = at.unwrap_or_default();
+                format!(
+                    "dt {given_s} s exceeds the stability limit {limit} s \
+                     (bound of frequencies {omega} rad/s{at})"
+                )
             }
             StepError::Air {
                 given_s,
                 limit_s,
                 rate,
-            } => write!(
-                f,
-                "dt {given_s} s exceeds the stability limit {} s (the air slows particle {} at a \
-                 rate of {} /s)",
-                Digits(*limit_s),
-                rate.particle,
-                Digits(rate.rate_per_s)
-            ),
-            StepError::Substeps { given_s, limit_s } => write!(
-                f,
-                "dt {given_s} s would take more than {} substeps of {} s",
-                StepError::SUBSTEPS_MAX,
-                Digits(*limit_s)
-            ),
-            StepError::BlowUp { elapsed_s, at } => {
-                write!(
-                    f,
-                    "the system blew up after {elapsed_s} s: {at}; the last good state is kept"
+            } => {
+                let (limit, per_s) = (Digits(*limit_s), Digits(rate.rate_per_s));
+                let particle = rate.particle;
+                format!(
+                    "dt {given_s} s exceeds the stability limit {limit} s \
+                     (the air slows particle {particle} at a rate of {per_s} /s)"
                 )
             }
-            StepError::Implicit { elapsed_s, error } => write!(
-                f,
+            StepError::Substeps { given_s, limit_s } => {
+                let (most, limit) = (StepError::SUBSTEPS_MAX, Digits(*limit_s));
+                format!("dt {given_s} s would take more than {most} substeps of {limit} s")
+            }
+            StepError::BlowUp { elapsed_s, at } => {
+                format!("the system blew up after {elapsed_s} s: {at}; the last good state is kept")
+            }
+            StepError::Implicit { elapsed_s, error } => format!(
                 "an implicit step failed after {elapsed_s} s: {error}; the last good state is kept"
             ),
-        }
+        };
+        f.write_str(&text)
     }
 }
 

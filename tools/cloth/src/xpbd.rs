@@ -9,7 +9,7 @@
 //! With many sweeps it comes near backward Euler, and damps like it, but not to it: each sweep pushes along
 //! the directions that constraints had then, not those that they have in the end, and once it has converged
 //! there is nothing left to turn the pushes with. At 60 steps a second a chain that sags by 0.39 m stays off
-//! by 0.26 mm where [`Xpbd::residual_n`] is rounding alone. With few sweeps it is softer than its springs,
+//! by 0.26 mm where [`Quality::Residual`] is rounding alone. With few sweeps it is softer than its springs,
 //! and at rest too: by how much is in the table of [`Verlet`](crate::Verlet), and the command says it of a
 //! scene.
 //!
@@ -57,22 +57,6 @@ impl Xpbd {
     pub fn new(substeps: u32, sweeps: u32) -> Xpbd {
         Xpbd { substeps, sweeps }
     }
-
-    /// The largest difference, over all free particles, between the sum of the forces that the last
-    /// substep used and the sum of those that the springs have now, in newtons.
-    fn residual_n(&self, system: &System) -> f64 {
-        let (model, x) = (&system.model, &system.positions);
-        let miss = |_, by_length, multiplier| by_length + multiplier;
-        let residual = |particle| {
-            let mut sum = Vector::zeros();
-            for pairs in model.families() {
-                pairs.add_force_at(x, particle, miss, &mut sum);
-            }
-            length(sum)
-        };
-        let free = (0..x.len()).filter(|&particle| model.inverse_masses[particle] > 0.0);
-        free.map(residual).fold(0.0, f64::max)
-    }
 }
 
 impl Solver for Xpbd {
@@ -100,8 +84,20 @@ impl Solver for Xpbd {
         Ok(())
     }
 
+    /// Returns the largest difference, over all free particles, between the sum of the forces that the last
+    /// substep used and the sum of those that the springs have now.
     fn quality(&self, system: &System) -> Quality {
-        Quality::Residual(self.residual_n(system))
+        let (model, x) = (&system.model, &system.positions);
+        let miss = |_, by_length, multiplier| by_length + multiplier;
+        let residual_n = |particle| {
+            let mut sum = Vector::zeros();
+            for pairs in model.families() {
+                pairs.add_force_at(x, particle, miss, &mut sum);
+            }
+            length(sum)
+        };
+        let free = (0..x.len()).filter(|&particle| model.inverse_masses[particle] > 0.0);
+        Quality::Residual(free.map(residual_n).fold(0.0, f64::max))
     }
 }
 
