@@ -11,11 +11,6 @@ pub fn elastic_j(system: &System) -> f64 {
     system.model.elastic_j(&system.positions)
 }
 
-/// The kinetic and elastic energy and the potential of gravity together, in joules.
-pub(crate) fn total_j(system: &System) -> f64 {
-    kinetic_j(system) + elastic_j(system) + potential_j(system)
-}
-
 /// The elastic energy that the method of the last step stores, in joules: that of the forces which it
 /// recorded, none where it takes constraints for rigid, and that of lengths otherwise.
 pub(crate) fn stored_j(system: &System) -> f64 {

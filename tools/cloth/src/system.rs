@@ -583,15 +583,6 @@ impl System {
             scratch.velocities.clone_from(&self.velocities);
         }
     }
-
-    /// Gives the grabbed particles the velocity that leads them along their paths.
-    pub(crate) fn drive(&mut self, dt_s: f64) {
-        for (particle, path) in &self.model.grabbed {
-            let to = path.at(self.elapsed_s + dt_s);
-            let particle = *particle as usize;
-            self.velocities[particle] = (to - self.positions[particle]) / dt_s;
-        }
-    }
 }
 
 fn inverse(mass: f64, held: bool) -> f64 {

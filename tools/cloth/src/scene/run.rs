@@ -22,13 +22,13 @@ use self::held::Held;
 use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
-use crate::energy;
+use crate::energy::{elastic_j, kinetic_j, potential_j};
 use crate::load::{Collider, Loads};
 use crate::method::Softness;
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
 use crate::solver::{Quality, Solver, StepError};
-use crate::system::{System, Unstable};
+use crate::system::Unstable;
 use crate::tearing::{Tear, TearReport};
 
 /// A scene in progress, with its mesh and its cloth.
@@ -289,8 +289,12 @@ impl Run {
         let tear = self.tear_overstretched();
         if is_frame || tear.overstretched > 0 || self.is_over() {
             // Splits move nothing: edges are as long as they were before.
-            let ratio = longest_ratio(self.cloth().system());
-            self.tally.stretch_ratio_max = self.tally.stretch_ratio_max.max(ratio);
+            let system = self.sim.cloth.system();
+            let ratios = system
+                .stretches()
+                .iter()
+                .map(|id| system.unlimited_ratio(id));
+            self.tally.stretch_ratio_max = ratios.fold(self.tally.stretch_ratio_max, f64::max);
         }
         if is_frame {
             let elapsed_s = self.elapsed_s();
@@ -585,13 +589,6 @@ fn strengths(
     Ok(strengths)
 }
 
-/// The largest ratio of an edge's length to its rest length, before Provot's limiter; 0 without edges.
-fn longest_ratio(system: &System) -> f64 {
-    let edges = system.stretches().iter();
-    let ratios = edges.map(|id| system.unlimited_ratio(id));
-    ratios.fold(0.0, f64::max)
-}
-
 /// What edits are to keep.
 struct Measured {
     /// In kg m/s.
@@ -608,7 +605,7 @@ impl Measured {
         Measured {
             momentum: particles.clone().map(|(v, m)| v * *m).sum(),
             size: particles.map(|(v, m)| length(*v) * m).sum(),
-            energy_j: energy::total_j(system),
+            energy_j: kinetic_j(system) + elastic_j(system) + potential_j(system),
         }
     }
 }
