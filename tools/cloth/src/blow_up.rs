@@ -77,7 +77,7 @@ impl fmt::Display for BlowUpSite {
     }
 }
 
-/// The first particle whose position or velocity is bad, which both are looked at as a point.
+/// The first particle with a bad position or velocity. A velocity is judged as a point would be.
 pub(crate) fn first(is_bad: fn(Point) -> bool, x: &[Point], v: &[Vector]) -> Option<usize> {
     let mut particles = x.iter().zip(v);
     particles.position(|(&x, &v)| is_bad(x) || is_bad(v.into()))

@@ -339,7 +339,7 @@ impl System {
         );
     }
 
-    /// Notes that the system is another one.
+    /// Notes that constraints have changed otherwise than by edits of a mesh.
     fn rebuilt(&mut self) {
         self.touched();
         self.guard.forget();

@@ -163,7 +163,7 @@ impl Line<'_> {
         self.word("a number of up to 16 hexadecimal digits", hex)
     }
 
-    /// Whether the word that was read last is that of the line.
+    /// Refuses a line with further words.
     fn end(&self) -> Result<(), LogError> {
         let is_over = self.read > self.text.len();
         let error = LogError {
