@@ -45,7 +45,7 @@ pub(super) struct Hand {
 }
 
 /// The hands that hold now, a follower of the log.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Hands {
     hands: Vec<Hand>,
     next: u32,
@@ -55,9 +55,8 @@ pub(super) struct Hands {
 impl Hands {
     pub(super) fn starting_at(seen: Cursor) -> Hands {
         Hands {
-            hands: Vec::new(),
-            next: 0,
             seen,
+            ..Hands::default()
         }
     }
 

@@ -52,7 +52,7 @@ struct Pair {
 }
 
 /// The pairs that are still open, a follower of the log.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Healing {
     open: Vec<Pair>,
     /// How many were sewn, and left, since no pair was open.
@@ -64,10 +64,8 @@ pub(super) struct Healing {
 impl Healing {
     pub(super) fn starting_at(seen: Cursor) -> Healing {
         Healing {
-            open: Vec::new(),
-            sewn: 0,
-            left: 0,
             seen,
+            ..Healing::default()
         }
     }
 

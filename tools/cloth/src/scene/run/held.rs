@@ -161,13 +161,11 @@ impl Held {
     pub(super) fn pins(&self, mesh: &Mesh) -> usize {
         let mut held = vec![false; mesh.vertex_count()];
         self.vertices.iter().for_each(|v| held[v.index()] = true);
-        let mut alone = held.clone();
-        for h in mesh.half_edges() {
-            let ends = [mesh.origin(h), mesh.target(h)].map(VertexId::index);
-            if ends.iter().all(|&v| held[v]) {
-                ends.iter().for_each(|&v| alone[v] = false);
-            }
-        }
-        alone.into_iter().filter(|&alone| alone).count()
+        let is_alone = |v: &VertexId| {
+            let corners = mesh.corners_of(*v);
+            let mut others = corners.flat_map(|h| [mesh.target(h), mesh.origin(h.prev())]);
+            held[v.index()] && others.all(|other| !held[other.index()])
+        };
+        mesh.vertices().filter(is_alone).count()
     }
 }
