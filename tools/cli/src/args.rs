@@ -19,7 +19,7 @@ use clap::{Parser, Subcommand};
 
 use crate::rays;
 
-pub(crate) use self::chart::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
+pub(crate) use self::chart::{ChartArgs, DrawArgs, ParetoArgs, TearChartArgs, What};
 pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Mass};
 pub(crate) use self::files::{FileArgs, Format};

@@ -1,8 +1,9 @@
 //! The verb `chart`: every experiment is run, drawn and tabled in the same way.
 
-use std::num::NonZero;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 
+use clap::{Args as _, Command, CommandFactory as _};
 use cpu_time::ThreadTime;
 use serde::Serialize;
 use tearmesh_lab::cut::Cuts;
@@ -17,7 +18,7 @@ use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::Stability;
 use tearmesh_lab::tear::{EnsembleScene, Tear};
 
-use crate::args::{ChartArgs, DrawArgs, GuideArgs, ParetoArgs, TearChartArgs, What};
+use crate::args::{Args, ChartArgs, DrawArgs, ParetoArgs, TearChartArgs, What};
 use crate::exit::{Exit, Stop};
 use crate::files::{unwritable, write_beside};
 use crate::input::cannot_read;
@@ -27,81 +28,64 @@ use crate::say::Fault;
 use crate::streams::Streams;
 
 /// Runs an experiment, writes what is wanted of it, and returns the exit status.
-pub(crate) fn run(args: &ChartArgs, streams: &mut Streams<'_>) -> Exit {
+pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>) -> Exit {
+    let command = command_line(line);
     let (draw, done) = match &args.what {
-        What::Guide(args) => (&args.draw, work(&guide(args), &args.draw, streams)),
-        What::Pareto(args) => (&args.draw, work(&pareto(args), &args.draw, streams)),
+        What::Guide(args) => {
+            let guide = Guide::new(guide::Options {
+                cells: args.size,
+                seeds: args.seeds,
+                diagonals: args.diagonals,
+            });
+            (&args.draw, work(&guide, command, &args.draw, streams))
+        }
+        What::Pareto(args) => {
+            let done = work(&pareto(args), command, &args.draw, streams);
+            (&args.draw, done)
+        }
         What::Stability(args) => {
-            let stability = Stability {
-                stiffness_n_per_m: args.stiffness.clone(),
-                threads: threads(&args.draw),
-            };
-            (&args.draw, work(&stability, &args.draw, streams))
+            let stiffness_n_per_m = args.stiffness.clone();
+            let stability = Stability { stiffness_n_per_m };
+            (&args.draw, work(&stability, command, &args.draw, streams))
         }
         What::Tear(args) => {
-            let done = tear(args).and_then(|tear| work(&tear, &args.draw, streams));
+            let done = tear(args).and_then(|tear| work(&tear, command, &args.draw, streams));
             (&args.draw, done)
         }
         What::Cut(args) => {
-            let cuts = Cuts::new(args.size.clone(), args.cuts);
-            (&args.draw, work(&cuts, &args.draw, streams))
+            let cuts = Cuts::new(&args.size, args.cuts);
+            (&args.draw, work(&cuts, command, &args.draw, streams))
         }
         What::Fig7(args) => {
             let cells = args.size.clone();
-            (&args.draw, work(&Fig7 { cells }, &args.draw, streams))
+            let done = work(&Fig7 { cells }, command, &args.draw, streams);
+            (&args.draw, done)
         }
     };
     done.unwrap_or_else(|stop| streams.conclude(Err(stop), Vec::new(), draw.color, true))
 }
 
-fn threads(draw: &DrawArgs) -> NonZero<usize> {
-    draw.threads.unwrap_or_else(workers)
-}
-
-fn guide(args: &GuideArgs) -> Guide {
-    let threads = threads(&args.draw);
-    Guide::new(match args.quick {
-        true => guide::Options {
-            cells: 16,
-            seeds: 2,
-            diagonals: 2,
-            threads,
-        },
-        false => guide::Options {
-            cells: args.size,
-            seeds: args.seeds,
-            diagonals: args.diagonals,
-            threads,
-        },
-    })
-}
-
 fn pareto(args: &ParetoArgs) -> Pareto {
     let is_named = |name: &str, names: &[String]| names.iter().any(|other| other == name);
     let scenes = SCENES.into_iter();
-    let scenes = scenes.filter(|one| args.scene.is_empty() || is_named(one.name, &args.scene));
     let meshes = MeshKind::ALL.into_iter();
     Pareto::new(pareto::Options {
-        scenes: scenes.collect(),
+        scenes: scenes
+            .filter(|scene| is_named(scene.name, &args.scene))
+            .collect(),
         meshes: meshes
             .filter(|mesh| is_named(mesh.name(), &args.mesh))
             .collect(),
         cells: args.size.clone(),
         stiffness_n_per_m: args.stiffness.clone(),
         mass_ratios: args.mass_ratio.clone(),
-        threads: threads(&args.draw),
         visits_max: args.visits_max,
-        repeats: args.time.then_some(args.repeats),
+        repeats: args.repeats,
     })
 }
 
 fn tear(args: &TearChartArgs) -> Result<Tear, Stop> {
-    let strips = if args.no_strips {
-        &[][..]
-    } else {
-        &args.strips
-    };
-    if strips.len() == 1 {
+    if args.strips.len() == 1 {
         let message = "`--strips` takes two numbers or more: forces are compared".to_owned();
         return Err(Stop::usage(message, "as in --strips 8,16"));
     }
@@ -111,14 +95,45 @@ fn tear(args: &TearChartArgs) -> Result<Tear, Stop> {
     cells.sort_unstable();
     cells.dedup();
     Ok(Tear {
-        strips: strips.to_vec(),
+        strips: args.strips.clone(),
         // Ensembles without seeds have no runs.
         scenes: scenes.filter(|_| args.seeds > 0).collect(),
         cells,
         methods: args.method.clone(),
         seeds: args.seeds,
-        threads: threads(&args.draw),
     })
+}
+
+/// The command line as it was read, with the defaults of all options that decide the numbers.
+fn command_line(line: &[OsString]) -> String {
+    let mut command = Args::command();
+    let matches = command.try_get_matches_from_mut(line);
+    let mut matches = &matches.expect("the line was read before");
+    let (mut text, mut known) = ("tearmesh".to_owned(), &command);
+    while let Some((verb, inner)) = matches.subcommand() {
+        text += &format!(" {verb}");
+        known = known.find_subcommand(verb).expect("it was read");
+        matches = inner;
+    }
+    let draw = DrawArgs::augment_args(Command::default());
+    // `--quick` stands for values that are written.
+    let others = draw.get_arguments().map(|option| option.get_id().as_str());
+    let others: Vec<&str> = others.chain(["quick", "help"]).collect();
+    for option in known.get_arguments() {
+        let id = option.get_id().as_str();
+        if others.contains(&id) {
+            continue;
+        }
+        let values = matches.get_raw(id).into_iter().flatten();
+        let values: Vec<_> = values.map(OsStr::to_string_lossy).collect();
+        let name = option.get_long().unwrap_or(id);
+        match &*values.join(",") {
+            "" | "false" => {}
+            "true" => text += &format!(" --{name}"),
+            values => text += &format!(" --{name} {values}"),
+        }
+    }
+    text
 }
 
 /// The text of a file.
@@ -135,11 +150,12 @@ fn read(path: &Path) -> Result<String, Stop> {
 /// Runs an experiment or reads its table, and writes chart, table and figures, as far as they are wanted.
 fn work<E: Chart>(
     experiment: &E,
+    command: String,
     draw: &DrawArgs,
     streams: &mut Streams<'_>,
 ) -> Result<Exit, Stop> {
     let files = check(draw)?;
-    let mut provenance = provenance(experiment);
+    let mut provenance = provenance(experiment, command);
     let (rows, missing) = match &draw.from {
         Some(path) => {
             provenance.command = format!("drawn from {}", path.display());
@@ -206,7 +222,8 @@ fn conducted<E: Experiment>(
 ) -> Result<(Vec<E::Row>, usize), Stop> {
     let plan = experiment.plan();
     let runs: usize = plan.iter().map(Vec::len).sum();
-    let about_s = guess_s(experiment, &plan) / experiment.threads().get() as f64;
+    let threads = draw.threads.unwrap_or_else(workers);
+    let about_s = guess_s(experiment, &plan) / experiment.threads(threads).get() as f64;
     if !draw.quiet {
         // Nowhere is left to say it if standard error is closed.
         let about = some_time(about_s);
@@ -223,7 +240,7 @@ fn conducted<E: Experiment>(
             .then_some(&|| ThreadTime::now().as_duration()),
         stop: &|| guard.is_interrupted(),
     };
-    let conducted = conduct(experiment, &bounds, |fraction| {
+    let conducted = conduct(experiment, threads, &bounds, |fraction| {
         bar.set_position((BAR * fraction) as u64);
     });
     bar.finish_and_clear();
@@ -247,9 +264,9 @@ fn some_time(seconds: f64) -> String {
     }
 }
 
-fn provenance<E: Experiment>(experiment: &E) -> Provenance {
+fn provenance<E: Experiment>(experiment: &E, command: String) -> Provenance {
     Provenance {
-        command: experiment.command(),
+        command,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: env!("TEARMESH_COMMIT").to_owned(),
         compiler: env!("TEARMESH_COMPILER").to_owned(),

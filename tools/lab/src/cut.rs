@@ -8,6 +8,7 @@
 mod chart;
 
 use std::f64::consts::PI;
+use std::num::NonZero;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -15,13 +16,12 @@ use tearmesh::{CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray,
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
-use crate::experiment::{Bounds, Experiment, Status, list, rows_or_keys};
+use crate::experiment::{Bounds, Experiment, Status};
 use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
 
 /// The experiment on cut methods.
 #[derive(Clone, Debug)]
 pub struct Cuts {
-    cells: Vec<u32>,
     cuts: u32,
     sheets: Vec<WavySheet>,
 }
@@ -78,28 +78,24 @@ impl Cuts {
     ///
     /// If `cuts` is 0, or a number of cells is 0 or more than a mesh can have.
     #[must_use]
-    pub fn new(cells: Vec<u32>, cuts: u32) -> Cuts {
+    pub fn new(cells: &[u32], cuts: u32) -> Cuts {
         assert!(cuts > 0, "a sheet is cut along one line at least");
         Cuts {
             sheets: cells.iter().map(|&cells| WavySheet::new(cells)).collect(),
-            cells,
             cuts,
         }
     }
 }
 
 impl Experiment for Cuts {
-    type Key = Row;
-    type Outcome = Row;
     type Row = Row;
-
-    fn command(&self) -> String {
-        let (cells, cuts) = (list(&self.cells), self.cuts);
-        format!("tearmesh chart cut --size {cells} --cuts {cuts}")
-    }
 
     fn is_timed(&self) -> bool {
         true
+    }
+
+    fn threads(&self, _: NonZero<usize>) -> NonZero<usize> {
+        NonZero::<usize>::MIN
     }
 
     fn plan(&self) -> Vec<Vec<Row>> {
@@ -117,21 +113,29 @@ impl Experiment for Cuts {
         FACE_S * f64::from(self.cuts) * key.faces as f64
     }
 
-    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Row> {
+    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
         let mut sheets = self.sheets.iter();
         let sheet = sheets.find(|sheet| sheet.mesh.face_count() == key.faces)?;
-        let mut cuts = Vec::new();
-        for line in 0..self.cuts {
-            if (bounds.stop)() {
-                return None;
-            }
-            cuts.push(sheet.cut(&key.method, line, bounds)?);
-        }
-        Some(measured(key.clone(), &cuts))
-    }
-
-    fn rows(&self, keys: &[Row], outcomes: Vec<Option<Row>>) -> Vec<Row> {
-        rows_or_keys(keys, outcomes)
+        let cut = |line| {
+            let goes_on = !(bounds.stop)();
+            goes_on.then(|| sheet.cut(&key.method, line, bounds))?
+        };
+        let cuts = (0..self.cuts).map(cut).collect::<Option<Vec<Measured>>>()?;
+        let all = |of: fn(&Measured) -> f64| cuts.iter().map(of);
+        let middle = |of| median(all(of).collect());
+        let is_divided = |cut: &&Measured| cut.report.crumbs + cut.report.lost == 0;
+        let ns = middle(|cut| 1e9 * cut.cpu.as_secs_f64());
+        Some(vec![Row {
+            status: Status::Ok,
+            cuts: Some(cuts.len()),
+            ns_per_face: ns.map(|ns| ns / key.faces as f64),
+            deviation_edges: middle(|cut| cut.report.seam_deviation_max_edges),
+            deviation_edges_most: all(|cut| cut.report.seam_deviation_max_edges).reduce(f64::max),
+            divided: Some(cuts.iter().filter(is_divided).count()),
+            step_ratio: middle(|cut| cut.step_ratio),
+            step_ratio_least: all(|cut| cut.step_ratio).reduce(f64::min),
+            ..key.clone()
+        }])
     }
 }
 
@@ -140,27 +144,6 @@ struct Measured {
     report: CutReport,
     cpu: Duration,
     step_ratio: f64,
-}
-
-/// A row with the measurements of its cuts.
-fn measured(row: Row, cuts: &[Measured]) -> Row {
-    let all = |of: fn(&Measured) -> f64| cuts.iter().map(of);
-    let middle = |of| median(all(of).collect());
-    let most = |of| all(of).reduce(f64::max);
-    let least = |of| all(of).reduce(f64::min);
-    let is_divided = |cut: &&Measured| cut.report.crumbs + cut.report.lost == 0;
-    let ns = middle(|cut| 1e9 * cut.cpu.as_secs_f64());
-    Row {
-        status: Status::Ok,
-        cuts: Some(cuts.len()),
-        ns_per_face: ns.map(|ns| ns / row.faces as f64),
-        deviation_edges: middle(|cut| cut.report.seam_deviation_max_edges),
-        deviation_edges_most: most(|cut| cut.report.seam_deviation_max_edges),
-        divided: Some(cuts.iter().filter(is_divided).count()),
-        step_ratio: middle(|cut| cut.step_ratio),
-        step_ratio_least: least(|cut| cut.step_ratio),
-        ..row
-    }
 }
 
 /// A wavy sheet, with its stable step before any cut.
@@ -176,19 +159,19 @@ impl WavySheet {
     fn new(cells: u32) -> WavySheet {
         let mut random = Random::new(SEED);
         let width = cells + 1;
-        let points: Vec<[f64; 2]> = (0..width * width)
-            .map(|i| {
-                let place = [i % width, i / width];
-                let is_inner = place.iter().all(|i| ![0, cells].contains(i));
-                place.map(|i| {
-                    let moved = match is_inner {
-                        true => 0.8 * random.next() - 0.4,
-                        false => 0.0,
-                    };
-                    (f64::from(i) + moved) / f64::from(cells)
-                })
-            })
-            .collect();
+        let points = (0..width * width).map(|i| {
+            let place = [i % width, i / width];
+            let is_inner = place.iter().all(|i| ![0, cells].contains(i));
+            let mut moved = || {
+                if is_inner {
+                    0.8 * random.next() - 0.4
+                } else {
+                    0.0
+                }
+            };
+            place.map(|i| (f64::from(i) + moved()) / f64::from(cells))
+        });
+        let points: Vec<[f64; 2]> = points.collect();
         let cell = 1.0 / f64::from(cells);
         let mesh = delaunay(&points, 1e-9 * cell * cell);
         let wave = points.iter();

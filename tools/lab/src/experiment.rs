@@ -15,42 +15,37 @@ use serde::{Deserialize, Serialize};
 
 use crate::plot::Figure;
 
-/// An experiment: what is run, what is written down of it, and what is drawn.
+/// An experiment: what is run, and what is written down of it.
 pub trait Experiment: Sync {
-    /// What distinguishes a run from the others of the plan.
-    type Key: Sync;
-    /// What a run leaves.
-    type Outcome: Send;
-    /// A line of the table.
-    type Row: Serialize + DeserializeOwned;
-
-    /// Returns the command line with every option that decides the numbers.
-    fn command(&self) -> String;
+    /// A line of the table. Without results, as [`plan`](Experiment::plan) returns it, it is the key of a run.
+    type Row: Clone + Send + Sync + Serialize + DeserializeOwned;
 
     /// Returns whether the experiment measures CPU time.
     fn is_timed(&self) -> bool {
         false
     }
 
-    /// Returns the number of runs that may go on at a time; 1 where runs beside each other would wait for the same
-    /// memory, or share the processor's cache.
-    fn threads(&self) -> NonZero<usize> {
-        NonZero::<usize>::MIN
+    /// Returns how many of so many threads are used; 1 where runs beside each other would wait for the same memory,
+    /// or share the processor's cache.
+    fn threads(&self, most: NonZero<usize>) -> NonZero<usize> {
+        most
     }
 
     /// Returns the keys of all runs, in groups that are assessed together, and in the order in which they begin.
     /// The costliest of a group are best first, since the last ones may leave a thread idle.
-    fn plan(&self) -> Vec<Vec<Self::Key>>;
+    fn plan(&self) -> Vec<Vec<Self::Row>>;
 
     /// Returns an estimate of the CPU time of a run, in seconds.
-    fn guess_s(&self, key: &Self::Key) -> f64;
+    fn guess_s(&self, key: &Self::Row) -> f64;
 
-    /// Carries out a run. Returns `None` if it was interrupted.
-    fn run(&self, key: &Self::Key, bounds: &Bounds<'_>) -> Option<Self::Outcome>;
+    /// Carries out a run and returns its rows, at least one. Returns `None` if it was interrupted; then its key is
+    /// its row.
+    fn run(&self, key: &Self::Row, bounds: &Bounds<'_>) -> Option<Vec<Self::Row>>;
 
-    /// Returns the rows of a group, with at least one for each key. `outcomes` is in the order of `keys`; `None`
-    /// stands for a run that was interrupted.
-    fn rows(&self, keys: &[Self::Key], outcomes: Vec<Option<Self::Outcome>>) -> Vec<Self::Row>;
+    /// Returns the rows of the table, given those of all runs of a group in the order of their keys.
+    fn assessed(&self, rows: Vec<Self::Row>) -> Vec<Self::Row> {
+        rows
+    }
 }
 
 /// An experiment that is drawn and summed up in words, from its table alone.
@@ -96,12 +91,13 @@ pub struct Conducted<R> {
     pub planned: usize,
 }
 
-/// Carries out the plan of an experiment.
+/// Carries out the plan of an experiment on up to `threads` threads.
 ///
 /// `watch` is called after each run with the estimated fraction of all work that is done. Once `bounds.stop`
 /// returns true, no other run is begun.
 pub fn conduct<E: Experiment>(
     experiment: &E,
+    threads: NonZero<usize>,
     bounds: &Bounds<'_>,
     mut watch: impl FnMut(f64),
 ) -> Conducted<E::Row> {
@@ -116,7 +112,7 @@ pub fn conduct<E: Experiment>(
     for keys in &plan {
         let outcomes = side_by_side(
             keys,
-            experiment.threads(),
+            experiment.threads(threads),
             |key| match (bounds.stop)() {
                 true => None,
                 false => experiment.run(key, bounds),
@@ -126,8 +122,10 @@ pub fn conduct<E: Experiment>(
                 watch(done_s / whole_s);
             },
         );
-        conducted.done += outcomes.iter().filter(|outcome| outcome.is_some()).count();
-        conducted.rows.extend(experiment.rows(keys, outcomes));
+        conducted.done += outcomes.iter().flatten().count();
+        let rows = keys.iter().zip(outcomes);
+        let rows = rows.flat_map(|(key, rows)| rows.unwrap_or_else(|| vec![key.clone()]));
+        conducted.rows.extend(experiment.assessed(rows.collect()));
     }
     conducted
 }
@@ -174,21 +172,8 @@ pub fn side_by_side<J: Sync, R: Send>(
     })
 }
 
-/// The rows of an experiment whose keys are rows without a result. An interrupted run leaves its key.
-pub(crate) fn rows_or_keys<R: Clone>(keys: &[R], rows: Vec<Option<R>>) -> Vec<R> {
-    let rows = keys.iter().zip(rows);
-    rows.map(|(key, row)| row.unwrap_or_else(|| key.clone()))
-        .collect()
-}
-
-/// A list as it is typed in a command.
-pub(crate) fn list<T: ToString>(items: impl IntoIterator<Item = T>) -> String {
-    let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();
-    items.join(",")
-}
-
 /// Returns an estimate of the CPU time of a plan, in seconds.
-pub fn guess_s<E: Experiment>(experiment: &E, plan: &[Vec<E::Key>]) -> f64 {
+pub fn guess_s<E: Experiment>(experiment: &E, plan: &[Vec<E::Row>]) -> f64 {
     let keys = plan.iter().flatten();
     keys.map(|key| experiment.guess_s(key)).sum()
 }

@@ -17,6 +17,7 @@
 mod chart;
 mod implementations;
 
+use std::num::NonZero;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -25,8 +26,8 @@ use tearmesh::{Edit, Edits, FaceId, Mesh, Point, classify, shapes, split};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::statistics::median;
 
-use self::implementations::{IDLE, IMPLEMENTATIONS, Implementation, Split};
-use crate::experiment::{Bounds, Experiment, Status, list};
+use self::implementations::{IDLE, IMPLEMENTATIONS, Implementation, New, Split};
+use crate::experiment::{Bounds, Experiment, Status};
 
 /// The number of times that each split is timed, as in the paper.
 pub const ROUNDS: usize = 10;
@@ -65,81 +66,68 @@ pub struct Row {
 }
 
 impl Experiment for Fig7 {
-    type Key = u32;
-    type Outcome = Vec<Row>;
     type Row = Row;
-
-    fn command(&self) -> String {
-        format!("tearmesh chart fig7 --size {}", list(&self.cells))
-    }
 
     fn is_timed(&self) -> bool {
         true
     }
 
-    fn plan(&self) -> Vec<Vec<u32>> {
-        self.cells.iter().map(|&cells| vec![cells]).collect()
+    fn threads(&self, _: NonZero<usize>) -> NonZero<usize> {
+        NonZero::<usize>::MIN
     }
 
-    fn guess_s(&self, &cells: &u32) -> f64 {
-        CELL_S * f64::from(cells).powi(3)
-    }
-
-    fn run(&self, &cells: &u32, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
-        rip(cells, bounds)
-    }
-
-    fn rows(&self, keys: &[u32], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
-        let undone = |&cells: &u32| Row {
+    fn plan(&self) -> Vec<Vec<Row>> {
+        let key = |&cells: &u32| Row {
             cells,
             ..Row::default()
         };
-        let patches = keys.iter().zip(outcomes);
-        let rows = patches.map(|(cells, rows)| rows.unwrap_or_else(|| vec![undone(cells)]));
-        rows.flatten().collect()
+        vec![self.cells.iter().map(key).collect()]
     }
-}
 
-/// Rips a patch, with all implementations beside the simulation. Returns `None` if it was interrupted.
-fn rip(cells: u32, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
-    let (mesh, positions) = shapes::grid(cells, cells);
-    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    let trials = (0..ROUNDS).flat_map(|_| IMPLEMENTATIONS.map(|(name, new)| (name, new(&mesh))));
-    let trials = trials.map(|(name, implementation)| Trial {
-        name,
-        implementation,
-        time: Duration::ZERO,
-    });
-    let mut trials: Vec<Trial> = trials.collect();
-    let mut replica = mesh.clone();
-    let run = Run::new(mesh, &positions, Scene::rip(&frame), &frame);
-    let mut run = run.expect("the scene suits every patch");
-    let mut simulation = Duration::ZERO;
-    while !run.is_over() {
-        if (bounds.stop)() {
-            return None;
+    fn guess_s(&self, patch: &Row) -> f64 {
+        CELL_S * f64::from(patch.cells).powi(3)
+    }
+
+    /// Rips a patch, with all implementations beside the simulation.
+    fn run(&self, patch: &Row, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
+        let (mesh, positions) = shapes::grid(patch.cells, patch.cells);
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let trial = |(name, new): (_, New)| Trial {
+            name,
+            implementation: new(&mesh),
+            time: Duration::ZERO,
+        };
+        let trials = (0..ROUNDS).flat_map(|_| IMPLEMENTATIONS.map(trial));
+        let mut trials: Vec<Trial> = trials.collect();
+        let mut replica = mesh.clone();
+        let run = Run::new(mesh, &positions, Scene::rip(&frame), &frame);
+        let mut run = run.expect("the scene suits every patch");
+        let mut simulation = Duration::ZERO;
+        while !run.is_over() {
+            if (bounds.stop)() {
+                return None;
+            }
+            let began = bounds.now();
+            let step = run.step();
+            simulation += bounds.now().saturating_sub(began);
+            step.expect("no step of a rip fails");
+            let places = run.cloth().positions();
+            let splits = follow(&mut replica, run.edits(), places);
+            measure(&mut trials, &splits, places, bounds);
         }
-        let began = bounds.now();
-        let step = run.step();
-        simulation += bounds.now().saturating_sub(began);
-        step.expect("no step of a rip fails");
-        let places = run.cloth().positions();
-        let splits = follow(&mut replica, run.edits(), places);
-        measure(&mut trials, &splits, places, bounds);
+        for trial in trials.iter().filter(|trial| trial.name != IDLE) {
+            let is_same = trial.implementation.indices() == run.mesh().indices();
+            assert!(is_same, "{}: splits as in the simulation", trial.name);
+        }
+        let patch = Row {
+            faces: Some(replica.face_count()),
+            splits: Some(replica.vertex_count() - positions.as_slice().len()),
+            simulation_s: Some(simulation.as_secs_f64()),
+            status: Status::Ok,
+            ..patch.clone()
+        };
+        Some(rows(&trials, &patch))
     }
-    for trial in trials.iter().filter(|trial| trial.name != IDLE) {
-        let is_same = trial.implementation.indices() == run.mesh().indices();
-        assert!(is_same, "{}: splits as in the simulation", trial.name);
-    }
-    let patch = Row {
-        faces: Some(replica.face_count()),
-        splits: Some(replica.vertex_count() - positions.as_slice().len()),
-        simulation_s: Some(simulation.as_secs_f64()),
-        status: Status::Ok,
-        cells,
-        ..Row::default()
-    };
-    Some(rows(&trials, &patch))
 }
 
 /// Repeats the log of a step on a copy of the mesh, given the places of the vertices after it, and returns its

@@ -16,13 +16,12 @@ mod play;
 
 pub use self::play::{Role, Row, Topic};
 
-use std::num::NonZero;
 use std::ops::RangeInclusive;
 
 use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::statistics::median;
 
-use self::play::{NEWTON, Play, Stage, error};
+use self::play::{NEWTON, Stage, error};
 use crate::experiment::{Bounds, Experiment};
 use crate::method::{DEFAULT, DEFAULTS};
 use crate::pareto::AMPLIFICATION_MAX;
@@ -36,8 +35,6 @@ pub struct Options {
     pub seeds: u64,
     /// The number of meshes with other diagonals.
     pub diagonals: u64,
-    /// The number of runs that may go on at a time.
-    pub threads: NonZero<usize>,
 }
 
 /// The multiples of its default step that each method is played with, beside the default.
@@ -139,22 +136,10 @@ impl Guide {
 }
 
 impl Experiment for Guide {
-    type Key = Row;
-    type Outcome = Play;
     type Row = Row;
-
-    fn command(&self) -> String {
-        let options = &self.options;
-        let (cells, seeds, diagonals) = (options.cells, options.seeds, options.diagonals);
-        format!("tearmesh chart guide --size {cells} --seeds {seeds} --diagonals {diagonals}")
-    }
 
     fn is_timed(&self) -> bool {
         true
-    }
-
-    fn threads(&self) -> NonZero<usize> {
-        self.options.threads
     }
 
     fn plan(&self) -> Vec<Vec<Row>> {
@@ -168,22 +153,12 @@ impl Experiment for Guide {
         self.stage(key).guess_s(key)
     }
 
-    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Play> {
-        self.stage(key).play(key, bounds)
+    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
+        Some(vec![self.stage(key).play(key, bounds)?])
     }
 
-    fn rows(&self, keys: &[Row], outcomes: Vec<Option<Play>>) -> Vec<Row> {
-        let undone = |key: &Row| Play {
-            row: key.clone(),
-            ..Play::default()
-        };
-        let plays = keys.iter().zip(outcomes);
-        let plays = plays.map(|(key, play)| play.unwrap_or_else(|| undone(key)));
-        let plays: Vec<Play> = plays.collect();
-        let of = |role| -> Vec<&Play> {
-            let of = plays.iter().filter(|play| play.row.role == role);
-            of.collect()
-        };
+    fn assessed(&self, mut rows: Vec<Row>) -> Vec<Row> {
+        let of = |role| -> Vec<&Row> { rows.iter().filter(|row| row.role == role).collect() };
         let (mut known, second) = (of(Role::Reference), of(Role::Second));
         let (noise_amplification, error_noise) = match of(Role::Gate)[..] {
             [calm, noisy] => (
@@ -194,29 +169,35 @@ impl Experiment for Guide {
         };
         // Noise bars displacements, and only a shape at rest is judged by them.
         let grows = noise_amplification.is_none_or(|grown| grown > AMPLIFICATION_MAX);
-        let is_barred = grows && keys.iter().any(|key| key.topic == Topic::Hang);
-        if second.iter().all(|play| play.answer.is_none()) || is_barred {
+        let is_barred = grows && rows[0].topic == Topic::Hang;
+        if second.iter().all(|run| run.answer.is_none()) || is_barred {
             known.clear();
         }
-        let error = |ensemble: &[&Play]| error(ensemble, &known);
+        let error = |ensemble: &[&Row]| error(ensemble, &known);
         let error_floor = error(&second);
         let on_meshes = of(Role::Mesh);
-        let on_meshes = on_meshes.chunk_by(|a, b| a.row.diagonals == b.row.diagonals);
+        let on_meshes = on_meshes.chunk_by(|a, b| a.diagonals == b.diagonals);
         let error_mesh = median(on_meshes.filter_map(error).collect());
-        let ensembles = plays.chunk_by(|a, b| a.row.ensemble() == b.row.ensemble());
-        let rows = ensembles.flat_map(|of| {
-            let is_method = of[0].row.role == Role::Method;
+        let ensembles = rows.chunk_by(|a, b| a.ensemble() == b.ensemble());
+        let errors = ensembles.flat_map(|of| {
+            let is_method = of[0].role == Role::Method;
             let own = is_method.then(|| error(&of.iter().collect::<Vec<_>>()));
-            of.iter().map(move |play| Row {
-                error: own.flatten(),
+            vec![own.flatten(); of.len()]
+        });
+        let errors: Vec<Option<f64>> = errors.collect();
+        for (row, error) in rows.iter_mut().zip(errors) {
+            *row = Row {
+                error,
                 error_floor,
                 error_mesh,
                 error_noise,
                 noise_amplification,
-                ..play.row.clone()
-            })
-        });
-        rows.collect()
+                answer: None,
+                last: Vec::new(),
+                ..std::mem::take(row)
+            };
+        }
+        rows
     }
 }
 

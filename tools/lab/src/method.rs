@@ -5,7 +5,7 @@ use tearmesh_cloth::implicit::{self, Settings};
 use tearmesh_cloth::{Pbd, Provot, Solver, System, Xpbd, recommended_step_s, stable_step_s};
 
 use crate::plain_verlet::PlainVerlet;
-use crate::plot::{COLOURS, Colour, Mark, Shape};
+use crate::plot::{COLOURS, Colour, INK, Mark, Shape};
 use crate::rk4::Rk4;
 
 /// A method with its settings.
@@ -44,51 +44,37 @@ pub enum Family {
     Bdf2,
 }
 
-/// The families in their order, their names, and what tells their marks from others: shape and colour each do.
-const STYLES: [(Family, &str, Shape, Colour); 9] = [
-    (Family::Verlet, "Verlet", Shape::DISC, COLOURS[0]),
-    (
-        Family::PlainVerlet,
-        "plain Verlet",
-        Shape::SQUARE,
-        COLOURS[5],
-    ),
-    (Family::Rk4, "RK4", Shape::DIAMOND, [0x22; 3]),
-    (
-        Family::SymplecticEuler,
-        "symplectic Euler",
-        Shape::UP,
-        COLOURS[4],
-    ),
-    (Family::Provot, "Provot", Shape::DOWN, [0x8a; 3]),
-    (Family::Pbd, "PBD", Shape::CROSS, COLOURS[3]),
-    (Family::Xpbd, "XPBD", Shape::PLUS, COLOURS[1]),
-    (
-        Family::BackwardEuler,
-        "backward Euler",
-        Shape::LEFT,
-        COLOURS[2],
-    ),
-    (Family::Bdf2, "BDF2", Shape::RIGHT, [0x7b, 0x3f, 0xa0]),
+/// The names of the families in their order, and what tells their marks from others: shape and colour each do.
+const STYLES: [(&str, Shape, Colour); 9] = [
+    ("Verlet", Shape::DISC, COLOURS[0]),
+    ("plain Verlet", Shape::SQUARE, COLOURS[5]),
+    ("RK4", Shape::DIAMOND, INK),
+    ("symplectic Euler", Shape::UP, COLOURS[4]),
+    ("Provot", Shape::DOWN, [0x8a; 3]),
+    ("PBD", Shape::CROSS, COLOURS[3]),
+    ("XPBD", Shape::PLUS, COLOURS[1]),
+    ("backward Euler", Shape::LEFT, COLOURS[2]),
+    ("BDF2", Shape::RIGHT, [0x7b, 0x3f, 0xa0]),
 ];
 
 impl Family {
     /// Returns all families, in the order of legends.
     #[must_use]
-    pub fn all() -> [Family; 9] {
-        STYLES.map(|(family, ..)| family)
+    pub fn all() -> impl DoubleEndedIterator<Item = Family> {
+        let families = METHODS.chunk_by(|a, b| a.family == b.family);
+        families.map(|methods| methods[0].family)
     }
 
     /// Returns the name of the family in legends.
     #[must_use]
     pub fn name(self) -> &'static str {
-        STYLES[self as usize].1
+        STYLES[self as usize].0
     }
 
     /// Returns the mark of the family in plots.
     #[must_use]
     pub fn mark(self) -> Mark {
-        let (.., shape, colour) = STYLES[self as usize];
+        let (_, shape, colour) = STYLES[self as usize];
         Mark::new(shape, colour)
     }
 }

@@ -21,26 +21,13 @@ pub use self::limit::{LIMITS, STIFFNESS_N_PER_M, Theory};
 pub use self::row::Row;
 pub use self::trial::{TRIALS, Trial};
 
-use std::num::NonZero;
-
-use crate::experiment::{Bounds, Experiment, list};
+use crate::experiment::{Bounds, Experiment};
 
 /// The experiment on stability.
 #[derive(Clone, Debug)]
 pub struct Stability {
     /// The stiffness values of the springs, in N/m. Each method is tried on each net at each of them.
     pub stiffness_n_per_m: Vec<f64>,
-    /// The number of runs that may go on at a time.
-    pub threads: NonZero<usize>,
-}
-
-/// A part of the experiment.
-#[derive(Clone, Copy, Debug)]
-pub enum Key {
-    /// The steps of a method on all nets.
-    Limit(&'static str, Theory),
-    /// A scene, played by all methods.
-    Trial(&'static Trial),
 }
 
 /// The CPU time of all steps at one stiffness, and of all scenes, in seconds, on the machine on which charts were
@@ -48,60 +35,43 @@ pub enum Key {
 const LIMITS_S: f64 = 3.0;
 const TRIALS_S: f64 = 9.0;
 
+/// The scene of a key; `None` for the steps of a method on all nets.
+fn trial(key: &Row) -> Option<&'static Trial> {
+    TRIALS.iter().find(|trial| trial.name == key.place)
+}
+
 impl Experiment for Stability {
-    type Key = Key;
-    type Outcome = Vec<Row>;
     type Row = Row;
 
-    fn command(&self) -> String {
-        let stiffness = list(&self.stiffness_n_per_m);
-        format!("tearmesh chart stability --stiffness {stiffness}")
-    }
-
-    fn threads(&self) -> NonZero<usize> {
-        self.threads
-    }
-
-    fn plan(&self) -> Vec<Vec<Key>> {
-        let limits = LIMITS.iter();
-        let limits = limits.map(|&(method, theory)| Key::Limit(method, theory));
-        vec![limits.chain(TRIALS.iter().map(Key::Trial)).collect()]
-    }
-
-    fn guess_s(&self, key: &Key) -> f64 {
-        match key {
-            Key::Limit(..) => LIMITS_S / LIMITS.len() as f64 * self.stiffness_n_per_m.len() as f64,
-            Key::Trial(_) => TRIALS_S / TRIALS.len() as f64,
-        }
-    }
-
-    fn run(&self, key: &Key, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
-        match key {
-            Key::Limit(method, theory) => {
-                let stiffness = &self.stiffness_n_per_m;
-                theory.rows(method, stiffness, bounds.stop)
-            }
-            Key::Trial(trial) => trial.rows(bounds.stop),
-        }
-    }
-
-    fn rows(&self, keys: &[Key], outcomes: Vec<Option<Vec<Row>>>) -> Vec<Row> {
-        let interrupted = |key: &Key| {
-            let (Key::Limit(name, _) | Key::Trial(Trial { name, .. })) = key;
-            let place = (*name).to_owned();
-            Row {
-                place,
-                ..Row::default()
-            }
+    fn plan(&self) -> Vec<Vec<Row>> {
+        let limits = LIMITS.iter().map(|(method, _)| *method);
+        let names = limits.chain(TRIALS.iter().map(|trial| trial.name));
+        let key = |name: &str| Row {
+            place: name.to_owned(),
+            ..Row::default()
         };
-        let each = keys.iter().zip(outcomes);
-        let each = each.map(|(key, rows)| rows.unwrap_or_else(|| vec![interrupted(key)]));
-        each.flatten().collect()
+        vec![names.map(key).collect()]
+    }
+
+    fn guess_s(&self, key: &Row) -> f64 {
+        match trial(key) {
+            Some(_) => TRIALS_S / TRIALS.len() as f64,
+            None => LIMITS_S / LIMITS.len() as f64 * self.stiffness_n_per_m.len() as f64,
+        }
+    }
+
+    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
+        if let Some(trial) = trial(key) {
+            return trial.rows(bounds.stop);
+        }
+        let (method, theory) = LIMITS.iter().find(|(method, _)| *method == key.place)?;
+        theory.rows(method, &self.stiffness_n_per_m, bounds.stop)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::num::NonZero;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
@@ -112,14 +82,6 @@ mod tests {
     fn experiment() -> Stability {
         Stability {
             stiffness_n_per_m: vec![1e3],
-            threads: NonZero::<usize>::MIN,
-        }
-    }
-
-    fn name(key: &Key) -> &'static str {
-        match key {
-            Key::Limit(method, _) => method,
-            Key::Trial(trial) => trial.name,
         }
     }
 
@@ -129,12 +91,10 @@ mod tests {
             stop: &|| false,
         };
         let plan = experiment.plan().concat();
-        let keys = plan.into_iter();
-        let keys = keys.filter(|key| names.contains(&name(key)));
-        let keys: Vec<Key> = keys.collect();
-        assert_eq!(keys.len(), names.len());
-        let outcomes = keys.iter().map(|key| experiment.run(key, &bounds));
-        experiment.rows(&keys, outcomes.collect())
+        let keys = plan.iter().filter(|key| names.contains(&&*key.place));
+        assert_eq!(keys.clone().count(), names.len());
+        let rows = keys.map(|key| experiment.run(key, &bounds).expect("not interrupted"));
+        experiment.assessed(rows.flatten().collect())
     }
 
     #[test]
@@ -182,7 +142,7 @@ mod tests {
             clock: None,
             stop: &stop,
         };
-        let conducted = conduct(&experiment, &bounds, |_| {});
+        let conducted = conduct(&experiment, NonZero::<usize>::MIN, &bounds, |_| {});
         assert_eq!(
             (conducted.done, conducted.rows.len()),
             (0, conducted.planned)

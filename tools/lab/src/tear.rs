@@ -24,7 +24,7 @@ use tearmesh_cloth::scene::ensemble::{self, MemberStatus, Subject};
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
-use crate::experiment::{Bounds, Experiment, Status, list, rows_or_keys};
+use crate::experiment::{Bounds, Experiment, Status};
 use crate::method::{DEFAULT, DEFAULTS, Method};
 
 /// The experiment on tearing, and its options.
@@ -40,8 +40,6 @@ pub struct Tear {
     pub methods: Vec<String>,
     /// The number of seeds of each ensemble.
     pub seeds: u64,
-    /// The number of runs that may go on at a time.
-    pub threads: NonZero<usize>,
 }
 
 /// The default numbers of cells across the strips.
@@ -160,48 +158,26 @@ impl Tear {
 
     /// The keys of the ensembles of a scene on a mesh.
     fn runs(&self, scene: EnsembleScene, cells: u32) -> Vec<Row> {
-        let names = DEFAULTS.into_iter().map(|method| method.name);
-        let names = names.filter(|name| self.methods.iter().any(|other| other == name));
-        let steps = names.flat_map(|name| STEP_DIVISORS.map(|divisor| (name, divisor)));
-        let keys = steps.flat_map(|(name, step_divisor)| {
-            (1..=self.seeds).map(move |seed| Row {
-                scene,
-                cells,
-                method: name.to_owned(),
-                step_divisor,
-                seed,
-                ..Row::default()
-            })
-        });
-        keys.collect()
+        let mut keys = Vec::new();
+        let is_wanted = |method: &Method| self.methods.iter().any(|name| name == method.name);
+        for method in DEFAULTS.iter().filter(|method| is_wanted(method)) {
+            for step_divisor in STEP_DIVISORS {
+                keys.extend((1..=self.seeds).map(|seed| Row {
+                    scene,
+                    cells,
+                    method: method.name.to_owned(),
+                    step_divisor,
+                    seed,
+                    ..Row::default()
+                }));
+            }
+        }
+        keys
     }
 }
 
 impl Experiment for Tear {
-    type Key = Row;
-    type Outcome = Row;
     type Row = Row;
-
-    fn command(&self) -> String {
-        let mut command = match self.strips[..] {
-            [] => "tearmesh chart tear --no-strips".to_owned(),
-            _ => format!("tearmesh chart tear --strips {}", list(&self.strips)),
-        };
-        if self.scenes.is_empty() || self.seeds == 0 {
-            return command + " --seeds 0";
-        }
-        let scenes = list(self.scenes.iter().map(|scene| scene.name()));
-        let (methods, seeds) = (list(&self.methods), self.seeds);
-        command += &format!(" --scene {scenes} --method {methods} --seeds {seeds}");
-        match self.cells[..] {
-            [] => command,
-            _ => command + &format!(" --size {}", list(&self.cells)),
-        }
-    }
-
-    fn threads(&self) -> NonZero<usize> {
-        self.threads
-    }
 
     fn plan(&self) -> Vec<Vec<Row>> {
         let mut plan = vec![self.strips()];
@@ -226,7 +202,7 @@ impl Experiment for Tear {
         at_default_s * finer.powf(2.5) * f64::from(key.step_divisor)
     }
 
-    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Row> {
+    fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
         let (rows, size_m, weakening, ready): (_, _, _, fn(&Frame) -> Scene) = match key.scene {
             EnsembleScene::Trouser => (2 * key.cells, STRIP_M, Some(TIP), Scene::trouser),
             EnsembleScene::Rip => (key.cells, [1.0; 2], None, Scene::rip),
@@ -253,20 +229,22 @@ impl Experiment for Tear {
         };
         let step_divisor = NonZero::new(key.step_divisor)?;
         let member = ensemble::member(subject, step_divisor, key.seed, bounds.stop);
-        let observed = member.observed;
-        (member.status != MemberStatus::Interrupted).then(|| Row {
-            status: observed.map_or(Status::Failed, |_| Status::Ok),
-            torn_m: observed.map(|one| one.torn_m),
-            pieces: observed.map(|one| one.pieces),
-            largest_force_n: observed.and_then(|one| one.largest_force_n),
-            work_j: observed.and_then(|one| one.work_j),
+        if member.status == MemberStatus::Interrupted {
+            return None;
+        }
+        let mut row = Row {
+            status: Status::Failed,
             why: member.why,
             ..key.clone()
-        })
-    }
-
-    fn rows(&self, keys: &[Row], outcomes: Vec<Option<Row>>) -> Vec<Row> {
-        rows_or_keys(keys, outcomes)
+        };
+        if let Some(observed) = member.observed {
+            row.status = Status::Ok;
+            row.torn_m = Some(observed.torn_m);
+            row.pieces = Some(observed.pieces);
+            row.largest_force_n = observed.largest_force_n;
+            row.work_j = observed.work_j;
+        }
+        Some(vec![row])
     }
 }
 

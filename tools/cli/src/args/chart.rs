@@ -91,16 +91,19 @@ pub(crate) struct GuideArgs {
 
     /// Cells along the longest side of the meshes.
     #[arg(long, value_name = "N", default_value_t = 64,
+        default_value_if("quick", "true", "16"),
         value_parser = clap::value_parser!(u32).range(8..=256))]
     pub(crate) size: u32,
 
     /// Seeds of the ensembles of a flag; torn lengths take half of them.
     #[arg(long, value_name = "N", default_value_t = 16,
+        default_value_if("quick", "true", "2"),
         value_parser = clap::value_parser!(u64).range(2..=10_000))]
     pub(crate) seeds: u64,
 
     /// Meshes with different diagonals, which show the error of the mesh itself.
     #[arg(long, value_name = "N", default_value_t = 8,
+        default_value_if("quick", "true", "2"),
         value_parser = clap::value_parser!(u64).range(2..=1000))]
     pub(crate) diagonals: u64,
 
@@ -116,7 +119,8 @@ pub(crate) struct ParetoArgs {
     pub(crate) draw: DrawArgs,
 
     /// Scenes (default: all).
-    #[arg(long, value_name = "NAME", value_delimiter = ',',
+    #[arg(long, value_name = "NAME", value_delimiter = ',', hide_default_value = true,
+        default_values_t = SCENES.map(|scene| scene.name.to_owned()),
         value_parser = clap::builder::PossibleValuesParser::new(SCENES.map(|scene| scene.name)))]
     pub(crate) scene: Vec<String>,
 
@@ -146,9 +150,14 @@ pub(crate) struct ParetoArgs {
     #[arg(long)]
     pub(crate) time: bool,
 
-    /// How often each run is repeated to measure its CPU time; 0 takes the time of the only run.
-    #[arg(long, value_name = "N", default_value = "5", requires = "time")]
-    pub(crate) repeats: u32,
+    /// How often each run is repeated to measure its CPU time (default: 5); 0 takes the time of the only run.
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_if("time", "true", "5"),
+        requires = "time"
+    )]
+    pub(crate) repeats: Option<u32>,
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
@@ -185,7 +194,7 @@ pub(crate) struct TearChartArgs {
 
     /// Cells across the strips: at least two even numbers, as the slit runs along edges.
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = tear::CELLS,
-        value_parser = even)]
+        default_value_if("no_strips", "true", None), value_parser = even)]
     pub(crate) strips: Vec<u32>,
 
     /// Tear no strips.

@@ -3,11 +3,11 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::experiment::{Chart, Provenance, conduct, read_table, table, workers};
 use crate::plot::Layer;
 
 fn cuts(cells: &[u32]) -> Cuts {
-    Cuts::new(cells.to_vec(), 6)
+    Cuts::new(cells, 6)
 }
 
 /// The rows by a clock that is a microsecond later whenever it is read.
@@ -18,7 +18,7 @@ fn measured(cuts: &Cuts) -> Vec<Row> {
         clock: Some(&clock),
         stop: &|| false,
     };
-    conduct(cuts, &bounds, |_| {}).rows
+    conduct(cuts, workers(), &bounds, |_| {}).rows
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn an_interrupted_table_has_a_row_for_each_method() {
         clock: None,
         stop: &stop,
     };
-    let conducted = conduct(&cuts(&[8, 6]), &bounds, |_| {});
+    let conducted = conduct(&cuts(&[8, 6]), workers(), &bounds, |_| {});
     assert_eq!((conducted.done, conducted.planned), (2, 20));
     let rows = conducted.rows;
     assert_eq!(rows.len(), 2 * METHODS.len());

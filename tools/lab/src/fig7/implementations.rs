@@ -22,7 +22,7 @@ pub(super) trait Implementation {
 }
 
 /// Creates an implementation with a copy of a mesh.
-type New = fn(&Mesh) -> Box<dyn Implementation>;
+pub(super) type New = fn(&Mesh) -> Box<dyn Implementation>;
 
 /// The name of the implementation that does nothing. Its time is the overhead of reading the clock.
 pub(super) const IDLE: &str = "nothing";

@@ -8,7 +8,7 @@ use tearmesh_cloth::statistics::Random;
 
 use super::implementations::SCAN;
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::experiment::{Chart, Provenance, conduct, read_table, table, workers};
 use crate::plot::Layer;
 
 /// The rows of a rip, by a clock that goes on by a microsecond more each time it is read.
@@ -22,7 +22,7 @@ fn measured(fig7: &Fig7) -> Vec<Row> {
         clock: Some(&clock),
         stop: &|| false,
     };
-    conduct(fig7, &bounds, |_| {}).rows
+    conduct(fig7, workers(), &bounds, |_| {}).rows
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn an_interrupted_table_has_a_row_for_each_patch() {
         stop: &stop,
     };
     let fig7 = Fig7 { cells: vec![4, 5] };
-    let conducted = conduct(&fig7, &bounds, |_| {});
+    let conducted = conduct(&fig7, workers(), &bounds, |_| {});
     assert_eq!((conducted.done, conducted.planned), (0, 2));
     let rows = conducted.rows;
     let undone = |cells: u32| Row {

@@ -14,8 +14,12 @@ use crate::plot::{Axis, Figure, Layer, Mark, Panel, Strip, percent, short};
 const LOOK: f64 = 0.2;
 const FORCES: f64 = 0.05;
 
-/// What is drawn along the vertical axis: its label, and the 10 %, 50 % and 90 % points of a method at one step.
-type Quantity = (&'static str, fn(&[&Row]) -> Option<[f64; 3]>);
+/// What is drawn along the vertical axis: its label, and its value in a run.
+type Quantity = (&'static str, fn(&Row) -> Option<f64>);
+
+const ERROR: Quantity = ("error, %", |row| Some(100.0 * row.error?.max(1e-8)));
+const TORN: Quantity = ("torn length, m", |row| row.torn_m);
+const WORK: Quantity = ("work of the hand, J", |row| row.work_j);
 
 /// The panels: the topic, the title, and what is drawn.
 const PANELS: [(Topic, &str, Quantity); 6] = [
@@ -42,19 +46,6 @@ const PANELS: [(Topic, &str, Quantity); 6] = [
         WORK,
     ),
 ];
-
-const ERROR: Quantity = ("error, %", |of| {
-    let error = of.first()?.error?;
-    Some([100.0 * error.max(1e-8); 3])
-});
-
-const TORN: Quantity = ("torn length, m", |of| spread_of(of, |row| row.torn_m));
-const WORK: Quantity = ("work of the hand, J", |of| spread_of(of, |row| row.work_j));
-
-fn spread_of(rows: &[&Row], value: fn(&Row) -> Option<f64>) -> Option<[f64; 3]> {
-    let values: Vec<f64> = rows.iter().filter_map(|row| value(row)).collect();
-    (!values.is_empty()).then(|| spread(&values))
-}
 
 /// A method at one step: all runs of it.
 struct Point<'a> {
@@ -121,20 +112,33 @@ fn finest(rows: &[Row]) -> u32 {
 
 fn sections(rows: &[Row]) -> Vec<Section<'_>> {
     let cells = finest(rows);
-    let sections = PANELS.map(|(topic, title, (label, y))| {
+    let sections = PANELS.map(|(topic, title, (label, value))| {
         let of = |role: Role, cells: u32| -> Vec<&Row> {
             let is_it = |row: &&Row| (row.topic, row.role, row.cells) == (topic, role, cells);
             rows.iter().filter(is_it).collect()
         };
-        let fine = of(Role::Method, cells);
-        let error_mesh = fine.first().and_then(|row| row.error_mesh);
-        let others = y(&of(Role::Mesh, cells)).filter(|_| topic == Topic::Aftermath);
+        let points = |cells: u32| -> Vec<Point<'_>> {
+            let rows = of(Role::Method, cells);
+            let ensembles = rows.chunk_by(|a, b| a.ensemble() == b.ensemble());
+            let points = ensembles.filter_map(|of| {
+                Some(Point {
+                    row: of[0],
+                    method: Method::named(&of[0].method)?,
+                    cost: median(of.iter().filter_map(|row| row.cpu_s_per_s).collect()),
+                    y: spread_of(of, value),
+                })
+            });
+            points.collect()
+        };
+        let fine = points(cells);
+        let error_mesh = fine.first().and_then(|point| point.row.error_mesh);
+        let others = spread_of(&of(Role::Mesh, cells), value);
         Section {
             topic,
             title,
             label,
-            fine: points(&fine, y),
-            coarse: points(&of(Role::Method, cells / 2), y),
+            fine,
+            coarse: points(cells / 2),
             band: match others {
                 Some([low, _, high]) => Some(low..high),
                 None => error_mesh.map(|error| 0.0..100.0 * error),
@@ -144,18 +148,9 @@ fn sections(rows: &[Row]) -> Vec<Section<'_>> {
     sections.into()
 }
 
-/// A point per method and step.
-fn points<'a>(rows: &[&'a Row], y: fn(&[&Row]) -> Option<[f64; 3]>) -> Vec<Point<'a>> {
-    let ensembles = rows.chunk_by(|a, b| a.ensemble() == b.ensemble());
-    let points = ensembles.filter_map(|of| {
-        Some(Point {
-            row: of[0],
-            method: Method::named(&of[0].method)?,
-            cost: median(of.iter().filter_map(|row| row.cpu_s_per_s).collect()),
-            y: y(of),
-        })
-    });
-    points.collect()
+fn spread_of(rows: &[&Row], value: fn(&Row) -> Option<f64>) -> Option<[f64; 3]> {
+    let values: Vec<f64> = rows.iter().filter_map(|row| value(row)).collect();
+    (!values.is_empty()).then(|| spread(&values))
 }
 
 impl Point<'_> {

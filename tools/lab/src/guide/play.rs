@@ -137,6 +137,13 @@ pub struct Row {
     pub noise_amplification: Option<f64>,
     /// The reason of a failure.
     pub why: String,
+    /// What errors are computed from, until they are. `None` if the run did not reach its end, and for
+    /// [`Topic::Aftermath`].
+    #[serde(skip)]
+    pub(super) answer: Option<Answer>,
+    /// The positions at the last whole frame before the end, until they are compared.
+    #[serde(skip)]
+    pub(super) last: Vec<Point>,
 }
 
 impl Row {
@@ -144,6 +151,14 @@ impl Row {
     pub(super) fn ensemble(&self) -> (u64, Role, &str, Option<f64>) {
         let (role, method) = (self.role, &*self.method);
         (self.diagonals, role, method, self.step_multiple)
+    }
+
+    /// The rms distance between the last positions of two runs, in metres; `None` if either has none.
+    pub(super) fn apart_m(&self, other: &Row) -> Option<f64> {
+        let pairs = self.last.iter().zip(&other.last);
+        let squares: Vec<f64> = pairs.map(|(p, q)| (p - q).norm_squared()).collect();
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        (!squares.is_empty()).then(|| mean.sqrt())
     }
 }
 
@@ -170,29 +185,9 @@ type End = (Status, String);
 /// from the begin of the pull, and the force unless the method does not know it.
 type Answer = Vec<Vec<f64>>;
 
-/// A run: its row without errors, and what errors are computed from.
-#[derive(Clone, Debug, Default)]
-pub struct Play {
-    pub(super) row: Row,
-    /// `None` if the run did not reach its end, and for [`Topic::Aftermath`].
-    pub(super) answer: Option<Answer>,
-    /// The positions at the last whole frame before the end.
-    pub(super) last: Vec<Point>,
-}
-
-impl Play {
-    /// The rms distance between the last positions of two runs, in metres; `None` if either has none.
-    pub(super) fn apart_m(&self, other: &Play) -> Option<f64> {
-        let pairs = self.last.iter().zip(&other.last);
-        let squares: Vec<f64> = pairs.map(|(p, q)| (p - q).norm_squared()).collect();
-        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-        (!squares.is_empty()).then(|| mean.sqrt())
-    }
-}
-
 /// The error of an ensemble relative to a reference: the largest relative error of the quantities that both know,
 /// each as a mean over runs. `None` if either has no run with an answer.
-pub(super) fn error(ensemble: &[&Play], reference: &[&Play]) -> Option<f64> {
+pub(super) fn error(ensemble: &[&Row], reference: &[&Row]) -> Option<f64> {
     let (own, known) = (mean(ensemble)?, mean(reference)?);
     let errors = own.iter().zip(&known).map(|(own, known)| {
         let apart: f64 = own.iter().zip(known).map(|(a, b)| (a - b) * (a - b)).sum();
@@ -202,8 +197,8 @@ pub(super) fn error(ensemble: &[&Play], reference: &[&Play]) -> Option<f64> {
     errors.reduce(f64::max)
 }
 
-fn mean(plays: &[&Play]) -> Option<Answer> {
-    let answers = plays.iter().filter_map(|play| play.answer.as_ref());
+fn mean(runs: &[&Row]) -> Option<Answer> {
+    let answers = runs.iter().filter_map(|run| run.answer.as_ref());
     let answers: Vec<&Answer> = answers.collect();
     let mut mean = Answer::clone(answers.first()?);
     for (i, quantity) in mean.iter_mut().enumerate() {
@@ -255,18 +250,15 @@ impl Stage {
     }
 
     /// Plays the scene. Returns `None` if it was interrupted.
-    pub(super) fn play(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Play> {
-        let mut play = Play {
-            row: key.clone(),
-            ..Play::default()
-        };
-        let end = self.measure(&mut play, bounds).err();
-        (play.row.status, play.row.why) = end.unwrap_or((Status::Ok, String::new()));
-        (play.row.status != Status::Interrupted).then_some(play)
+    pub(super) fn play(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Row> {
+        let mut row = key.clone();
+        let end = self.measure(&mut row, bounds).err();
+        (row.status, row.why) = end.unwrap_or((Status::Ok, String::new()));
+        (row.status != Status::Interrupted).then_some(row)
     }
 
     /// Takes a run to its end, or to its first tear if the topic is that.
-    fn measure(&self, play: &mut Play, bounds: &Bounds<'_>) -> Result<(), End> {
+    fn measure(&self, row: &mut Row, bounds: &Bounds<'_>) -> Result<(), End> {
         let flat = self.positions.as_slice();
         let shape_of = |at: &dyn Fn(usize) -> Vector| {
             let numbers = (0..flat.len()).flat_map(|v| <[f64; 3]>::from(at(v)));
@@ -276,15 +268,15 @@ impl Stage {
         if self.topic == Topic::Hang {
             let shape = self.rest.get_or_init(|| self.shape_at_rest(bounds.stop));
             let shape = shape.as_ref().map_err(End::clone)?;
-            if let Role::Reference | Role::Mesh = play.row.role {
-                play.answer = Some(shape_of(&|v| shape[v] - flat[v]));
-                play.row.dt_s = Some(REST_STEP_S);
+            if let Role::Reference | Role::Mesh = row.role {
+                row.answer = Some(shape_of(&|v| shape[v] - flat[v]));
+                row.dt_s = Some(REST_STEP_S);
                 return Ok(());
             }
             rest = Some(&shape[..]);
         }
-        let mut run = self.begin(&play.row, rest)?;
-        play.row.dt_s = Some(run.step_s());
+        let mut run = self.begin(row, rest)?;
+        row.dt_s = Some(run.step_s());
         let before_m = run.torn_length_m();
         let is_first_tear = matches!(self.topic, Topic::Rip | Topic::Trouser);
         let mut tear_log = TearLog::new(&run);
@@ -302,7 +294,7 @@ impl Stage {
         let later = &frames[frames.len() / 2..];
         let displaced = |v: usize| later.iter().map(move |points| points[v] - flat[v]);
         let mean = |v: usize| displaced(v).sum::<Vector>() / later.len() as f64;
-        play.answer = match self.topic {
+        row.answer = match self.topic {
             Topic::Hang => Some(shape_of(&mean)),
             Topic::Flag => {
                 // The lower right one: the pole is on the left.
@@ -321,14 +313,14 @@ impl Stage {
                 Some(numbers.into_iter().flatten().map(|x| vec![x]).collect())
             }
             Topic::Aftermath => {
-                play.row.torn_m = Some(run.torn_length_m() - before_m);
+                row.torn_m = Some(run.torn_length_m() - before_m);
                 let force_n = tear_log.largest_force_n();
-                play.row.work_j = force_n.map(|_| run.energy_balance().held_j);
+                row.work_j = force_n.map(|_| run.energy_balance().held_j);
                 None
             }
         };
-        play.last = frames.pop().unwrap_or_default();
-        play.row.cpu_s_per_s = bounds.clock.and_then(|_| cpu_s_per_s(&times, run.step_s()));
+        row.last = frames.pop().unwrap_or_default();
+        row.cpu_s_per_s = bounds.clock.and_then(|_| cpu_s_per_s(&times, run.step_s()));
         Ok(())
     }
 

@@ -9,7 +9,6 @@ fn guide() -> Guide {
         cells: 8,
         seeds: 2,
         diagonals: 2,
-        threads: workers(),
     })
 }
 
@@ -20,7 +19,7 @@ fn page_has_all_topics_and_survives_a_file() {
         stop: &|| false,
     };
     let guide = guide();
-    let conducted = conduct(&guide, &bounds, |_| {});
+    let conducted = conduct(&guide, workers(), &bounds, |_| {});
     let rows = conducted.rows;
     assert_eq!(
         (conducted.done, rows.len()),
@@ -57,7 +56,7 @@ fn an_interrupted_page_has_a_row_for_each_run() {
         clock: None,
         stop: &|| true,
     };
-    let conducted = conduct(&guide(), &bounds, |_| {});
+    let conducted = conduct(&guide(), workers(), &bounds, |_| {});
     assert_eq!(
         (conducted.done, conducted.rows.len()),
         (0, conducted.planned)
@@ -72,16 +71,16 @@ fn an_interrupted_page_has_a_row_for_each_run() {
 
 #[test]
 fn error_is_the_largest_of_the_quantities_that_both_know() {
-    let play = |answer: &[&[f64]]| Play {
+    let run = |answer: &[&[f64]]| Row {
         answer: Some(answer.iter().map(|numbers| numbers.to_vec()).collect()),
-        ..Play::default()
+        ..Row::default()
     };
-    let of = |plays: &[Play], known: &Play| error(&plays.iter().collect::<Vec<_>>(), &[known]);
-    let known = play(&[&[3.0, 4.0], &[2.0]]);
+    let of = |runs: &[Row], known: &Row| error(&runs.iter().collect::<Vec<_>>(), &[known]);
+    let known = run(&[&[3.0, 4.0], &[2.0]]);
     // The means are [3.0, 4.5] and 1.9.
-    let runs = [play(&[&[3.0, 4.0], &[1.6]]), play(&[&[3.0, 5.0], &[2.2]])];
+    let runs = [run(&[&[3.0, 4.0], &[1.6]]), run(&[&[3.0, 5.0], &[2.2]])];
     let found = of(&runs, &known).expect("both are known");
     assert!((found - 0.1).abs() < 1e-15, "{found}");
-    assert_eq!(of(&[play(&[&[3.0, 4.0]])], &known), Some(0.0));
-    assert_eq!(of(&[Play::default()], &known), None);
+    assert_eq!(of(&[run(&[&[3.0, 4.0]])], &known), Some(0.0));
+    assert_eq!(of(&[Row::default()], &known), None);
 }

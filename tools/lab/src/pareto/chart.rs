@@ -34,7 +34,7 @@ impl Chart for Pareto {
         };
         let groups = groups(rows, by_time);
         let is_there = |family: &Family| rows.iter().any(|row| row.family == Some(*family));
-        let families = Family::all().into_iter().filter(is_there);
+        let families = Family::all().filter(is_there);
         Figure {
             title: title(&groups, unit),
             about: format!(
@@ -104,7 +104,7 @@ fn title(groups: &[Group<'_>], unit: &str) -> String {
     let winners = compared.filter_map(|group| group.cheapest(TITLE_ERROR)?.row.family);
     let winners: Vec<Family> = winners.collect();
     let wins = |family: &Family| winners.iter().filter(|one| *one == family).count();
-    match Family::all().into_iter().rev().max_by_key(wins) {
+    match Family::all().rev().max_by_key(wins) {
         Some(best) if wins(&best) > 0 => format!(
             "{} is the cheapest way to an error below 1 % in {} of {} panels, by {unit}",
             best.name(),

@@ -9,7 +9,7 @@ use tearmesh::{Point, Vector};
 use tearmesh_cloth::{System, Threshold, energy, force};
 
 use super::scene::{Case, Held, Observable, TEAR_RATIO, TOUGHNESS_J_PER_M, Until};
-use crate::method::{Family, Method};
+use crate::method::Family;
 
 /// The numbers of a run by observable and checkpoint: coordinates, strains of edges, and single numbers. NaN
 /// where the run gave no value.
@@ -140,8 +140,8 @@ struct FirstTear {
 }
 
 impl<'a> Probe<'a> {
-    /// Creates a probe of a system that has not moved yet, for a method, or for a reference without one.
-    pub(super) fn new(case: &'a Case, system: &System, method: Option<&Method>) -> Probe<'a> {
+    /// Creates a probe of a system that has not moved yet, for a method of this family, or for a reference.
+    pub(super) fn new(case: &'a Case, system: &System, family: Option<Family>) -> Probe<'a> {
         let is_pulled = matches!(case.scene.held, Held::Pulled(_));
         let points = &case.sheet.points;
         let counts = |i: &usize| case.is_held(&points[*i]) && !(is_pulled && points[*i].y == 0.0);
@@ -160,7 +160,7 @@ impl<'a> Probe<'a> {
                 Until::Tears(_) => 0.0,
             },
             hand_j: 0.0,
-            family: method.map(|method| method.family),
+            family,
             began_j: [energy::elastic_j(system), height_j(system)],
             put_in_j: 0.0,
             thresholds: thresholds.map(|threshold| FirstTear {

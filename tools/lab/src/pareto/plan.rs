@@ -1,43 +1,12 @@
-//! The runs of a case: references, the gate, and every method at every step, each with an estimate of its cost.
+//! The runs of a case: references, the gate, and every method at every step.
 
 use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::{Solver, System, Unstable};
 
+use super::row::{Planned, Role, Row};
 use super::scene::{Case, Until};
 use crate::method::{DEFAULTS, Family, METHODS, Method, STEP_FRACTIONS};
 use crate::reference::Reference;
-
-/// A planned run of a case.
-#[derive(Clone, Debug)]
-pub(super) struct Planned {
-    /// The name of the run, without the name of the case.
-    pub(super) name: String,
-    pub(super) role: Role,
-    pub(super) dt_s: f64,
-    /// The number of steps to each checkpoint; `None` if the scene has no time of its own.
-    pub(super) steps_to_checkpoint: Option<u64>,
-    /// An estimate of its visits of edges.
-    pub(super) visits: f64,
-}
-
-/// The purpose of a run. References are two runs, the second with half the step, or one if the scene ends at
-/// rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Role {
-    /// A reference by Verlet's method.
-    Verlet,
-    /// A reference by Newton's method.
-    Newton,
-    /// A run that ends at [`REST_M_PER_S`](super::REST_M_PER_S), where references go on. Its error is a lower
-    /// bound of the floor.
-    Rest,
-    /// The run of the gate that starts as all others do.
-    Calm,
-    /// The run of the gate that starts with noise.
-    Noisy,
-    /// A method at a fraction of its base step, or with its default step.
-    Method(&'static Method, Option<f64>),
-}
 
 /// The number of checkpoints at which positions and strains are compared, evenly spaced over the time of the
 /// scene. A scene that ends at rest has one, at its end.
@@ -66,17 +35,18 @@ fn reference(case: &Case) -> &'static Method {
     Method::named(wanted).expect("the methods of references are of the list")
 }
 
-/// All runs of a case: the references, the gate, the budget by method and step, and the runs at default
-/// settings.
-pub(super) fn plan(case: &Case) -> Vec<Planned> {
-    let until = case.scene.until;
+/// The keys of all runs of a case with its index: the references, the gate, the budget by method and step, and the
+/// runs at default settings.
+pub(super) fn plan(case: &Case, index: usize) -> Vec<Row> {
     let base_s = |method: &Method| method.base_s(&mut case.system(), case.edge_s());
-    let mut runs = Vec::new();
-    let mut add = |name: &str, role, base_s, fraction| {
-        runs.push(Planned::new(case, name.to_owned(), role, base_s, fraction));
-    };
     let plain_s = base_s(reference(case));
-    match until {
+    let mut keys = Vec::new();
+    let mut add = |run: &str, role, base_s, fraction| {
+        let mut key = key(case, role, None, base_s, fraction);
+        run.clone_into(&mut key.run);
+        keys.push(key);
+    };
+    match case.scene.until {
         _ if case.is_of_energy() => {}
         Until::Rest(_) => {
             add("reference-verlet", Role::Verlet, plain_s, 0.5);
@@ -90,8 +60,7 @@ pub(super) fn plan(case: &Case) -> Vec<Planned> {
                 (Role::Newton, newton_s, "reference-newton"),
             ] {
                 for fraction in REFERENCE_FRACTIONS {
-                    let name = format!("{name}@{fraction}");
-                    add(&name, role, base_s, fraction);
+                    add(&format!("{name}@{fraction}"), role, base_s, fraction);
                 }
             }
         }
@@ -102,92 +71,87 @@ pub(super) fn plan(case: &Case) -> Vec<Planned> {
     }
     for method in &METHODS {
         let base_s = base_s(method);
-        for fraction in STEP_FRACTIONS {
-            let name = format!("{}@{fraction}", method.name);
-            add(
-                &name,
-                Role::Method(method, Some(fraction)),
-                base_s,
-                fraction,
-            );
-        }
+        keys.extend(STEP_FRACTIONS.map(|fraction| Row {
+            run: format!("{}@{fraction}", method.name),
+            step_fraction: Some(fraction),
+            ..key(case, Role::Method, Some(method), base_s, fraction)
+        }));
     }
-    for method in &DEFAULTS {
-        let name = format!("{}@default", method.name);
+    keys.extend(DEFAULTS.iter().map(|method| {
         let settings = method.settings().expect("defaults are methods of scenes");
         let step_s = settings.default_step_s(&mut case.system(), case.speed_m_per_s());
-        add(&name, Role::Method(method, None), step_s, 1.0);
+        Row {
+            run: format!("{}@default", method.name),
+            ..key(case, Role::Method, Some(method), step_s, 1.0)
+        }
+    }));
+    for key in &mut keys {
+        key.planned.case = index;
     }
-    runs
+    keys
 }
 
-impl Planned {
-    /// The step is the longest that is at most `fraction` of `base_s` and has a whole number to each checkpoint.
-    fn new(case: &Case, name: String, role: Role, base_s: f64, fraction: f64) -> Planned {
-        let (mut dt_s, mut steps_to_checkpoint) = (base_s * fraction, None);
-        let mut expected_s = case.scene.until.seconds();
-        match case.scene.until {
-            Until::Time(seconds) => {
-                let span_s = seconds / CHECKPOINTS as f64;
-                let whole = |wanted: f64| (wanted - 1e-9).ceil().max(1.0);
-                // From the whole number of base steps, so that half of a fraction is half of the step.
-                let count = whole(whole(span_s / base_s) / fraction);
-                (dt_s, steps_to_checkpoint) = (span_s / count, Some(count as u64));
-            }
-            // Most runs come to rest, or tear, before the last moment.
-            Until::Rest(_) => expected_s *= 0.3,
-            Until::Tears(_) => expected_s *= 0.6,
+/// A key without the name of the run. The step is the longest that is at most `fraction` of `base_s` and has a whole
+/// number to each checkpoint.
+fn key(case: &Case, role: Role, method: Option<&Method>, base_s: f64, fraction: f64) -> Row {
+    let Case {
+        scene, mesh, cells, ..
+    } = *case;
+    let (mut dt_s, mut steps_to_checkpoint) = (base_s * fraction, None);
+    let mut expected_s = scene.until.seconds();
+    match scene.until {
+        Until::Time(seconds) => {
+            let span_s = seconds / CHECKPOINTS as f64;
+            let whole = |wanted: f64| (wanted - 1e-9).ceil().max(1.0);
+            // From the whole number of base steps, so that half of a fraction is half of the step.
+            let count = whole(whole(span_s / base_s) / fraction);
+            (dt_s, steps_to_checkpoint) = (span_s / count, Some(count as u64));
         }
-        let products = || 8.0 + 6.0 * (dt_s / case.edge_s()).min(2.0 * f64::from(case.cells));
-        let visits_a_step = match role {
-            Role::Newton => products(),
-            Role::Method(method, _) => match method.family {
-                Family::Rk4 | Family::Provot => 4.0,
-                Family::BackwardEuler | Family::Bdf2 => products(),
-                _ => f64::from(method.sweeps()),
-            },
-            _ => 1.0,
-        };
-        Planned {
-            name,
+        // Most runs come to rest, or tear, before the last moment.
+        Until::Rest(_) => expected_s *= 0.3,
+        Until::Tears(_) => expected_s *= 0.6,
+    }
+    let products = 8.0 + 6.0 * (dt_s / case.edge_s()).min(2.0 * f64::from(cells));
+    let visits_a_step = match (role, method.map(|method| method.family)) {
+        (Role::Newton, _) | (_, Some(Family::BackwardEuler | Family::Bdf2)) => products,
+        (_, Some(Family::Rk4 | Family::Provot)) => 4.0,
+        _ => method.map_or(1.0, |method| method.sweeps().into()),
+    };
+    Row {
+        scene: scene.name.to_owned(),
+        mesh,
+        cells,
+        stiffness_n_per_m: scene.stiffness_n_per_m,
+        mass_ratio: scene.middle_mass_ratio,
+        family: method.map(|method| method.family),
+        method: method.map_or("reference", |method| method.name).to_owned(),
+        dt_s,
+        planned: Planned {
             role,
-            dt_s,
             steps_to_checkpoint,
             visits: expected_s / dt_s * case.edges.len() as f64 * visits_a_step,
-        }
+            ..Planned::default()
+        },
+        ..Row::default()
     }
+}
 
-    /// The system at its start, and the method.
-    pub(super) fn begin(&self, case: &Case) -> (System, Box<dyn Solver>) {
-        let mut system = match self.role {
-            Role::Noisy => case.disturbed(NOISE_M),
-            _ => case.system(),
-        };
-        if let Role::Method(_, None) = self.role {
-            // A step that the program chose is divided where it gets too long, and not refused.
-            system.when_unstable(Unstable::Substep);
-        }
-        let solver = match self.role {
-            Role::Newton => match case.scene.until {
-                Until::Rest(_) => Box::new(Reference::to_rest()),
-                Until::Time(_) | Until::Tears(_) => Box::new(Reference::new(&[])),
-            },
-            Role::Method(method, _) => method.solver(),
-            _ => reference(case).solver(),
-        };
-        (system, solver)
+/// The system at the start of a run, and its method.
+pub(super) fn begin(case: &Case, key: &Row) -> (System, Box<dyn Solver>) {
+    let role = key.planned.role;
+    let mut system = match role {
+        Role::Noisy => case.disturbed(NOISE_M),
+        _ => case.system(),
+    };
+    let method = Method::named(&key.method);
+    if method.is_some() && key.step_fraction.is_none() {
+        // A step that the program chose is divided where it gets too long, and not refused.
+        system.when_unstable(Unstable::Substep);
     }
-
-    /// The method that is measured; `None` for references and the gate.
-    pub(super) fn method(&self) -> Option<&'static Method> {
-        match self.role {
-            Role::Method(method, _) => Some(method),
-            _ => None,
-        }
-    }
-
-    /// Whether the run is a reference, which has no limit of visits and comes nearer to rest.
-    pub(super) fn is_reference(&self) -> bool {
-        matches!(self.role, Role::Verlet | Role::Newton)
-    }
+    let solver = match (role, case.scene.until) {
+        (Role::Newton, Until::Rest(_)) => Box::new(Reference::to_rest()),
+        (Role::Newton, _) => Box::new(Reference::new(&[])),
+        _ => method.unwrap_or_else(|| reference(case)).solver(),
+    };
+    (system, solver)
 }

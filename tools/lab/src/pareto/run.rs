@@ -7,36 +7,19 @@ use std::time::Duration;
 use tearmesh_cloth::StepError;
 
 use super::observe::{Probe, Records};
-use super::plan::{CHECKPOINTS, Planned};
+use super::plan::{CHECKPOINTS, begin};
+use super::row::Row;
 use super::scene::{Case, REST_M_PER_S, Until, fastest_m_per_s};
 use crate::experiment::{Bounds, Status};
-
-/// The result of a run.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    pub(super) status: Status,
-    /// The reason if a step failed or the energy grew too much; otherwise empty.
-    pub(super) why: String,
-    /// The visits of edges for all purposes.
-    pub(super) visits: u64,
-    /// The CPU time of all steps in seconds; `None` without a clock.
-    pub(super) cpu_s: Option<f64>,
-    pub(super) records: Records,
-}
 
 /// The speed at which references are at rest, as a fraction of [`REST_M_PER_S`].
 const REST_OF_REFERENCES: f64 = 1e-1;
 
-/// Carries out a run, which ends where it exceeds `visits_max` visits of edges unless it is a reference.
+/// Carries out the run of a key, which ends where it exceeds `visits_max` visits of edges unless it is a reference.
 /// Returns `None` if it was interrupted.
-pub(super) fn run(
-    case: &Case,
-    planned: &Planned,
-    visits_max: u64,
-    bounds: &Bounds<'_>,
-) -> Option<Outcome> {
-    let (until, dt_s) = (case.scene.until, planned.dt_s);
-    let (rest_m_per_s, visits_max) = match planned.is_reference() {
+pub(super) fn run(case: &Case, key: &Row, visits_max: u64, bounds: &Bounds<'_>) -> Option<Row> {
+    let (until, dt_s, planned) = (case.scene.until, key.dt_s, key.planned);
+    let (rest_m_per_s, visits_max) = match planned.role.is_reference() {
         true => (REST_M_PER_S * REST_OF_REFERENCES, u64::MAX),
         false => (REST_M_PER_S, visits_max),
     };
@@ -47,8 +30,8 @@ pub(super) fn run(
     // Energy is checked 400 times, and rest every hundredth of a second.
     let every = (steps_max / 400).max(1);
     let rest_every = ((0.01 / dt_s) as u64).max(1);
-    let (mut system, mut solver) = planned.begin(case);
-    let mut probe = Probe::new(case, &system, planned.method());
+    let (mut system, mut solver) = begin(case, key);
+    let mut probe = Probe::new(case, &system, key.family);
     let (mut cpu, mut visits) = (Duration::ZERO, 0);
     let (mut status, mut why) = (Status::Restless, String::new());
     for number in 1..=steps_max {
@@ -93,12 +76,16 @@ pub(super) fn run(
     if matches!(until, Until::Rest(_)) && status == Status::Ok {
         probe.checkpoint(&system);
     }
-    Some(Outcome {
+    Some(Row {
         status,
         why,
-        visits,
-        cpu_s: bounds.clock.map(|_| cpu.as_secs_f64()),
-        records: probe.records(&system),
+        visits: Some(visits),
+        cpu_median_s: bounds.clock.map(|_| cpu.as_secs_f64()),
+        records: match planned.round {
+            0 => probe.records(&system),
+            _ => Records::new(),
+        },
+        ..key.clone()
     })
 }
 

@@ -1,13 +1,14 @@
 //! Cases with known answers, the fronts of a record, and tables that do not depend on threads.
 
 use std::fs;
+use std::num::NonZero;
 use std::path::Path;
 
 use tearmesh::Point;
 
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table};
-use crate::method::{METHODS, STEP_FRACTIONS};
+use crate::experiment::{Chart, Provenance, conduct, read_table, table, workers};
+use crate::method::{Family, METHODS, STEP_FRACTIONS};
 use crate::sheet::Sheet;
 
 const UNBOUNDED: Bounds<'static> = Bounds {
@@ -54,7 +55,7 @@ fn assessed() -> Vec<Row> {
         },
         cases: vec![oscillator()],
     };
-    conduct(&experiment, &UNBOUNDED, |_| {}).rows
+    conduct(&experiment, workers(), &UNBOUNDED, |_| {}).rows
 }
 
 /// The error of a weight that moves as cos wt: the largest of ten checkpoints.
@@ -131,27 +132,26 @@ fn options(scenes: &[&str], cells: u32) -> Options {
         cells: vec![cells],
         stiffness_n_per_m: Vec::new(),
         mass_ratios: Vec::new(),
-        threads: NonZero::<usize>::MIN.saturating_add(1),
         visits_max: 3_000_000,
         repeats: None,
     }
 }
 
-fn made(options: Options) -> Vec<Row> {
-    conduct(&Pareto::new(options), &UNBOUNDED, |_| {}).rows
+fn made(options: Options, threads: NonZero<usize>) -> Vec<Row> {
+    conduct(&Pareto::new(options), threads, &UNBOUNDED, |_| {}).rows
 }
 
 #[test]
 fn table_and_figure_do_not_depend_on_threads_and_survive_a_file() {
-    let stiffer = |threads: usize| Options {
-        threads: NonZero::new(threads).expect("one at least"),
+    let options = Options {
         stiffness_n_per_m: vec![1e3, 1e4],
         ..options(&["swing", "crushed"], 4)
     };
-    let experiment = Pareto::new(stiffer(2));
-    let rows = made(stiffer(2));
+    let experiment = Pareto::new(options.clone());
+    let one = NonZero::<usize>::MIN;
+    let rows = made(options.clone(), one.saturating_add(1));
     let text = table(&rows).expect("a table");
-    assert_eq!(text, table(&made(stiffer(1))).expect("a table"));
+    assert_eq!(text, table(&made(options, one)).expect("a table"));
     let read: Vec<Row> = read_table(&text).expect("the same table");
     assert_eq!(read, rows);
     let figure = |rows: &[Row]| crate::plot::svg(&experiment.figure(rows, &Provenance::default()));
@@ -178,7 +178,12 @@ fn an_interrupted_table_has_a_row_for_each_run() {
         stop: &stop,
         ..UNBOUNDED
     };
-    let conducted = conduct(&Pareto::new(options(&["swing"], 4)), &bounds, |_| {});
+    let conducted = conduct(
+        &Pareto::new(options(&["swing"], 4)),
+        workers(),
+        &bounds,
+        |_| {},
+    );
     assert_eq!(
         (conducted.done, conducted.rows.len()),
         (0, conducted.planned)
@@ -191,10 +196,10 @@ fn an_interrupted_table_has_a_row_for_each_run() {
 /// that moves one has to say so. With `TEARMESH_BLESS` set, the record is written anew.
 #[test]
 fn fronts_are_those_of_the_record() {
-    let rows = made(Options {
-        meshes: MeshKind::ALL.to_vec(),
-        ..options(&["hang", "swing", "sliver", "taut", "strip"], 5)
-    });
+    let scenes = ["hang", "swing", "sliver", "taut", "strip"];
+    let meshes = MeshKind::ALL.to_vec();
+    let options = options(&scenes, 5);
+    let rows = made(Options { meshes, ..options }, workers());
     let mut found = String::new();
     for group in chart::groups(&rows, false) {
         if group.floor.is_some() {

@@ -43,7 +43,7 @@ pub struct Trial {
 type Measure = fn(&Played, &Played) -> f64;
 
 /// The largest strain of an edge at the end. What is right is rounding, and the tolerance of implicit steps.
-const UNSTRAINED: Option<(Measure, f64)> = Some((strain, 1e-5));
+const UNSTRAINED: Option<(Measure, f64)> = Some((|played, _| played.strain, 1e-5));
 
 /// The error of positions. A tenth of the displacement is right.
 const IN_PLACE: Option<(Measure, f64)> = Some((position_error, 0.1));
@@ -192,26 +192,17 @@ pub static TRIALS: [Trial; 9] = [
 
 /// A scene that was played.
 struct Played {
-    run: Run,
-    frame: Frame,
-    /// The error that ended the run; `None` if it reached its end.
-    error: Option<StepError>,
+    dt_s: f64,
+    /// The status of the step that failed; `None` if the run reached its end.
+    failure: Option<Status>,
+    /// The codes of the messages that a user gets who plays this scene.
+    codes: Vec<&'static str>,
     /// The positions of vertices without loads, and at [`MOMENTS`] moments; fewer if the run failed.
     positions: Vec<Vec<Point>>,
+    /// The largest strain of an edge at the end.
+    strain: f64,
     /// The largest energy as a multiple of that at the start.
     energy: f64,
-}
-
-impl Played {
-    /// The codes of the messages that a user gets who plays this scene.
-    fn codes(&self) -> Vec<&'static str> {
-        let before = Warning::before(&self.run, &self.frame).into_iter();
-        let warnings = before.chain(Warning::after(&self.run));
-        let codes = warnings.map(|warning| warning.code());
-        codes
-            .chain(self.error.as_ref().map(StepError::code))
-            .collect()
-    }
 }
 
 /// Whether a run failed without a message.
@@ -226,26 +217,23 @@ impl Trial {
         let methods = DEFAULTS.iter().zip(self.expected);
         let rows = methods.map(|(method, expected)| {
             let played = self.play(Some(method.settings()?), stop)?;
-            let error = played.error.as_ref();
-            let judge = self.judge.filter(|_| error.is_none());
+            let judge = self.judge.filter(|_| played.failure.is_none());
             let judged = judge.map(|(measure, most)| (measure(&played, &reference), most));
-            let measured = match error {
-                Some(error) => status_of(error),
-                // Written so that NaN is wrong.
-                None if judged.is_none_or(|(measure, most)| measure <= most) => Fine,
-                None => Wrong,
-            };
-            let codes = played.codes();
+            // Written so that NaN is wrong.
+            let is_right = judged.is_none_or(|(measure, most)| measure <= most);
+            let measured = played
+                .failure
+                .unwrap_or(if is_right { Fine } else { Wrong });
             Some(Row {
                 place: self.name.to_owned(),
                 method: method.name.to_owned(),
-                dt_s: Some(played.run.step_s()),
+                dt_s: Some(played.dt_s),
                 expected: Some(expected),
                 measured: Some(measured),
                 measure: judged.map(|(measure, _)| measure),
                 agrees: Some(measured == expected),
-                is_silent: Some(is_silent(measured, &codes)),
-                codes: codes.join(" | "),
+                is_silent: Some(is_silent(measured, &played.codes)),
+                codes: played.codes.join(" | "),
                 status: Fine,
                 ..Row::default()
             })
@@ -300,11 +288,17 @@ impl Trial {
             let now_j: f64 = energies_j(&run)[..counted].iter().sum();
             energy = energy.max(now_j / start_j);
         }
+        let warnings = [Warning::before(&run, &frame), Warning::after(&run)].concat();
+        let codes = warnings.iter().map(Warning::code);
+        let system = run.cloth().system();
+        let ratios = system.stretches().iter();
+        let strains = ratios.map(|id| (system.stretch_ratio(id) - 1.0).abs());
         Some(Played {
-            run,
-            frame,
-            error,
+            dt_s: run.step_s(),
+            failure: error.as_ref().map(status_of),
+            codes: codes.chain(error.as_ref().map(StepError::code)).collect(),
             positions,
+            strain: strains.fold(0.0, f64::max),
             energy,
         })
     }
@@ -340,13 +334,6 @@ impl Trial {
     }
 }
 
-/// The largest strain of an edge.
-fn strain(played: &Played, _: &Played) -> f64 {
-    let system = played.run.cloth().system();
-    let ratios = system.stretches().iter().map(|id| system.stretch_ratio(id));
-    ratios.map(|ratio| (ratio - 1.0).abs()).fold(0.0, f64::max)
-}
-
 /// The rms distance of vertices from the reference, divided by that of the reference from the positions without
 /// loads.
 fn position_error(played: &Played, reference: &Played) -> f64 {
@@ -373,7 +360,7 @@ mod tests {
             let trial = TRIALS.iter().find(|trial| trial.name == name);
             let [verlet, reference] = [Some(Method::Verlet), None].map(|method| {
                 let played = trial.and_then(|trial| trial.play(method, &|| false));
-                let played = played.filter(|played| played.error.is_none());
+                let played = played.filter(|played| played.failure.is_none());
                 played.expect("it reaches its end")
             });
             let error = position_error(&verlet, &reference);

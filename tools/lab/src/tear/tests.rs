@@ -12,7 +12,6 @@ fn tear(strips: &[u32], seeds: u64) -> Tear {
         cells: vec![6],
         methods: vec!["implicit".to_owned(), "provot".to_owned()],
         seeds,
-        threads: workers(),
     }
 }
 
@@ -21,7 +20,7 @@ fn made(strips: &[u32], seeds: u64) -> Vec<Row> {
         clock: None,
         stop: &|| false,
     };
-    conduct(&tear(strips, seeds), &bounds, |_| {}).rows
+    conduct(&tear(strips, seeds), workers(), &bounds, |_| {}).rows
 }
 
 /// The force at which an edge tears is k ε h by stretch and √(2 k G h) by toughness: slopes of one and of a half
@@ -63,7 +62,7 @@ fn interrupted_keys_are_rows_with_that_status() {
         clock: None,
         stop: &|| true,
     };
-    let conducted = conduct(&tear(&[4, 6], 2), &bounds, |_| {});
+    let conducted = conduct(&tear(&[4, 6], 2), workers(), &bounds, |_| {});
     assert_eq!((conducted.done, conducted.rows.len()), (0, 4 + 12));
     assert!(
         conducted
