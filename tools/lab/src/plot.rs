@@ -98,17 +98,9 @@ pub enum Layer {
     Line(Vec<[f64; 2]>, Colour, f64),
     /// A mark at a point, with words to hover over, or none if they are empty.
     Mark([f64; 2], Mark, String),
-    /// A cell of a heat map: one unit wide and high, with words in it.
-    Cell {
-        /// The place along both axes of its corner with the smaller numbers.
-        at: [f64; 2],
-        /// The colour.
-        colour: Colour,
-        /// The lines of text in the cell.
-        lines: Vec<String>,
-        /// Whether the cell has a red border.
-        is_marked: bool,
-    },
+    /// A cell of a heat map, one unit wide and high: the place along both axes of its corner with the smaller
+    /// numbers, its colour, the lines of text in it, and whether it has a red border.
+    Cell([f64; 2], Colour, Vec<String>, bool),
     /// A label beside a point, moved up or down where another would be hit.
     Label([f64; 2], String, Colour),
 }

@@ -109,13 +109,13 @@ impl<'a> Step<'a> {
     /// A step of backward Euler.
     fn new(system: &'a System, faces: &'a [u32], h: f64) -> Step<'a> {
         let families = [system.stretches(), system.bends()];
-        let springs = families.iter().flat_map(|family| {
-            let constraints = family.iter().map(|id| family.get(id));
-            constraints.map(|constraint| Spring {
-                ends: constraint.ends,
-                rest_m: constraint.rest_length_m,
-                n_per_m: constraint.stiffness_n_per_m,
-            })
+        let constraints = families
+            .iter()
+            .flat_map(|of| of.iter().map(|id| of.get(id)));
+        let springs = constraints.map(|constraint| Spring {
+            ends: constraint.ends,
+            rest_m: constraint.rest_length_m,
+            n_per_m: constraint.stiffness_n_per_m,
         });
         Step {
             springs: springs.collect(),
@@ -184,14 +184,11 @@ impl<'a> Step<'a> {
     /// The change of positions that answers a residual, by conjugate gradients. Where the matrix shows that it is
     /// not definite they end, as what they found so far leads downhill too.
     fn direction(&self, x: &[Point], residual: &[Vector]) -> Vec<Vector> {
-        let springs = self.springs.iter();
-        let springs = springs.map(|spring| {
-            (
-                spring.ends,
-                spring.stiffness(x[spring.ends[1]] - x[spring.ends[0]]),
-            )
+        let springs = self.springs.iter().map(|spring| {
+            let [a, b] = spring.ends;
+            (spring.ends, spring.stiffness(x[b] - x[a]))
         });
-        let springs: Vec<([usize; 2], Stiffness)> = springs.collect();
+        let springs: Vec<_> = springs.collect();
         let mut solution = vec![Vector::zeros(); x.len()];
         let mut left = residual.to_vec();
         let mut direction = left.clone();
@@ -219,14 +216,18 @@ impl<'a> Step<'a> {
     }
 
     /// (M (1 + hc)/h² + K) u, of free particles.
-    fn product(&self, springs: &[([usize; 2], Stiffness)], u: &[Vector]) -> Vec<Vector> {
+    fn product(
+        &self,
+        springs: &[([usize; 2], impl Fn(Vector) -> Vector)],
+        u: &[Vector],
+    ) -> Vec<Vector> {
         let drag = self.system.loads().drag_per_s.unwrap_or(0.0);
         let inertia = (1.0 + self.h * drag) / (self.h * self.h);
         let mut stiff = vec![Vector::zeros(); u.len()];
-        for ([a, b], spring) in springs.iter().copied() {
-            let pull = spring.pull(u[b] - u[a]);
-            stiff[a] -= pull;
-            stiff[b] += pull;
+        for ([a, b], stiffness) in springs {
+            let pull = stiffness(u[*b] - u[*a]);
+            stiff[*a] -= pull;
+            stiff[*b] += pull;
         }
         let mut product = vec![Vector::zeros(); u.len()];
         for (i, m) in self.free() {
@@ -287,29 +288,15 @@ impl Spring {
         d * (self.n_per_m * (length - self.rest_m) / length)
     }
 
-    fn stiffness(self, d: Vector) -> Stiffness {
+    /// The change of the force on the first end if the difference to the second, which is `d`, changes by a vector:
+    /// the stiffness along the spring, and across it a part of that.
+    fn stiffness(self, d: Vector) -> impl Fn(Vector) -> Vector {
         let length = d.norm();
-        Stiffness {
-            direction: d / length,
-            across: (length - self.rest_m) / length,
-            n_per_m: self.n_per_m,
+        let (direction, across) = (d / length, (length - self.rest_m) / length);
+        move |u| {
+            let along = direction * direction.dot(&u);
+            (along + (u - along) * across) * self.n_per_m
         }
-    }
-}
-
-/// The stiffness of a spring in a direction, and across it as a part of that.
-#[derive(Clone, Copy)]
-struct Stiffness {
-    direction: Vector,
-    across: f64,
-    n_per_m: f64,
-}
-
-impl Stiffness {
-    /// The change of the force on the first end if the difference to the second changes by `u`.
-    fn pull(self, u: Vector) -> Vector {
-        let along = self.direction * self.direction.dot(&u);
-        (along + (u - along) * self.across) * self.n_per_m
     }
 }
 
@@ -380,7 +367,7 @@ mod tests {
             let d = Vector::new(0.6, 0.64, -0.48) * scale;
             let h = 1e-5;
             let difference = (spring.pull(d + u * h) - spring.pull(d - u * h)) / (2.0 * h);
-            let apart = (difference - spring.stiffness(d).pull(u)).norm();
+            let apart = (difference - spring.stiffness(d)(u)).norm();
             assert!(apart < 1e-7, "{scale}: {apart}");
         }
     }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use tearmesh::{Masses, Mesh, Point, Positions, shapes};
+use tearmesh_cloth::System;
 use tearmesh_cloth::statistics::Random;
 
 /// The mass of a square metre of a sheet, in kg.
@@ -58,12 +59,9 @@ impl Sheet {
     pub fn new(kind: MeshKind, cells: u32, side_m: f64) -> Sheet {
         let mut random = Random::new(SEED);
         let (mesh, positions) = match kind {
-            MeshKind::Grid => shapes::grid_with_diagonals(cells, cells, |_, _| random.next() < 0.5),
-            MeshKind::Delaunay => scattered(cells, &mut random),
+            MeshKind::Grid => grid([cells; 2], [side_m; 2], |_, _| random.next() < 0.5),
+            MeshKind::Delaunay => scattered(cells, side_m, &mut random),
         };
-        let scaled = positions.as_slice().iter();
-        let scaled = scaled.map(|p| Point::new(p.x * side_m, p.y * side_m, 0.0));
-        let positions = Positions::new(scaled).expect("a sheet's coordinates are finite");
         let masses = Masses::area(&mesh, &positions, DENSITY_KG_PER_M2);
         let masses = masses.expect("each face of a sheet has an area");
         let ends = |h| [mesh.origin(h), mesh.target(h)].map(|v| v.index());
@@ -89,9 +87,22 @@ impl Sheet {
     }
 }
 
+/// A grid of square cells, whose diagonals rise where `rising(column, row)` returns true.
+pub(crate) fn grid(
+    cells: [u32; 2],
+    [width_m, height_m]: [f64; 2],
+    rising: impl FnMut(u32, u32) -> bool,
+) -> (Mesh, Positions) {
+    let (mesh, unit) = shapes::grid_with_diagonals(cells[0], cells[1], rising);
+    let points = unit.as_slice().iter();
+    let points = points.map(|p| Point::new(width_m * p.x, height_m * p.y, 0.0));
+    let positions = Positions::new(points).expect("a sheet's coordinates are finite");
+    (mesh, positions)
+}
+
 /// The Delaunay triangles of as many points as a grid has: evenly along the border, and elsewhere at random
 /// places that are no nearer to each other than seven tenths of a cell.
-fn scattered(cells: u32, random: &mut Random) -> (Mesh, Positions) {
+fn scattered(cells: u32, side_m: f64, random: &mut Random) -> (Mesh, Positions) {
     let h = 1.0 / f64::from(cells);
     let mut points: Vec<[f64; 2]> = Vec::new();
     for i in 0..cells {
@@ -118,8 +129,26 @@ fn scattered(cells: u32, random: &mut Random) -> (Mesh, Positions) {
         }
     }
     let mesh = delaunay(&points, 1e-9 * h * h);
-    let positions = Positions::new(points.iter().map(|&[x, y]| Point::new(x, y, 0.0)));
-    (mesh, positions.expect("a sheet's coordinates are finite"))
+    let points = points.iter();
+    let points = points.map(|&[x, y]| Point::new(x * side_m, y * side_m, 0.0));
+    let positions = Positions::new(points).expect("a sheet's coordinates are finite");
+    (mesh, positions)
+}
+
+/// A system at rest of points with masses, tied by springs: their two ends and their rest length in metres.
+pub(crate) fn system(
+    points: &[Point],
+    masses: Vec<f64>,
+    springs: impl Iterator<Item = ([usize; 2], f64)>,
+    stiffness_n_per_m: f64,
+) -> System {
+    let system = System::new(points.iter().copied(), masses);
+    let mut system = system.expect("the points and masses are usable");
+    for (ends, rest_m) in springs {
+        let made = system.stretch(ends, rest_m, stiffness_n_per_m);
+        made.expect("a spring has a length");
+    }
+    system
 }
 
 /// The Delaunay triangles of some points, without those of which twice the area is at most `area_min`, as

@@ -19,13 +19,13 @@ mod chart;
 use std::num::NonZero;
 
 use serde::{Deserialize, Serialize};
-use tearmesh::{Mesh, Point, Positions, shapes};
 use tearmesh_cloth::scene::ensemble::{self, MemberStatus, Subject};
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 use tearmesh_cloth::{Tearing, Threshold};
 
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::method::{DEFAULT, DEFAULTS, Method};
+use crate::sheet::grid;
 
 /// The experiment on tearing, and its options.
 #[derive(Clone, Debug)]
@@ -246,19 +246,6 @@ impl Experiment for Tear {
         }
         Some(vec![row])
     }
-}
-
-/// A grid of square cells, whose diagonals rise where `rising(column, row)` returns true.
-pub(crate) fn grid(
-    cells: [u32; 2],
-    [width_m, height_m]: [f64; 2],
-    rising: impl FnMut(u32, u32) -> bool,
-) -> (Mesh, Positions) {
-    let (mesh, unit) = shapes::grid_with_diagonals(cells[0], cells[1], rising);
-    let points = unit.as_slice().iter();
-    let points = points.map(|p| Point::new(width_m * p.x, height_m * p.y, 0.0));
-    let positions = Positions::new(points).expect("a sheet's coordinates are finite");
-    (mesh, positions)
 }
 
 #[cfg(test)]

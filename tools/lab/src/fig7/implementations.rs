@@ -34,9 +34,11 @@ pub(super) const GHOST_PAIRS: &str = "half-edge with ghost pairs";
 /// The implementations with their names, after the idle one.
 pub(super) const IMPLEMENTATIONS: [(&str, New); 4] = [
     (IDLE, |_| Box::new(())),
-    (SCAN, |mesh| Box::new(Triangles::new(mesh))),
+    (SCAN, |mesh| Box::new(Triangles::new(mesh, None))),
     ("face lists of vertices", |mesh| {
-        Box::new(Triangles::new(mesh).with_faces())
+        let faces = mesh.vertices().map(|v| mesh.faces_of(v));
+        let faces = faces.map(|of| of.map(u32::from).collect());
+        Box::new(Triangles::new(mesh, Some(faces.collect())))
     }),
     (GHOST_PAIRS, |mesh| Box::new((mesh.clone(), Edits::new()))),
 ];
@@ -70,43 +72,37 @@ struct Triangles {
 }
 
 impl Triangles {
-    fn new(mesh: &Mesh) -> Triangles {
+    fn new(mesh: &Mesh, faces: Option<Vec<Vec<u32>>>) -> Triangles {
         Triangles {
             triangles: mesh.indices().as_chunks().0.to_vec(),
             vertices: mesh.vertex_count() as u32,
-            faces: None,
+            faces,
         }
-    }
-
-    fn with_faces(mut self) -> Triangles {
-        let mut faces = vec![Vec::new(); self.vertices as usize];
-        for (triangle, f) in self.triangles.iter().zip(0..) {
-            for &v in triangle {
-                faces[v as usize].push(f);
-            }
-        }
-        self.faces = Some(faces);
-        self
     }
 }
 
 impl Implementation for Triangles {
     fn split(&mut self, split: &Split, places: &[Point]) {
         let (triangles, vertex) = (&mut self.triangles, u32::from(split.vertex));
-        let divided = match &self.faces {
-            Some(faces) => {
-                let faces = faces[vertex as usize].iter().copied();
-                divided(triangles, faces, split, places)
-            }
+        // Corners are summed in ascending order, so that all implementations round alike.
+        let is_behind = |f: &u32| {
+            let mut triangle = triangles[*f as usize];
+            triangle.sort_unstable();
+            let [a, b, c] = triangle.map(|v| split.plane.offset(places[v as usize]));
+            a + b + c < 0.0
+        };
+        let faces: &mut dyn Iterator<Item = u32> = match &self.faces {
+            Some(faces) => &mut faces[vertex as usize].iter().copied(),
             None => {
                 let faces = triangles.iter().zip(0..);
                 let faces = faces.filter(|(triangle, _)| triangle.contains(&vertex));
-                divided(triangles, faces.map(|(_, f)| f), split, places)
+                &mut faces.map(|(_, f)| f)
             }
         };
-        let Some([behind, front]) = divided else {
+        let (behind, front): (Vec<u32>, Vec<u32>) = faces.partition(is_behind);
+        if behind.is_empty() || front.is_empty() {
             return;
-        };
+        }
         for &f in &behind {
             let corners = triangles[f as usize].iter_mut();
             let corners = corners.filter(|corner| **corner == vertex);
@@ -122,22 +118,4 @@ impl Implementation for Triangles {
     fn indices(&self) -> &[u32] {
         self.triangles.as_flattened()
     }
-}
-
-/// The faces whose centres are behind the plane of a split, and the others; `None` if there are none of either.
-/// Corners are summed in ascending order, so that all implementations round alike.
-fn divided(
-    triangles: &[[u32; 3]],
-    faces: impl Iterator<Item = u32>,
-    split: &Split,
-    places: &[Point],
-) -> Option<[Vec<u32>; 2]> {
-    let is_behind = |f: &u32| {
-        let mut triangle = triangles[*f as usize];
-        triangle.sort_unstable();
-        let [a, b, c] = triangle.map(|v| split.plane.offset(places[v as usize]));
-        a + b + c < 0.0
-    };
-    let (behind, front): (Vec<u32>, Vec<u32>) = faces.partition(is_behind);
-    (!behind.is_empty() && !front.is_empty()).then_some([behind, front])
 }

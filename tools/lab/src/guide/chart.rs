@@ -51,21 +51,23 @@ const PANELS: [(Topic, &str, Quantity); 6] = [
 struct Point<'a> {
     /// Its first run.
     row: &'a Row,
-    method: &'static Method,
     /// CPU seconds per simulated second, as the median of the runs.
     cost: Option<f64>,
     /// The 10 %, 50 % and 90 % points of the error in per cent or of the quantity.
     y: Option<[f64; 3]>,
 }
 
-/// A panel's points on the finest mesh, and on one of half as many cells.
+/// A method at all steps, at its default first.
+type Curve<'a> = (&'static Method, Vec<Point<'a>>);
+
+/// A panel's curves on the finest mesh, and on one of half as many cells.
 struct Section<'a> {
     topic: Topic,
     title: &'static str,
     /// The label of the vertical axis.
     label: &'static str,
-    fine: Vec<Point<'a>>,
-    coarse: Vec<Point<'a>>,
+    fine: Vec<Curve<'a>>,
+    coarse: Vec<Curve<'a>>,
     /// What other diagonals of the mesh leave.
     band: Option<Range<f64>>,
 }
@@ -117,28 +119,15 @@ fn sections(rows: &[Row]) -> Vec<Section<'_>> {
             let is_it = |row: &&Row| (row.topic, row.role, row.cells) == (topic, role, cells);
             rows.iter().filter(is_it).collect()
         };
-        let points = |cells: u32| -> Vec<Point<'_>> {
-            let rows = of(Role::Method, cells);
-            let ensembles = rows.chunk_by(|a, b| a.ensemble() == b.ensemble());
-            let points = ensembles.filter_map(|of| {
-                Some(Point {
-                    row: of[0],
-                    method: Method::named(&of[0].method)?,
-                    cost: median(of.iter().filter_map(|row| row.cpu_s_per_s).collect()),
-                    y: spread_of(of, value),
-                })
-            });
-            points.collect()
-        };
-        let fine = points(cells);
-        let error_mesh = fine.first().and_then(|point| point.row.error_mesh);
+        let [fine, coarse] = [cells, cells / 2].map(|cells| of(Role::Method, cells));
+        let error_mesh = fine.first().and_then(|row| row.error_mesh);
         let others = spread_of(&of(Role::Mesh, cells), value);
         Section {
             topic,
             title,
             label,
-            fine,
-            coarse: points(cells / 2),
+            fine: curves(&fine, value),
+            coarse: curves(&coarse, value),
             band: match others {
                 Some([low, _, high]) => Some(low..high),
                 None => error_mesh.map(|error| 0.0..100.0 * error),
@@ -148,35 +137,39 @@ fn sections(rows: &[Row]) -> Vec<Section<'_>> {
     sections.into()
 }
 
+fn curves<'a>(rows: &[&'a Row], value: fn(&Row) -> Option<f64>) -> Vec<Curve<'a>> {
+    let point = |of: &[&'a Row]| Point {
+        row: of[0],
+        cost: median(of.iter().filter_map(|row| row.cpu_s_per_s).collect()),
+        y: spread_of(of, value),
+    };
+    let methods = rows.chunk_by(|a, b| a.method == b.method);
+    let curves = methods.filter_map(|of| {
+        let steps = of.chunk_by(|a, b| a.step_multiple == b.step_multiple);
+        Some((Method::named(&of[0].method)?, steps.map(point).collect()))
+    });
+    curves.collect()
+}
+
 fn spread_of(rows: &[&Row], value: fn(&Row) -> Option<f64>) -> Option<[f64; 3]> {
     let values: Vec<f64> = rows.iter().filter_map(|row| value(row)).collect();
     (!values.is_empty()).then(|| spread(&values))
 }
 
 impl Point<'_> {
-    fn is_default(&self) -> bool {
-        self.row.step_multiple.is_none()
-    }
-
     fn at(&self) -> Option<[f64; 2]> {
         Some([self.cost?, self.y?[1]])
     }
 
-    /// The mark; hollow for an error below ten times the distance of the references.
-    fn mark(&self) -> Mark {
-        let size = if self.is_default() { 6.5 } else { 3.0 };
-        let mark = self.method.family.mark().sized(size);
-        match self.row.error.zip(self.row.error_floor) {
-            Some((error, floor)) if error < FLOORS * floor => mark.hollow(),
-            _ => mark,
-        }
+    fn has_failed(&self) -> bool {
+        self.row.status != Status::Ok
     }
 
     /// What to type for this method and step.
     fn command(&self) -> String {
         let mut command = format!("tearmesh tear in.obj --scene {}", self.row.topic.name());
-        if self.method.name != DEFAULT {
-            command += &format!(" --solver {}", self.method.name);
+        if self.row.method != DEFAULT {
+            command += &format!(" --solver {}", self.row.method);
         }
         if let (Some(_), Some(dt)) = (self.row.step_multiple, self.row.dt_s) {
             command += &format!(" --dt {}", short(dt, 3));
@@ -190,6 +183,11 @@ impl Section<'_> {
         self.topic != Topic::Aftermath
     }
 
+    /// All points on the finest mesh.
+    fn points(&self) -> impl Iterator<Item = &Point<'_>> {
+        self.fine.iter().flat_map(|(_, points)| points)
+    }
+
     fn panel(&self) -> Panel {
         let axis = [Axis::linear, Axis::log][usize::from(self.is_error())];
         let mut panel = Panel {
@@ -200,49 +198,51 @@ impl Section<'_> {
             words: self.words(),
             ..Panel::default()
         };
-        if !self.fine.iter().any(|point| point.at().is_some()) {
+        if !self.points().any(|point| point.at().is_some()) {
             return panel;
         }
         let layers = &mut panel.layers;
         layers.extend(self.band.clone().map(Layer::Band));
         layers.push(Layer::Rule(1.0, "real time"));
-        for (points, width) in [(&self.coarse, 0.7), (&self.fine, 1.6)] {
-            for of in points.chunk_by(|a, b| a.method == b.method) {
-                let mut points: Vec<[f64; 2]> = of.iter().filter_map(Point::at).collect();
-                points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-                layers.push(Layer::Line(points, of[0].mark().colour, width));
+        for (curves, width) in [(&self.coarse, 0.7), (&self.fine, 1.6)] {
+            for (method, points) in curves {
+                let mut line: Vec<[f64; 2]> = points.iter().filter_map(Point::at).collect();
+                line.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                layers.push(Layer::Line(line, method.family.mark().colour, width));
             }
         }
-        let known = self.fine.iter();
-        let known = known.filter_map(|point| Some((point, point.cost?, point.y?)));
-        for (point, cost, y) in known {
-            let (mark, error) = (point.mark(), short(y[1], 3));
-            let hover = format!("{}: {} {error}", point.command(), self.label);
-            layers.extend(Layer::interval(cost, y, mark, hover));
-            if point.is_default() {
-                let name = point.method.name.to_owned();
-                layers.push(Layer::Label([cost, y[1]], name, mark.colour));
+        for (method, points) in &self.fine {
+            for point in points {
+                let (Some(cost), Some(y), row) = (point.cost, point.y, point.row) else {
+                    continue;
+                };
+                let is_default = row.step_multiple.is_none();
+                let size = if is_default { 6.5 } else { 3.0 };
+                let mut mark = method.family.mark().sized(size);
+                // Hollow below ten times the distance of the references.
+                let both = row.error.zip(row.error_floor);
+                mark.is_hollow = both.is_some_and(|(error, floor)| error < FLOORS * floor);
+                let hover = format!("{}: {} {}", point.command(), self.label, short(y[1], 3));
+                layers.extend(Layer::interval(cost, y, mark, hover));
+                if is_default {
+                    let name = method.name.to_owned();
+                    layers.push(Layer::Label([cost, y[1]], name, mark.colour));
+                }
             }
         }
         panel.above = self.failures();
         panel
     }
 
-    /// The points of each method.
-    fn methods(&self) -> impl Iterator<Item = &[Point<'_>]> {
-        self.fine.chunk_by(|a, b| a.method == b.method)
-    }
-
     /// The runs that failed, at the cost that their step would have.
     fn failures(&self) -> Option<Strip> {
-        let marks = self.methods().flat_map(|of| {
-            let default = of.iter().find(|point| point.is_default());
-            let failed = of.iter().filter(|point| point.row.status != Status::Ok);
-            failed.filter_map(move |point| {
-                let cost = default?.cost? / point.row.step_multiple?;
+        let marks = self.fine.iter().flat_map(|(method, points)| {
+            let failed = points.iter().filter(|point| point.has_failed());
+            failed.filter_map(|point| {
+                let cost = points[0].cost? / point.row.step_multiple?;
                 let (status, why) = (point.row.status.name(), &point.row.why);
                 let hover = format!("{}: {status} {why}", point.command());
-                Some((cost, point.method.family.mark(), hover))
+                Some((cost, method.family.mark(), hover))
             })
         });
         let marks: Vec<(f64, Mark, String)> = marks.collect();
@@ -256,9 +256,9 @@ impl Section<'_> {
         if !self.is_error() {
             return "medians and 10 to 90 % over seeds; one run says little".to_owned();
         }
-        let Some(Point { row, .. }) = self.fine.iter().find(|point| point.y.is_some()) else {
-            return "no reference: the two references have no value, or noise grows too much"
-                .to_owned();
+        let Some(Point { row, .. }) = self.points().find(|point| point.y.is_some()) else {
+            let why = "the two references have no value, or noise grows too much";
+            return format!("no reference: {why}");
         };
         let percent = |error: Option<f64>| error.map_or("unknown".to_owned(), percent);
         format!(
@@ -274,10 +274,9 @@ impl Section<'_> {
     /// What to type for a look and for forces, and when it fails; of a quantity its distributions.
     fn words(&self) -> Vec<String> {
         if !self.is_error() {
-            let known = self.fine.iter().filter_map(|point| Some((point, point.y?)));
-            let each = known.map(|(point, y)| {
-                let [low, middle, high] = y.map(|x| short(x, 2));
-                format!("{} {middle} ({low} to {high})", point.method.name)
+            let each = self.points().filter_map(|point| {
+                let [low, middle, high] = point.y?.map(|x| short(x, 2));
+                Some(format!("{} {middle} ({low} to {high})", point.row.method))
             });
             let each: Vec<String> = each.collect();
             return vec![format!(
@@ -286,19 +285,19 @@ impl Section<'_> {
                 each.join(", ")
             )];
         }
-        let failing = self.methods().flat_map(|of| {
-            let name = of[0].method.name;
-            let failed = of.iter().filter(|point| point.row.status != Status::Ok);
-            let failed_s = failed.filter_map(|point| point.row.dt_s).reduce(f64::min);
-            let failed =
-                failed_s.map(|dt_s| format!("{name} takes no step of {} ms", short(1e3 * dt_s, 2)));
-            let default = of.iter().find(|point| point.is_default());
-            let error = default.and_then(|point| point.row.error);
-            let off = error.filter(|error| *error > LOOK);
-            let off = off.map(|error| format!("{name} at its default is {} off", percent(error)));
-            [failed, off].into_iter().flatten()
-        });
-        let mut failing: Vec<String> = failing.collect();
+        let mut failing = Vec::new();
+        for (Method { name, .. }, points) in &self.fine {
+            let failed = points.iter().filter(|point| point.has_failed());
+            if let Some(dt_s) = failed.filter_map(|point| point.row.dt_s).reduce(f64::min) {
+                failing.push(format!(
+                    "{name} takes no step of {} ms",
+                    short(1e3 * dt_s, 2)
+                ));
+            }
+            if let Some(error) = points[0].row.error.filter(|error| *error > LOOK) {
+                failing.push(format!("{name} at its default is {} off", percent(error)));
+            }
+        }
         if failing.is_empty() {
             failing.push("nothing failed".to_owned());
         }
@@ -315,7 +314,7 @@ impl Section<'_> {
 
     /// The command with the least cost among those that have no larger error.
     fn cheapest(&self, error_max: f64) -> String {
-        let meets = self.fine.iter().filter_map(|point| {
+        let meets = self.points().filter_map(|point| {
             let error = point.row.error.filter(|error| *error <= error_max)?;
             Some((point.cost?, error, point.command()))
         });
@@ -332,9 +331,9 @@ impl Section<'_> {
 /// In how many scenes the default method is within 5 %, and the other methods.
 fn title(sections: &[Section<'_>]) -> String {
     let errors = |name: &'static str| {
-        let points = sections.iter().flat_map(|section| &section.fine);
-        let of = points.filter(move |point| point.is_default() && point.method.name == name);
-        of.filter_map(|point| point.row.error)
+        let curves = sections.iter().flat_map(|section| &section.fine);
+        let of = curves.filter(move |(method, _)| method.name == name);
+        of.filter_map(|(_, points)| points[0].row.error)
     };
     let within = |name| errors(name).filter(|error| *error <= FORCES).count();
     let others = DEFAULTS[1..].iter();

@@ -15,7 +15,8 @@ use crate::experiment::{Bounds, Status};
 use crate::method;
 use crate::pareto::{fastest_m_per_s, status_of};
 use crate::reference::Reference;
-use crate::tear::{STRIP_M, grid};
+use crate::sheet::grid;
+use crate::tear::STRIP_M;
 
 /// The topic of a panel: a scene, and what is asked about it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

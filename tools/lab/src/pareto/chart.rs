@@ -5,7 +5,7 @@ use super::front::{Ranked, ranked};
 use super::{AMPLIFICATION_MAX, FLOORS, Observable, Pareto, Row, SCENES};
 use crate::experiment::{Chart, Provenance, Status};
 use crate::method::{DEFAULT, Family};
-use crate::plot::{Axis, Figure, INK, Layer, Mark, Panel, Shape, Strip, percent, short};
+use crate::plot::{Axis, Colour, Figure, INK, Layer, Mark, Panel, Shape, Strip, percent, short};
 
 /// The error at which the title counts the cheapest methods.
 const TITLE_ERROR: f64 = 0.01;
@@ -16,9 +16,6 @@ const FINE: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 /// The tolerances for all other observables, as relative errors.
 const COARSE: [f64; 4] = [0.2, 0.1, 0.05, 0.02];
 
-/// Errors below this multiple of the floor are drawn there.
-const LEAST: f64 = 0.01;
-
 /// How to read the figure.
 const READING: &str = "A line joins the runs of a method that none of its other settings beats in both; dots are its \
      other runs. Grey line: the front, where no run is a tenth better in one and no worse in the other. Ring: default \
@@ -28,22 +25,18 @@ const READING: &str = "A line joins the runs of a method that none of its other 
 impl Chart for Pareto {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
         let by_time = rows.iter().any(|row| row.cpu_median_s.is_some());
-        let unit = match by_time {
-            true => "CPU time, s",
-            false => "edge visits",
-        };
+        let unit = ["edge visits", "CPU time, s"][usize::from(by_time)];
         let groups = groups(rows, by_time);
         let is_there = |family: &Family| rows.iter().any(|row| row.family == Some(*family));
         let families = Family::all().filter(is_there);
+        let entry = |family: Family| (family.mark(), family.name().to_owned());
         Figure {
             title: title(&groups, unit),
             about: format!(
                 "Relative error against {unit}, one panel per scene and observable. Down and to the left is \
                  better."
             ),
-            legend: families
-                .map(|family| (family.mark(), family.name().to_owned()))
-                .collect(),
+            legend: families.map(entry).collect(),
             columns: 3,
             panel_size: [390.0, 330.0],
             panels: groups.iter().map(|group| group.panel(unit)).collect(),
@@ -125,14 +118,7 @@ impl Group<'_> {
             y: Axis::log("relative error"),
             ..Panel::default()
         };
-        let shown = self.runs.iter().filter_map(|one| {
-            let cost = one.cost.filter(|cost| *cost > 0.0)?;
-            // An error of zero is drawn at the floor.
-            let error = one.row.error_total?.max(floor.unwrap_or(0.0) * LEAST);
-            Some((*one, [cost, error]))
-        });
-        let shown: Vec<Drawn<'_>> = shown.collect();
-        if shown.is_empty() {
+        if self.runs.is_empty() {
             panel.about = match (floor, first.noise_amplification) {
                 (Some(_), _) => "no run reached its end".to_owned(),
                 (None, Some(grown)) if grown > AMPLIFICATION_MAX => format!(
@@ -145,23 +131,22 @@ impl Group<'_> {
         }
         let layers = &mut panel.layers;
         layers.extend(floor.map(|floor| Layer::Band(0.0..FLOORS * floor)));
-        layers.push(front_line(&shown));
+        // The front over all methods.
+        let front = self.runs.iter().filter(|run| run.is_on_front);
+        layers.push(line(front, [0xcc; 3], 3.0));
         for family in Family::all() {
-            let own = shown
-                .iter()
-                .filter(|(one, _)| one.row.family == Some(family));
-            draw_family(layers, family, &own.copied().collect::<Vec<_>>());
+            let own = self.runs.iter();
+            let own = own.filter(|run| run.row.family == Some(family));
+            draw_family(layers, family.mark(), &own.collect::<Vec<_>>());
         }
-        let defaults = shown
-            .iter()
-            .filter(|(one, _)| one.row.step_fraction.is_none());
-        for &(Ranked { row, .. }, at) in defaults {
-            let own = row.family.map_or(INK, |family| family.mark().colour);
-            let colour = if row.is_default() { INK } else { own };
-            let ring = Mark::new(Shape::RING, colour).sized(7.5);
-            layers.push(Layer::Mark(at, ring, hover(row)));
-            if row.is_default() {
-                layers.push(Layer::Label(at, "default".to_owned(), INK));
+        let runs = self.runs.iter();
+        for run in runs.filter(|run| run.row.step_fraction.is_none()) {
+            let own = run.row.family.map_or(INK, |family| family.mark().colour);
+            let is_default = run.row.is_default();
+            let colour = if is_default { INK } else { own };
+            layers.push(mark(run, Mark::new(Shape::RING, colour).sized(7.5)));
+            if is_default {
+                layers.push(Layer::Label(run.at, "default".to_owned(), INK));
             }
         }
         panel.above = self.failures();
@@ -173,9 +158,8 @@ impl Group<'_> {
         let failed = self.case.iter().filter(|row| row.family.is_some());
         let failed: Vec<&Row> = failed.filter(|row| row.status != Status::Ok).collect();
         let marks = failed.iter().filter_map(|row| {
-            let cost = row.cost(self.by_time).filter(|cost| *cost > 0.0)?;
             let hover = format!("{}: {} {}", row.run, row.status.name(), row.why);
-            Some((cost, row.family?.mark(), hover))
+            Some((row.cost(self.by_time)?, row.family?.mark(), hover))
         });
         (!failed.is_empty()).then(|| Strip {
             label: format!("{} failed", failed.len()),
@@ -187,12 +171,11 @@ impl Group<'_> {
     /// times the floor.
     fn cheapest(&self, tolerance: f64) -> Option<&Ranked<'_>> {
         self.floor.filter(|floor| tolerance >= FLOORS * floor)?;
-        let budget = self
+        let meets = self
             .runs
             .iter()
-            .filter(|one| one.row.step_fraction.is_some());
-        let meets = budget.filter(|one| one.error_converged <= tolerance && one.cost.is_some());
-        meets.min_by(|a, b| a.cost.unwrap_or(0.0).total_cmp(&b.cost.unwrap_or(0.0)))
+            .filter(|run| run.row.step_fraction.is_some() && run.error_converged <= tolerance);
+        meets.min_by(|a, b| a.at[0].total_cmp(&b.at[0]))
     }
 
     /// The cheapest run for each tolerance.
@@ -208,9 +191,9 @@ impl Group<'_> {
         let answer = |tolerance: f64| match self.cheapest(tolerance) {
             None if tolerance < FLOORS * floor => "below the error floor".to_owned(),
             None => "no run".to_owned(),
-            Some(Ranked { row, cost, .. }) => {
+            Some(Ranked { row, at, .. }) => {
                 let meets = default.filter(|one| one.row.error_total <= Some(tolerance));
-                match meets.and_then(|one| Some(one.cost? / (*cost)?)) {
+                match meets.map(|one| one.at[0] / at[0]) {
                     Some(ratio) => format!("{} (the default costs ×{ratio:.1})", row.run),
                     None => format!("{} ({DEFAULT} misses it)", row.run),
                 }
@@ -222,59 +205,43 @@ impl Group<'_> {
     }
 }
 
-/// A run that is drawn, and where.
-type Drawn<'a> = (Ranked<'a>, [f64; 2]);
-
-fn hover(row: &Row) -> String {
-    let error = short(row.error_total.unwrap_or(0.0), 3);
-    format!("{}: error {error}", row.run)
-}
-
 fn about(row: &Row) -> String {
     let scene = SCENES.iter().find(|scene| scene.name == row.scene);
     let grown = row.noise_amplification;
+    let grown = grown.map_or(String::new(), |grown| {
+        format!(", noise ×{}", short(grown, 2))
+    });
     format!(
-        "{}; {} N/m, mass ratio {} ({} {}{})",
+        "{}; {} N/m, mass ratio {} ({} {}{grown})",
         scene.map_or("", |scene| scene.about),
         short(row.stiffness_n_per_m, 3),
         short(row.mass_ratio, 3),
         row.mesh.name(),
         row.cells,
-        grown.map_or(String::new(), |grown| format!(
-            ", noise ×{}",
-            short(grown, 2)
-        ))
     )
 }
 
-/// The front over all methods.
-fn front_line(shown: &[Drawn<'_>]) -> Layer {
-    let on = shown.iter().filter(|(one, _)| one.is_on_front);
-    let points = ascending(on.map(|(_, at)| *at));
-    Layer::Line(points, [0xcc; 3], 3.0)
-}
-
 /// The runs of a family: those that none of its others beats as marks on a line, the others as dots.
-fn draw_family(layers: &mut Vec<Layer>, family: Family, own: &[Drawn<'_>]) {
+fn draw_family(layers: &mut Vec<Layer>, of_family: Mark, own: &[&Ranked<'_>]) {
     let beats = |a: [f64; 2], b: [f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
-    let is_best = |at: [f64; 2]| !own.iter().any(|(_, other)| beats(*other, at));
-    let best = own.iter().filter(|(_, at)| is_best(*at));
-    let mark = family.mark();
-    let line = ascending(best.map(|(_, at)| *at));
-    layers.push(Layer::Line(line, mark.colour, 1.0));
-    layers.extend(own.iter().map(|&(Ranked { row, .. }, at)| {
-        let mark = match is_best(at) {
-            true if row.is_at_floor() => mark.hollow(),
-            true => mark,
-            false => mark.sized(1.6),
-        };
-        Layer::Mark(at, mark, hover(row))
+    let is_best = |run: &Ranked<'_>| !own.iter().any(|other| beats(other.at, run.at));
+    let best = own.iter().copied().filter(|run| is_best(run));
+    layers.push(line(best, of_family.colour, 1.0));
+    layers.extend(own.iter().map(|run| match is_best(run) {
+        true if run.row.is_at_floor() => mark(run, of_family.hollow()),
+        true => mark(run, of_family),
+        false => mark(run, of_family.sized(1.6)),
     }));
 }
 
-/// Points from the cheapest on.
-fn ascending(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
-    let mut points: Vec<[f64; 2]> = points.collect();
+fn mark(run: &Ranked<'_>, mark: Mark) -> Layer {
+    let error = short(run.row.error_total.unwrap_or(0.0), 3);
+    Layer::Mark(run.at, mark, format!("{}: error {error}", run.row.run))
+}
+
+/// A line through runs, from the cheapest on.
+fn line<'a>(runs: impl Iterator<Item = &'a Ranked<'a>>, colour: Colour, width: f64) -> Layer {
+    let mut points: Vec<[f64; 2]> = runs.map(|run| run.at).collect();
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    points
+    Layer::Line(points, colour, width)
 }

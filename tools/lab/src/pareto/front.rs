@@ -5,40 +5,43 @@ use super::{FLOORS, Row};
 /// The fraction by which a point has to be better in order to dominate.
 const MARGIN: f64 = 0.1;
 
-/// A row with a known error, among all rows of a case by an observable.
+/// Errors below this multiple of the floor are drawn there.
+const LEAST: f64 = 0.01;
+
+/// A row with a known error and cost, among all rows of a case by an observable.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranked<'a> {
     pub(super) row: &'a Row,
+    /// Where it is drawn: the CPU time in seconds or the visits of edges, and the error.
+    pub(super) at: [f64; 2],
     /// The largest error of this and all shorter steps of the method, which is compared with tolerances. So a
     /// lucky zero crossing of the error does not count.
     pub(super) error_converged: f64,
-    /// The CPU time in seconds or the visits of edges.
-    pub(super) cost: Option<f64>,
-    /// The cost and the error. `None` without a cost, and if the error exceeds that of a longer step by more than
-    /// a tenth and is above ten times the floor.
+    /// The cost, and the error where it counts. `None` if the error exceeds that of a longer step by more than a
+    /// tenth and is above ten times the floor.
     place: Option<[f64; 2]>,
     /// Whether no other run dominates it.
     pub(super) is_on_front: bool,
 }
 
-/// Ranks the rows that have an error, given in descending order of the steps of each method. Compares all pairs.
+/// Ranks the rows that have an error and a cost, given in descending order of the steps of each method. Compares all
+/// pairs.
 pub(super) fn ranked<'a>(rows: &[&'a Row], by_time: bool) -> Vec<Ranked<'a>> {
-    let known = rows.iter().filter(|row| row.error_total.is_some());
-    let known: Vec<&Row> = known.copied().collect();
+    let known = rows.iter();
+    let known = known.filter_map(|row| Some((*row, row.error_total?, row.cost(by_time)?)));
+    let known: Vec<(&Row, f64, f64)> = known.collect();
     let mut ranked = Vec::new();
-    for series in known.chunk_by(|a, b| a.method == b.method) {
-        let errors: Vec<f64> = series.iter().filter_map(|row| row.error_total).collect();
-        for (i, &row) in series.iter().enumerate() {
-            let exceeds = |longer: &f64| errors[i] > (1.0 + MARGIN) * longer;
-            let is_rising = errors[..i].iter().any(exceeds) && !row.is_at_floor();
-            // Below the floor no error is better than another.
-            let error = errors[i].max(FLOORS * row.error_floor.unwrap_or(0.0));
-            let cost = row.cost(by_time);
+    for series in known.chunk_by(|a, b| a.0.method == b.0.method) {
+        for (i, &(row, error, cost)) in series.iter().enumerate() {
+            let exceeds = |longer: &(&Row, f64, f64)| error > (1.0 + MARGIN) * longer.1;
+            let is_rising = series[..i].iter().any(exceeds) && !row.is_at_floor();
+            let floor = row.error_floor.unwrap_or(0.0);
             ranked.push(Ranked {
                 row,
-                error_converged: errors[i..].iter().copied().fold(0.0, f64::max),
-                cost,
-                place: cost.filter(|_| !is_rising).map(|cost| [cost, error]),
+                at: [cost, error.max(LEAST * floor)],
+                error_converged: series[i..].iter().map(|of| of.1).fold(0.0, f64::max),
+                // Below the floor no error is better than another.
+                place: (!is_rising).then_some([cost, error.max(FLOORS * floor)]),
                 is_on_front: false,
             });
         }

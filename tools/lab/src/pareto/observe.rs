@@ -17,17 +17,12 @@ pub(super) type Records = BTreeMap<Observable, Vec<Vec<f64>>>;
 
 /// Richardson's extrapolation for order two, from a run and one with half its step.
 pub(super) fn extrapolated(coarse: &Records, fine: &Records) -> Records {
-    let number = |(coarse, fine): (&f64, &f64)| coarse + 4.0 / 3.0 * (fine - coarse);
-    let checkpoint = |(coarse, fine): (&Vec<f64>, &Vec<f64>)| {
-        let pairs = coarse.iter().zip(fine);
-        pairs.map(number).collect()
-    };
-    let both = coarse.iter().zip(fine.values());
-    let each = both.map(|((observable, coarse), fine)| {
-        let pairs = coarse.iter().zip(fine);
-        (*observable, pairs.map(checkpoint).collect())
-    });
-    each.collect()
+    let mut limit = coarse.clone();
+    for (coarse, fine) in limit.values_mut().zip(fine.values()) {
+        let pairs = coarse.iter_mut().flatten().zip(fine.iter().flatten());
+        pairs.for_each(|(coarse, fine)| *coarse += 4.0 / 3.0 * (fine - *coarse));
+    }
+    limit
 }
 
 /// The error of a run by an observable, relative to a reference; `None` if one of them has no value.
@@ -63,11 +58,8 @@ pub(super) fn apart_m(case: &Case, a: &Records, b: &Records) -> f64 {
         let late = |time: Observable| (a[&time][0][0] - b[&time][0][0]).abs() * speed;
         return worse(late(Observable::TearTime), late(Observable::ToughnessTime));
     }
-    let [a, b] = [a, b].map(|run| &run[&Observable::Displacement]);
-    let squares = a
-        .iter()
-        .zip(b)
-        .map(|(a, b)| mass_weighted_square(case, a, b));
+    let [a, b] = [a, b].map(|run| run[&Observable::Displacement].iter());
+    let squares = a.zip(b).map(|(a, b)| mass_weighted_square(case, a, b));
     let whole = case.sheet.masses.iter().sum::<f64>();
     (squares.fold(0.0, worse) / whole).sqrt()
 }
@@ -229,12 +221,12 @@ impl<'a> Probe<'a> {
     /// The records of the run.
     pub(super) fn records(mut self, system: &System) -> Records {
         let mean_n = |end_s: f64| self.reaction.mean(end_s - MEAN_S, end_s);
+        let largest = |n: f64| vec![(Observable::ReactionLargest, n)];
         let numbers = match self.case.scene.until {
-            Until::Rest(_) => vec![(Observable::ReactionLargest, self.reaction_n(system))],
+            Until::Rest(_) => largest(self.reaction_n(system)),
             Until::Time(seconds) => {
                 let ends_s = (1..=(seconds / MEAN_S + 1e-9) as u64).map(|i| i as f64 * MEAN_S);
-                let largest = ends_s.map(mean_n).fold(f64::NEG_INFINITY, f64::max);
-                vec![(Observable::ReactionLargest, largest)]
+                largest(ends_s.map(mean_n).fold(f64::NEG_INFINITY, f64::max))
             }
             Until::Tears(_) => {
                 let [by_stretch_s, by_toughness_s] = self.thresholds.map(|first| first.torn_s);
@@ -268,11 +260,8 @@ impl<'a> Probe<'a> {
     fn check(&mut self, system: &System) {
         let now_s = system.elapsed_s();
         let mut most = 0.0_f64;
-        for first in self
-            .thresholds
-            .iter_mut()
-            .filter(|first| first.torn_s.is_nan())
-        {
+        let thresholds = self.thresholds.iter_mut();
+        for first in thresholds.filter(|first| first.torn_s.is_nan()) {
             let stretches = system.stretches();
             let loads = stretches.iter().map(|id| first.threshold.load(system, id));
             let worst = loads.fold(0.0, |worst, load| load.unwrap_or(0.0).max(worst));
@@ -308,9 +297,7 @@ fn stored_j(system: &System, family: Option<Family>) -> f64 {
 }
 
 fn height_j(system: &System) -> f64 {
-    let Some(gravity) = system.loads().gravity_m_per_s2 else {
-        return 0.0;
-    };
+    let gravity = system.loads().gravity_m_per_s2.unwrap_or_default();
     let particles = system.positions().iter().zip(system.masses());
     let each = particles.map(|(x, m)| m * gravity.dot(&x.coords));
     -each.sum::<f64>()

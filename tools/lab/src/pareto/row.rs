@@ -61,13 +61,13 @@ pub struct Row {
 }
 
 impl Row {
-    /// Returns the cost of the run: its CPU time in seconds or its visits of edges.
+    /// Returns the cost of the run: its CPU time in seconds or its visits of edges; `None` if it is not known, or
+    /// too little to be measured.
     #[must_use]
     pub fn cost(&self, by_time: bool) -> Option<f64> {
-        match by_time {
-            true => self.cpu_median_s,
-            false => self.visits.map(|visits| visits as f64),
-        }
+        let visits = self.visits.map(|visits| visits as f64);
+        let cost = if by_time { self.cpu_median_s } else { visits };
+        cost.filter(|cost| *cost > 0.0)
     }
 
     /// Returns whether the run is the default method at its default settings.

@@ -9,7 +9,7 @@ use tearmesh_cloth::{Loads, Path, System};
 
 use self::Observable::*;
 use crate::reference::Reference;
-use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet};
+use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet, system};
 
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug)]
@@ -341,17 +341,14 @@ impl Case {
     /// The system at its start. Panics if the numbers of the scene are not usable; those of [`SCENES`] are.
     pub(super) fn system(&self) -> System {
         let Case { scene, sheet, .. } = self;
-        let system = System::new(sheet.points.iter().copied(), sheet.masses.clone());
-        let mut system = system.expect("a sheet has usable points and masses");
         let taut = match scene.start {
             Start::Taut(part) => 1.0 + part,
             _ => 1.0,
         };
-        for &ends in &self.edges {
-            let rest_m = sheet.length_m(ends) / taut;
-            let made = system.stretch(ends, rest_m, scene.stiffness_n_per_m);
-            made.expect("an edge of a sheet has a length");
-        }
+        let springs = self.edges.iter();
+        let springs = springs.map(|&ends| (ends, sheet.length_m(ends) / taut));
+        let (masses, stiffness) = (sheet.masses.clone(), scene.stiffness_n_per_m);
+        let mut system = system(&sheet.points, masses, springs, stiffness);
         system.state_mut().0.copy_from_slice(&self.start);
         let held = sheet.points.iter().enumerate();
         for (i, p) in held.filter(|(_, p)| self.is_held(p)) {

@@ -10,8 +10,6 @@ pub struct Axis {
     /// Whether equal ratios are equally long, and not equal differences. Then numbers that are not positive have
     /// no place.
     pub is_log: bool,
-    /// The numbers at the ends; `None` to fit what is drawn.
-    pub range: Option<Range<f64>>,
     /// The names that stand in place of numbers: the first in the middle between 0 and 1, and so on.
     pub names: Vec<String>,
 }
@@ -45,7 +43,6 @@ impl Axis {
     #[must_use]
     pub fn named(names: Vec<String>) -> Axis {
         Axis {
-            range: Some(0.0..names.len() as f64),
             names,
             ..Axis::default()
         }
@@ -53,10 +50,12 @@ impl Axis {
 
     /// Places the axis, given what is drawn, with its ends at these pixels.
     pub(super) fn placed(&self, drawn: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Placed<'_> {
-        let numbers = self.range.clone().unwrap_or_else(|| self.fitted(drawn));
         Placed {
             axis: self,
-            numbers,
+            numbers: match self.names.len() {
+                0 => self.fitted(drawn),
+                count => 0.0..count as f64,
+            },
             pixels,
         }
     }
@@ -97,18 +96,19 @@ impl Placed<'_> {
 
     /// The numbers that are written along the axis: their places in pixels, and their text.
     pub(super) fn ticks(&self) -> Vec<(f64, String)> {
-        let names = self.axis.names.iter().zip(0..);
-        let names = names.map(|(name, i)| (self.at(f64::from(i) + 0.5), name.clone()));
-        let numbers = match self.axis.is_log {
-            _ if !self.axis.names.is_empty() => Vec::new(),
+        if !self.axis.names.is_empty() {
+            let names = self.axis.names.iter().zip(0..);
+            let names = names.map(|(name, i)| (self.at(f64::from(i) + 0.5), name.clone()));
+            return names.collect();
+        }
+        let mut numbers = match self.axis.is_log {
             true => logarithmically(&self.numbers),
             false => evenly(&self.numbers),
         };
-        let numbers = numbers.into_iter();
-        let numbers = numbers.filter(|number| self.numbers.contains(number));
+        numbers.retain(|number| self.numbers.contains(number));
         // Enough digits for round numbers, and too few for their rounding errors.
-        let numbers = numbers.map(|number| (self.at(number), short(number, 9)));
-        names.chain(numbers).collect()
+        let ticks = numbers.iter().map(|&x| (self.at(x), short(x, 9)));
+        ticks.collect()
     }
 }
 
@@ -180,12 +180,12 @@ mod tests {
     #[test]
     fn ticks_are_round_numbers_within_the_range() {
         let of = |axis: &Axis, range: Range<f64>| -> Vec<String> {
-            let axis = Axis {
-                range: Some(range),
-                ..axis.clone()
+            let placed = Placed {
+                axis,
+                numbers: range,
+                pixels: [0.0, 1.0],
             };
-            let ticks = axis.placed(std::iter::empty(), [0.0, 1.0]).ticks();
-            ticks.into_iter().map(|(_, text)| text).collect()
+            placed.ticks().into_iter().map(|(_, text)| text).collect()
         };
         let (linear, log) = (Axis::linear(""), Axis::log(""));
         assert_eq!(of(&linear, 0.0..0.9), ["0", "0.2", "0.4", "0.6", "0.8"]);

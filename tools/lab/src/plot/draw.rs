@@ -119,7 +119,7 @@ fn points(layer: &Layer) -> Vec<[f64; 2]> {
     match layer {
         Layer::Line(points, ..) => points.clone(),
         Layer::Mark(at, ..) | Layer::Label(at, ..) => vec![*at],
-        Layer::Cell { at, .. } => vec![*at, at.map(|corner| corner + 1.0)],
+        Layer::Cell(at, ..) => vec![*at, at.map(|corner| corner + 1.0)],
         Layer::Rule(..) | Layer::Band(_) => Vec::new(),
     }
 }
@@ -197,12 +197,7 @@ fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
             frame.taken.push([x - 4.0, y - 4.0, x + 4.0, y + 4.0]);
             canvas.mark(*mark, [x, y], hover);
         }
-        Layer::Cell {
-            at,
-            colour,
-            lines,
-            is_marked,
-        } => {
+        Layer::Cell(at, colour, lines, is_marked) => {
             let [a, b] = [frame.at(*at), frame.at(at.map(|corner| corner + 1.0))];
             let corners = [[a[0] + 1.0, b[1] + 1.0], [b[0] - 1.0, a[1] - 1.0]];
             canvas.rectangle(corners, *colour, if *is_marked { RED_BORDER } else { "" });
@@ -248,22 +243,16 @@ mod tests {
     use super::*;
     use crate::plot::{Axis, Shape};
 
-    fn ranged(axis: Axis, range: std::ops::Range<f64>) -> Axis {
-        let range = Some(range);
-        Axis { range, ..axis }
-    }
-
-    /// All places and sizes of a figure of two points are worked out by hand here: 100 × 100 pixels between
-    /// the axes would be exact, so points at the ends of a range stand at the ends of the axes.
+    /// Axes are fitted to the points: the outer ones stand near the ends, and the others in proportion between.
     #[test]
-    fn points_at_the_ends_of_a_range_stand_at_the_ends_of_the_axes() {
+    fn points_stand_between_the_ends_of_the_axes_in_proportion() {
         let mark = |at| Layer::Mark(at, Mark::new(Shape::DISC, INK), String::new());
         let figure = Figure {
             columns: 1,
             panel_size: [400.0, 300.0],
             panels: vec![Panel {
-                x: ranged(Axis::log("x"), 1.0..100.0),
-                y: ranged(Axis::linear("y"), 0.0..10.0),
+                x: Axis::log("x"),
+                y: Axis::linear("y"),
                 layers: vec![mark([1.0, 0.0]), mark([100.0, 10.0]), mark([10.0, 5.0])],
                 ..Panel::default()
             }],
@@ -300,8 +289,8 @@ mod tests {
             columns: 1,
             panel_size: [400.0, 300.0],
             panels: vec![Panel {
-                x: ranged(Axis::linear("x"), 0.0..2.0),
-                y: ranged(Axis::linear("y"), 0.0..2.0),
+                x: Axis::linear("x"),
+                y: Axis::linear("y"),
                 layers: vec![label("first <&>"), label("second"), label("third")],
                 ..Panel::default()
             }],

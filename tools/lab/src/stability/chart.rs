@@ -148,12 +148,9 @@ fn map(
                 continue;
             }
             let (outcome, lines) = cell(&of);
-            layers.push(Layer::Cell {
-                at: [i as f64, j as f64],
-                colour: colour(outcome),
-                lines,
-                is_marked: of.iter().any(|row| is_marked(row)),
-            });
+            let is_marked = of.iter().any(|row| is_marked(row));
+            let at = [i as f64, j as f64];
+            layers.push(Layer::Cell(at, colour(outcome), lines, is_marked));
         }
     }
     Panel {

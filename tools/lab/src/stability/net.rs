@@ -5,7 +5,7 @@ use tearmesh::Point;
 use tearmesh_cloth::System;
 
 use crate::pareto::middle;
-use crate::sheet::{MeshKind, Sheet};
+use crate::sheet::{MeshKind, Sheet, system};
 
 /// A kind of nets: its name in tables, and the function that builds it at rest, of springs of a stiffness in
 /// N/m.
@@ -37,8 +37,12 @@ fn links(taut: f64, stiffness: f64) -> System {
         .map(|i| Point::new(0.1 * i as f64, 0.0, 0.0))
         .collect();
     let springs = (0..LINKS).map(|i| ([i, i + 1], 0.1 / taut));
-    let is_held = |p: Point| p == points[0] || p == points[LINKS] && taut > 1.0;
-    net(&points, vec![0.01; LINKS + 1], springs, is_held, stiffness)
+    let mut net = system(&points, vec![0.01; LINKS + 1], springs, stiffness);
+    net.hold(0);
+    if taut > 1.0 {
+        net.hold(LINKS);
+    }
+    net
 }
 
 /// A sheet that is held by its upper edge, with the mass of its middle particle divided by a number.
@@ -47,29 +51,10 @@ fn sheet(divisor: f64, stiffness: f64) -> System {
     let mut masses = sheet.masses.clone();
     masses[middle(&sheet)] /= divisor;
     let springs = sheet.edges.iter().map(|&ends| (ends, sheet.length_m(ends)));
-    net(&sheet.points, masses, springs, |p| p.y == 1.0, stiffness)
-}
-
-/// The system of these points and masses, with springs given by their ends and their rest length in metres.
-fn net(
-    points: &[Point],
-    masses: Vec<f64>,
-    springs: impl Iterator<Item = ([usize; 2], f64)>,
-    is_held: impl Fn(Point) -> bool,
-    stiffness_n_per_m: f64,
-) -> System {
-    let system = System::new(points.iter().copied(), masses);
-    let mut system = system.expect("a net has usable points and masses");
-    for (ends, rest_m) in springs {
-        let made = system.stretch(ends, rest_m, stiffness_n_per_m);
-        made.expect("a spring of a net has a length");
-    }
-    for (i, &point) in points.iter().enumerate() {
-        if is_held(point) {
-            system.hold(i);
-        }
-    }
-    system
+    let mut net = system(&sheet.points, masses, springs, stiffness);
+    let held = (0..sheet.points.len()).filter(|&i| sheet.points[i].y == 1.0);
+    held.for_each(|i| net.hold(i));
+    net
 }
 
 /// Returns the largest frequency of a net with springs of 1 N/m in rad/s: the root of the largest eigenvalue of

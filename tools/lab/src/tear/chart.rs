@@ -65,9 +65,6 @@ fn forces(rows: &[Row], rule: Rule) -> Vec<[f64; 2]> {
 
 /// The slope of the logarithms of some points by least squares; `None` with fewer than two points.
 fn slope(points: &[[f64; 2]]) -> Option<f64> {
-    if points.len() < 2 {
-        return None;
-    }
     let logs = || points.iter().map(|point| point.map(f64::ln));
     let mean = |of: usize| logs().map(|log| log[of]).sum::<f64>() / points.len() as f64;
     let means = [mean(0), mean(1)];
@@ -75,32 +72,35 @@ fn slope(points: &[[f64; 2]]) -> Option<f64> {
         let products = logs().map(|log| (log[0] - means[0]) * (log[of] - means[of]));
         products.sum()
     };
-    Some(moment(1) / moment(0))
+    (points.len() > 1).then(|| moment(1) / moment(0))
 }
 
 /// Largest force against the length of edges.
 fn strips(rows: &[Row]) -> Panel {
-    let mut panel = Panel {
+    let mut layers = Vec::new();
+    for ((rule, name), colour) in RULES.into_iter().zip(COLOURS) {
+        let points = forces(rows, rule);
+        if let Some(slope) = slope(&points) {
+            let text = format!("{name}: {slope:+.2}");
+            layers.push(Layer::Label(points[0], text, colour));
+        }
+        let mark = Mark::new(Shape::DISC, colour);
+        layers.extend(
+            points
+                .iter()
+                .map(|&at| Layer::Mark(at, mark, String::new())),
+        );
+        layers.push(Layer::Line(points, colour, 2.0));
+    }
+    Panel {
         title: "Force to tear a strip".to_owned(),
         about: "slopes of the logarithms: 1 is proportional, 0 is independent of the mesh"
             .to_owned(),
         x: Axis::log("length of edges, mm"),
         y: Axis::log("largest force, N"),
+        layers,
         ..Panel::default()
-    };
-    for ((rule, name), colour) in RULES.into_iter().zip(COLOURS) {
-        let points = forces(rows, rule);
-        if let Some(slope) = slope(&points) {
-            let text = format!("{name}: {slope:+.2}");
-            panel.layers.push(Layer::Label(points[0], text, colour));
-        }
-        let mark = Mark::new(Shape::DISC, colour);
-        let marks = points.iter();
-        let marks = marks.map(|&at| Layer::Mark(at, mark, String::new()));
-        panel.layers.extend(marks);
-        panel.layers.push(Layer::Line(points, colour, 2.0));
     }
-    panel
 }
 
 /// What the strips show.
@@ -117,6 +117,9 @@ fn title(rows: &[Row]) -> String {
 /// The values of an ensemble, and whether every run has one.
 type Sample = (Vec<f64>, bool);
 
+/// A method, and its samples at its step, at half and at a quarter of it.
+type Samples = (&'static Method, [Sample; 3]);
+
 /// The two methods that agree, and the values of their finest ensembles.
 type Reference = ([&'static str; 2], Vec<f64>);
 
@@ -126,8 +129,8 @@ pub(super) struct Ensembles {
     name: String,
     /// The name of the quantity, with its unit.
     quantity: &'static str,
-    /// For each method the samples at its step, at half and at a quarter of it.
-    methods: Vec<(&'static Method, [Sample; 3])>,
+    methods: Vec<Samples>,
+    pub(super) reference: Option<Reference>,
 }
 
 /// The ensembles of a table, for each scene on a mesh by each quantity.
@@ -135,7 +138,6 @@ pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
     let runs: Vec<&Row> = rows.iter().filter(|row| row.rule.is_none()).collect();
     let groups = runs.chunk_by(|a, b| (a.scene, a.cells) == (b.scene, b.cells));
     let all = groups.flat_map(|of| {
-        let name = format!("{} of {} cells", of[0].scene.name(), of[0].cells);
         QUANTITIES.map(|(quantity, value)| {
             let methods = of.chunk_by(|a, b| a.method == b.method).filter_map(|of| {
                 let samples = STEP_DIVISORS.map(|divisor| {
@@ -146,10 +148,12 @@ pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
                 });
                 Some((Method::named(&of[0].method)?, samples))
             });
+            let methods: Vec<Samples> = methods.collect();
             Ensembles {
-                name: name.clone(),
+                name: format!("{} of {} cells", of[0].scene.name(), of[0].cells),
                 quantity,
-                methods: methods.collect(),
+                reference: reference(&methods),
+                methods,
             }
         })
     });
@@ -167,40 +171,39 @@ fn compared(first: &Sample, second: &Sample) -> Option<Comparison> {
     Some(comparison)
 }
 
+/// The reference: the two methods that converged and whose finest ensembles have the same median, the closest
+/// pair if there are several, and the values of those. Two methods that still change with their step agree by
+/// chance.
+fn reference(methods: &[Samples]) -> Option<Reference> {
+    let same = |first, second| -> Option<Comparison> {
+        compared(first, second).filter(|found| found.verdict == Verdict::Same)
+    };
+    let converged = methods.iter().filter(|(_, [_, a, b])| same(a, b).is_some());
+    let converged: Vec<&Samples> = converged.collect();
+    let pairs = converged.iter().enumerate().flat_map(|(i, one)| {
+        let others = converged[i + 1..].iter();
+        others.filter_map(move |other| {
+            let found = same(&one.1[2], &other.1[2])?;
+            Some((found.ratio.ln().abs(), [one, other]))
+        })
+    });
+    let (_, pair) = pairs.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let finest = pair.map(|(_, [.., (values, _)])| &values[..]);
+    Some((pair.map(|(method, _)| method.name), finest.concat()))
+}
+
 impl Ensembles {
-    /// The reference: the two methods that converged and whose finest ensembles have the same median, the closest
-    /// pair if there are several, and the values of those. Two methods that still change with their step agree by
-    /// chance.
-    pub(super) fn reference(&self) -> Option<Reference> {
-        let converged = self.methods.iter().filter(|(_, [_, half, quarter])| {
-            compared(half, quarter).is_some_and(|found| found.verdict == Verdict::Same)
-        });
-        let converged = converged.map(|(one, [.., finest])| (one.name, finest));
-        let converged: Vec<(&str, &Sample)> = converged.collect();
-        let pairs = converged.iter().enumerate().flat_map(|(i, one)| {
-            let others = converged[i + 1..].iter();
-            others.filter_map(move |other| {
-                let found = compared(one.1, other.1)?;
-                let is_same = found.verdict == Verdict::Same;
-                is_same.then(|| (found.ratio.ln().abs(), one, other))
-            })
-        });
-        let (_, one, other) = pairs.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(([one.0, other.0], [&one.1.0[..], &other.1.0].concat()))
+    fn about(&self) -> String {
+        match &self.reference {
+            Some((methods, _)) => format!("reference: the finest of {}", methods.join(" and ")),
+            None => "no reference: no two methods that converged agree".to_owned(),
+        }
     }
 
     fn panel(&self) -> Panel {
-        let reference = self.reference();
-        let mut panel = Panel {
-            title: format!("{}: {}", self.name, self.quantity),
-            about: about(reference.as_ref()),
-            y: Axis::linear(self.quantity),
-            ..Panel::default()
-        };
-        let range = reference.map(|(_, values)| spread(&values));
+        let range = self.reference.iter().map(|(_, values)| spread(values));
         let band = range.map(|[low, _, high]| Layer::Band(low..high));
-        panel.layers.extend(band);
-        let mut names = Vec::new();
+        let (mut layers, mut names): (Vec<Layer>, _) = (band.collect(), Vec::new());
         let [mut least, mut most] = [f64::INFINITY, 0.0];
         for (i, (method, samples)) in self.methods.iter().enumerate() {
             let found = compared(&samples[0], &samples[1]);
@@ -217,22 +220,25 @@ impl Ensembles {
                 (least, most) = (low.min(least), high.max(most));
                 let mark = Mark::new(Shape::DISC, method.family.mark().colour);
                 let x = i as f64 + 0.3 + 0.2 * j as f64;
-                panel
-                    .layers
-                    .extend(Layer::interval(x, y, mark, String::new()));
+                layers.extend(Layer::interval(x, y, mark, String::new()));
             }
         }
-        panel.x = Axis::named(names);
-        if least > 0.0 && most > 20.0 * least && most.is_finite() {
-            panel.y = Axis::log(self.quantity);
+        let is_log = least > 0.0 && most > 20.0 * least && most.is_finite();
+        Panel {
+            title: format!("{}: {}", self.name, self.quantity),
+            about: self.about(),
+            x: Axis::named(names),
+            y: Axis {
+                is_log,
+                ..Axis::linear(self.quantity)
+            },
+            layers,
+            ..Panel::default()
         }
-        panel
     }
 
     fn words(&self) -> String {
-        let reference = self.reference();
-        let about = about(reference.as_ref());
-        let mut text = format!("{}, {}; {about}\n", self.name, self.quantity);
+        let mut text = format!("{}, {}; {}\n", self.name, self.quantity, self.about());
         let verdict = |first: &Sample, second: &Sample| {
             compared(first, second).map_or("unknown", |found| found.verdict.name())
         };
@@ -243,19 +249,12 @@ impl Ensembles {
             let range = range.unwrap_or("unknown".to_owned());
             let of_half = verdict(&samples[0], &samples[1]);
             text += &format!("  {:<9} {range:<26} half the step: {of_half}", method.name);
-            if let Some((_, values)) = &reference {
+            if let Some((_, values)) = &self.reference {
                 let against = verdict(&(values.clone(), true), &samples[0]);
                 text += &format!("; against the reference: {against}");
             }
             text.push('\n');
         }
         text
-    }
-}
-
-fn about(reference: Option<&Reference>) -> String {
-    match reference {
-        Some((methods, _)) => format!("reference: the finest of {}", methods.join(" and ")),
-        None => "no reference: no two methods that converged agree".to_owned(),
     }
 }
