@@ -11,7 +11,7 @@ use tearmesh_lab::experiment::{
     Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table, workers,
 };
 use tearmesh_lab::fig7::Fig7;
-use tearmesh_lab::guide::{self, Guide};
+use tearmesh_lab::guide::Guide;
 use tearmesh_lab::pareto::{self, Pareto, SCENES};
 use tearmesh_lab::plot;
 use tearmesh_lab::sheet::MeshKind;
@@ -32,11 +32,7 @@ pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>
     let command = command_line(line);
     let (draw, done) = match &args.what {
         What::Guide(args) => {
-            let guide = Guide::new(guide::Options {
-                cells: args.size,
-                seeds: args.seeds,
-                diagonals: args.diagonals,
-            });
+            let guide = Guide::new(args.size, args.seeds, args.diagonals);
             (&args.draw, work(&guide, command, &args.draw, streams))
         }
         What::Pareto(args) => {
@@ -240,17 +236,17 @@ fn conducted<E: Experiment>(
             .then_some(&|| ThreadTime::now().as_duration()),
         stop: &|| guard.is_interrupted(),
     };
-    let conducted = conduct(experiment, threads, &bounds, |fraction| {
+    let (rows, done) = conduct(experiment, threads, &bounds, |fraction| {
         bar.set_position((BAR * fraction) as u64);
     });
     bar.finish_and_clear();
-    let missing = conducted.planned - conducted.done;
-    if conducted.done == 0 && missing > 0 {
+    let missing = runs - done;
+    if done == 0 && missing > 0 {
         let message = "interrupted before any run was done; nothing written".to_owned();
         let fault = Fault::warning("W-CHART-INTERRUPTED", message);
         return Err(Stop::new(Exit::Interrupted, fault));
     }
-    Ok((conducted.rows, missing))
+    Ok((rows, missing))
 }
 
 /// The length of a progress bar.

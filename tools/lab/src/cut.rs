@@ -8,7 +8,6 @@
 mod chart;
 
 use std::f64::consts::PI;
-use std::num::NonZero;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -90,12 +89,10 @@ impl Cuts {
 impl Experiment for Cuts {
     type Row = Row;
 
+    const IS_ALONE: bool = true;
+
     fn is_timed(&self) -> bool {
         true
-    }
-
-    fn threads(&self, _: NonZero<usize>) -> NonZero<usize> {
-        NonZero::<usize>::MIN
     }
 
     fn plan(&self) -> Vec<Vec<Row>> {
@@ -162,12 +159,9 @@ impl WavySheet {
         let points = (0..width * width).map(|i| {
             let place = [i % width, i / width];
             let is_inner = place.iter().all(|i| ![0, cells].contains(i));
-            let mut moved = || {
-                if is_inner {
-                    0.8 * random.next() - 0.4
-                } else {
-                    0.0
-                }
+            let mut moved = || match is_inner {
+                true => 0.8 * random.next() - 0.4,
+                false => 0.0,
             };
             place.map(|i| (f64::from(i) + moved()) / f64::from(cells))
         });

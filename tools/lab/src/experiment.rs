@@ -20,15 +20,22 @@ pub trait Experiment: Sync {
     /// A line of the table. Without results, as [`plan`](Experiment::plan) returns it, it is the key of a run.
     type Row: Clone + Send + Sync + Serialize + DeserializeOwned;
 
+    /// Whether runs go on one by one, since beside each other they would wait for the same memory, or share the
+    /// processor's cache.
+    const IS_ALONE: bool = false;
+
     /// Returns whether the experiment measures CPU time.
     fn is_timed(&self) -> bool {
         false
     }
 
-    /// Returns how many of so many threads are used; 1 where runs beside each other would wait for the same memory,
-    /// or share the processor's cache.
+    /// Returns how many of so many threads are used; see [`IS_ALONE`](Experiment::IS_ALONE).
     fn threads(&self, most: NonZero<usize>) -> NonZero<usize> {
-        most
+        if Self::IS_ALONE {
+            NonZero::<usize>::MIN
+        } else {
+            most
+        }
     }
 
     /// Returns the keys of all runs, in groups that are assessed together, and in the order in which they begin.
@@ -80,18 +87,8 @@ impl Bounds<'_> {
     }
 }
 
-/// The table of an experiment, and how many runs of the plan reached an end.
-#[derive(Clone, Debug)]
-pub struct Conducted<R> {
-    /// The rows, in the order of the plan.
-    pub rows: Vec<R>,
-    /// The number of runs that were not interrupted.
-    pub done: usize,
-    /// The number of runs of the plan.
-    pub planned: usize,
-}
-
-/// Carries out the plan of an experiment on up to `threads` threads.
+/// Carries out the plan of an experiment on up to `threads` threads. Returns the rows of the table in the order of the
+/// plan, and the number of runs that were not interrupted.
 ///
 /// `watch` is called after each run with the estimated fraction of all work that is done. Once `bounds.stop`
 /// returns true, no other run is begun.
@@ -100,15 +97,10 @@ pub fn conduct<E: Experiment>(
     threads: NonZero<usize>,
     bounds: &Bounds<'_>,
     mut watch: impl FnMut(f64),
-) -> Conducted<E::Row> {
+) -> (Vec<E::Row>, usize) {
     let plan = experiment.plan();
     let whole_s = guess_s(experiment, &plan);
-    let mut conducted = Conducted {
-        rows: Vec::new(),
-        done: 0,
-        planned: plan.iter().map(Vec::len).sum(),
-    };
-    let mut done_s = 0.0;
+    let (mut table, mut done, mut done_s) = (Vec::new(), 0, 0.0);
     for keys in &plan {
         let outcomes = side_by_side(
             keys,
@@ -122,12 +114,12 @@ pub fn conduct<E: Experiment>(
                 watch(done_s / whole_s);
             },
         );
-        conducted.done += outcomes.iter().flatten().count();
+        done += outcomes.iter().flatten().count();
         let rows = keys.iter().zip(outcomes);
         let rows = rows.flat_map(|(key, rows)| rows.unwrap_or_else(|| vec![key.clone()]));
-        conducted.rows.extend(experiment.assessed(rows.collect()));
+        table.extend(experiment.assessed(rows.collect()));
     }
-    conducted
+    (table, done)
 }
 
 /// Returns the number of threads that this machine can run at once, or 1 if that is not known.
@@ -252,20 +244,17 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Returns the footer of a figure: how to read it, its origin, and whether runs are missing.
-    pub(crate) fn footer(
-        &self,
-        reading: &str,
-        mut statuses: impl Iterator<Item = Status>,
-    ) -> Vec<String> {
+    /// Returns the footer of a figure: a text on how to read it, its origin, and whether runs are missing, given the
+    /// statuses of all.
+    pub(crate) fn footer(&self, text: &str, mut all: impl Iterator<Item = Status>) -> Vec<String> {
         let processor = self.processor.as_ref();
         let processor = processor.map_or(String::new(), |name| format!(" · {name}"));
         let origin = format!(
             "{} · version {}, commit {} · {}{processor}",
             self.command, self.version, self.commit, self.compiler
         );
-        let mut footer = vec![reading.to_owned(), origin];
-        if statuses.any(|status| status == Status::Interrupted) {
+        let mut footer = vec![text.to_owned(), origin];
+        if all.any(|status| status == Status::Interrupted) {
             footer.push("INTERRUPTED: runs that were not done are missing.".to_owned());
         }
         footer

@@ -17,12 +17,11 @@
 mod chart;
 mod implementations;
 
-use std::num::NonZero;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use tearmesh::geometry::{Plane, Side};
-use tearmesh::{Edit, Edits, FaceId, Mesh, Point, classify, shapes, split};
+use tearmesh::{Edit, Edits, Mesh, Point, classify, shapes, split};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::statistics::median;
 
@@ -68,12 +67,10 @@ pub struct Row {
 impl Experiment for Fig7 {
     type Row = Row;
 
+    const IS_ALONE: bool = true;
+
     fn is_timed(&self) -> bool {
         true
-    }
-
-    fn threads(&self, _: NonZero<usize>) -> NonZero<usize> {
-        NonZero::<usize>::MIN
     }
 
     fn plan(&self) -> Vec<Vec<Row>> {
@@ -141,21 +138,17 @@ fn follow(replica: &mut Mesh, edits: &Edits, places: &[Point]) -> Vec<Split> {
         let Edit::Split(done) = edit else {
             panic!("a rip does nothing but split");
         };
-        let vertex = done.old;
-        let moved: Vec<FaceId> = done.corners.iter().map(|corner| corner.face()).collect();
+        let (vertex, at) = (done.old, places[done.old.index()]);
         let corners = replica.corners_of(vertex);
-        let mut neighbours = corners.flat_map(|h| [replica.target(h), replica.origin(h.prev())]);
-        let plane = neighbours.find_map(|other| {
-            let at = places[vertex.index()];
-            let plane = Plane::new(at, places[other.index()] - at).ok()?;
-            let is_on_its_side = |f: FaceId| {
-                let is_behind = classify::face(replica, f, &plane, places) == Side::Back;
-                is_behind == moved.contains(&f)
-            };
-            replica
-                .faces_of(vertex)
-                .all(is_on_its_side)
-                .then_some(plane)
+        let neighbours = corners.flat_map(|h| [replica.target(h), replica.origin(h.prev())]);
+        let mut planes = neighbours.map(|other| Plane::new(at, places[other.index()] - at));
+        let plane = planes.find_map(|plane| {
+            let plane = plane.ok()?;
+            let divides = replica.corners_of(vertex).all(|h| {
+                let side = classify::face(replica, h.face(), &plane, places);
+                (side == Side::Back) == done.corners.contains(&h)
+            });
+            divides.then_some(plane)
         });
         let plane = plane.expect("a rip splits by a plane that leads to a neighbour");
         let mut again = Edits::new();

@@ -18,24 +18,12 @@ pub use self::play::{Role, Row, Topic};
 
 use std::ops::RangeInclusive;
 
-use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::statistics::median;
 
 use self::play::{NEWTON, Stage, error};
-use crate::experiment::{Bounds, Experiment};
+use crate::experiment::{Bounds, Experiment, Status};
 use crate::method::{DEFAULT, DEFAULTS};
 use crate::pareto::AMPLIFICATION_MAX;
-
-/// The options of the page.
-#[derive(Clone, Copy, Debug)]
-pub struct Options {
-    /// The number of cells along the longest side of the meshes, at least 8.
-    pub cells: u32,
-    /// The number of seeds of ensembles of a flag. Torn lengths take half of them.
-    pub seeds: u64,
-    /// The number of meshes with other diagonals.
-    pub diagonals: u64,
-}
 
 /// The multiples of its default step that each method is played with, beside the default.
 pub const STEP_MULTIPLES: [f64; 3] = [4.0, 2.0, 0.5];
@@ -49,29 +37,31 @@ const REFERENCE_SEEDS: u64 = 1000;
 /// The experiment behind the page.
 #[derive(Debug)]
 pub struct Guide {
-    options: Options,
+    /// The number of seeds of ensembles of a flag.
+    seeds: u64,
     stages: Vec<Stage>,
 }
 
 impl Guide {
-    /// Creates the experiment.
+    /// Creates the experiment: on meshes with this many cells along their longest side, with this many seeds of
+    /// ensembles of a flag (torn lengths take half of them), and this many meshes with other diagonals.
     ///
     /// # Panics
     ///
     /// If the number of cells is less than 8 or more than a mesh can have.
     #[must_use]
-    pub fn new(options: Options) -> Guide {
-        assert!(options.cells >= 8, "at least 8 cells along a side");
+    pub fn new(cells: u32, seeds: u64, diagonals: u64) -> Guide {
+        assert!(cells >= 8, "at least 8 cells along a side");
         let mut stages = Vec::new();
         for topic in Topic::ALL {
             // Half of the cells only where there is a curve.
             if topic != Topic::Aftermath {
-                stages.push(Stage::new(topic, options.cells / 2, 1));
+                stages.push(Stage::new(topic, cells / 2, 1));
             }
-            let all = (1..=options.diagonals).map(|seed| Stage::new(topic, options.cells, seed));
+            let all = (1..=diagonals).map(|seed| Stage::new(topic, cells, seed));
             stages.extend(all);
         }
-        Guide { options, stages }
+        Guide { seeds, stages }
     }
 
     fn stage(&self, key: &Row) -> &Stage {
@@ -86,12 +76,12 @@ impl Guide {
     fn keys(&self, stage: &Stage) -> Vec<Row> {
         let topic = stage.topic;
         let seeds = match topic {
-            Topic::Flag => self.options.seeds,
-            Topic::Aftermath => (self.options.seeds / 2).max(2),
+            Topic::Flag => self.seeds,
+            Topic::Aftermath => (self.seeds / 2).max(2),
             Topic::Hang | Topic::Rip | Topic::Trouser => 0,
         };
         // Without an ensemble there is one run without noise.
-        let first = seeds.min(1);
+        let (first, few) = (seeds.min(1), seeds.min(FEW_SEEDS));
         let mut keys = Vec::new();
         let mut add = |role, method: &str, step_multiple, seeds: RangeInclusive<u64>| {
             keys.extend(seeds.map(|seed| Row {
@@ -106,7 +96,7 @@ impl Guide {
             }));
         };
         if stage.diagonals > 1 {
-            add(Role::Mesh, DEFAULT, None, first..=seeds.min(FEW_SEEDS));
+            add(Role::Mesh, DEFAULT, None, first..=few);
             return keys;
         }
         let mut multiples = vec![None];
@@ -114,12 +104,7 @@ impl Guide {
             // Seeds of its own, as the same runs would have no error.
             let own = first * REFERENCE_SEEDS;
             add(Role::Reference, DEFAULT, None, own + first..=own + seeds);
-            add(
-                Role::Second,
-                NEWTON,
-                None,
-                own + first..=own + seeds.min(FEW_SEEDS),
-            );
+            add(Role::Second, NEWTON, None, own + first..=own + few);
             add(Role::Gate, DEFAULT, None, 0..=1);
             // The error of a flag is chance, which no shorter step changes.
             let worth = STEP_MULTIPLES.into_iter();
@@ -154,17 +139,17 @@ impl Experiment for Guide {
     }
 
     fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
-        Some(vec![self.stage(key).play(key, bounds)?])
+        let mut row = key.clone();
+        let end = self.stage(key).measure(&mut row, bounds).err();
+        (row.status, row.why) = end.unwrap_or((Status::Ok, String::new()));
+        (row.status != Status::Interrupted).then(|| vec![row])
     }
 
     fn assessed(&self, mut rows: Vec<Row>) -> Vec<Row> {
         let of = |role| -> Vec<&Row> { rows.iter().filter(|row| row.role == role).collect() };
         let (mut known, second) = (of(Role::Reference), of(Role::Second));
         let (noise_amplification, error_noise) = match of(Role::Gate)[..] {
-            [calm, noisy] => (
-                calm.apart_m(noisy).map(|apart_m| apart_m / NOISE_M),
-                error(&[noisy], &[calm]),
-            ),
+            [calm, noisy] => (calm.amplification(noisy), error(&[noisy], &[calm])),
             _ => (None, None),
         };
         // Noise bars displacements, and only a shape at rest is judged by them.
@@ -186,16 +171,10 @@ impl Experiment for Guide {
         });
         let errors: Vec<Option<f64>> = errors.collect();
         for (row, error) in rows.iter_mut().zip(errors) {
-            *row = Row {
-                error,
-                error_floor,
-                error_mesh,
-                error_noise,
-                noise_amplification,
-                answer: None,
-                last: Vec::new(),
-                ..std::mem::take(row)
-            };
+            (row.error, row.error_floor) = (error, error_floor);
+            (row.error_mesh, row.error_noise) = (error_mesh, error_noise);
+            row.noise_amplification = noise_amplification;
+            (row.answer, row.last) = (None, Vec::new());
         }
         rows
     }

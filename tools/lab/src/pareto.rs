@@ -19,7 +19,6 @@
 mod chart;
 mod front;
 mod observe;
-mod plan;
 mod row;
 mod run;
 mod scene;
@@ -36,9 +35,8 @@ use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::statistics::median;
 
 use self::observe::{Records, apart_m, error, extrapolated};
-use self::plan::plan;
 use self::row::{Planned, Role};
-use self::run::run;
+use self::run::{plan, run};
 use self::scene::Case;
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::sheet::MeshKind;
@@ -99,14 +97,12 @@ impl Pareto {
             let stiffness = or_own(&options.stiffness_n_per_m, scene.stiffness_n_per_m);
             let ratios = or_own(&options.mass_ratios, scene.middle_mass_ratio);
             for (&mesh, &cells) in pairs(&options.meshes, &options.cells) {
-                cases.extend(pairs(&stiffness, &ratios).map(|(&stiffness, &ratio)| {
-                    let scene = Scene {
-                        stiffness_n_per_m: stiffness,
-                        middle_mass_ratio: ratio,
-                        ..*scene
-                    };
-                    Case::new(&scene, mesh, cells)
-                }));
+                for (&stiffness, &ratio) in pairs(&stiffness, &ratios) {
+                    let mut scene = *scene;
+                    scene.stiffness_n_per_m = stiffness;
+                    scene.middle_mass_ratio = ratio;
+                    cases.push(Case::new(&scene, mesh, cells));
+                }
             }
         }
         Pareto { options, cases }
@@ -145,11 +141,9 @@ impl Experiment for Pareto {
     }
 
     fn guess_s(&self, key: &Row) -> f64 {
-        let most = match key.planned.role.is_reference() {
-            true => f64::INFINITY,
-            false => self.options.visits_max as f64,
-        };
-        VISIT_S * key.planned.visits.min(most)
+        let Planned { role, visits, .. } = key.planned;
+        let limit = (!role.is_reference()).then_some(self.options.visits_max as f64);
+        VISIT_S * visits.min(limit.unwrap_or(f64::INFINITY))
     }
 
     fn run(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Vec<Row>> {
@@ -182,11 +176,7 @@ fn compared(case: &Case, runs: Vec<Row>) -> Vec<Row> {
             _ => None,
         }
     };
-    let (verlet, newton, rest) = (
-        records(Role::Verlet),
-        records(Role::Newton),
-        records(Role::Rest),
-    );
+    let [verlet, newton, rest] = [Role::Verlet, Role::Newton, Role::Rest].map(records);
     let gate = records(Role::Calm).zip(records(Role::Noisy));
     let noise_amplification = gate.map(|(calm, noisy)| apart_m(case, &noisy, &calm) / NOISE_M);
     let noise_amplification = noise_amplification.filter(|grown| grown.is_finite());

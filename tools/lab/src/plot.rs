@@ -49,10 +49,8 @@ pub struct Figure {
     pub about: String,
     /// The entries of the legend; empty where labels stand beside what they name.
     pub legend: Vec<(Mark, String)>,
-    /// The number of panels in a row.
-    pub columns: usize,
-    /// The width and height of a panel in pixels, with its title and axes.
-    pub panel_size: [f64; 2],
+    /// The number of panels in a row, and the width and height of each in pixels, with its title and axes.
+    pub layout: (usize, [f64; 2]),
     /// The panels, row by row.
     pub panels: Vec<Panel>,
     /// The provenance, and what else has to be known; a paragraph each.
@@ -76,6 +74,22 @@ pub struct Panel {
     pub above: Option<Strip>,
     /// Paragraphs under the panel.
     pub words: Vec<String>,
+}
+
+impl Panel {
+    /// Returns a panel with its title and the remark under it, its horizontal and its vertical axis, and what is drawn,
+    /// from back to front.
+    #[must_use]
+    pub fn new(title: &str, about: &str, [x, y]: [Axis; 2], layers: Vec<Layer>) -> Panel {
+        Panel {
+            title: title.to_owned(),
+            about: about.to_owned(),
+            x,
+            y,
+            layers,
+            ..Panel::default()
+        }
+    }
 }
 
 /// A strip at the upper end of the vertical axis, whose marks have no place along it.
@@ -138,15 +152,6 @@ impl Mark {
             colour,
             size: 4.5,
             is_hollow: false,
-        }
-    }
-
-    /// Returns the mark as an outline.
-    #[must_use]
-    pub const fn hollow(self) -> Mark {
-        Mark {
-            is_hollow: true,
-            ..self
         }
     }
 

@@ -108,10 +108,8 @@ struct Step<'a> {
 impl<'a> Step<'a> {
     /// A step of backward Euler.
     fn new(system: &'a System, faces: &'a [u32], h: f64) -> Step<'a> {
-        let families = [system.stretches(), system.bends()];
-        let constraints = families
-            .iter()
-            .flat_map(|of| of.iter().map(|id| of.get(id)));
+        let families = [system.stretches(), system.bends()].into_iter();
+        let constraints = families.flat_map(|of| of.iter().map(|id| of.get(id)));
         let springs = constraints.map(|constraint| Spring {
             ends: constraint.ends,
             rest_m: constraint.rest_length_m,
@@ -216,11 +214,7 @@ impl<'a> Step<'a> {
     }
 
     /// (M (1 + hc)/h² + K) u, of free particles.
-    fn product(
-        &self,
-        springs: &[([usize; 2], impl Fn(Vector) -> Vector)],
-        u: &[Vector],
-    ) -> Vec<Vector> {
+    fn product(&self, springs: &[Stiff<impl Fn(Vector) -> Vector>], u: &[Vector]) -> Vec<Vector> {
         let drag = self.system.loads().drag_per_s.unwrap_or(0.0);
         let inertia = (1.0 + self.h * drag) / (self.h * self.h);
         let mut stiff = vec![Vector::zeros(); u.len()];
@@ -272,6 +266,9 @@ impl<'a> Step<'a> {
 fn dot(a: &[Vector], b: &[Vector]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
 }
+
+/// The ends and the stiffness of a spring.
+type Stiff<F> = ([usize; 2], F);
 
 /// A spring along an edge, or one that resists bending.
 #[derive(Clone, Copy)]

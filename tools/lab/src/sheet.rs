@@ -1,7 +1,7 @@
 //! Sheets: a grid whose diagonals lie at random, and Delaunay triangles of as many random points.
 
 use serde::{Deserialize, Serialize};
-use tearmesh::{Masses, Mesh, Point, Positions, shapes};
+use tearmesh::{Masses, Mesh, Point, Positions, Vector, shapes};
 use tearmesh_cloth::System;
 use tearmesh_cloth::statistics::Random;
 
@@ -107,12 +107,8 @@ fn scattered(cells: u32, side_m: f64, random: &mut Random) -> (Mesh, Positions) 
     let mut points: Vec<[f64; 2]> = Vec::new();
     for i in 0..cells {
         let along = f64::from(i) * h;
-        points.extend([
-            [along, 0.0],
-            [1.0, along],
-            [1.0 - along, 1.0],
-            [0.0, 1.0 - along],
-        ]);
+        let back = 1.0 - along;
+        points.extend([[along, 0.0], [1.0, along], [back, 1.0], [0.0, back]]);
     }
     let count = (cells as usize + 1) * (cells as usize + 1);
     let near = (0.7 * h) * (0.7 * h);
@@ -149,6 +145,15 @@ pub(crate) fn system(
         made.expect("a spring has a length");
     }
     system
+}
+
+/// The indices of the free particles of a system, each with a random vector of at most `most` along each axis.
+pub(crate) fn random_vectors(system: &System, most: f64) -> Vec<(usize, Vector)> {
+    let mut random = Random::new(SEED);
+    let mut along = || most * (2.0 * random.next() - 1.0);
+    let free = (0..system.positions().len()).filter(|&i| !system.is_held(i));
+    let vectors = free.map(|i| (i, Vector::new(along(), along(), along())));
+    vectors.collect()
 }
 
 /// The Delaunay triangles of some points, without those of which twice the area is at most `area_min`, as

@@ -72,22 +72,19 @@ impl EnsembleScene {
     /// All scenes.
     pub const ALL: [EnsembleScene; 2] = [EnsembleScene::Trouser, EnsembleScene::Rip];
 
-    /// Returns the name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
+    /// The name on the command line, the default number of cells across, and the CPU time of a run with those in
+    /// seconds, on the machine on which charts were first made.
+    fn defaults(self) -> (&'static str, u32, f64) {
         match self {
-            EnsembleScene::Trouser => "trouser",
-            EnsembleScene::Rip => "rip",
+            EnsembleScene::Trouser => ("trouser", 16, 7.0),
+            EnsembleScene::Rip => ("rip", 32, 2.0),
         }
     }
 
-    /// Returns the default number of cells across.
+    /// Returns the name on the command line.
     #[must_use]
-    pub fn cells(self) -> u32 {
-        match self {
-            EnsembleScene::Trouser => 16,
-            EnsembleScene::Rip => 32,
-        }
+    pub fn name(self) -> &'static str {
+        self.defaults().0
     }
 }
 
@@ -183,7 +180,7 @@ impl Experiment for Tear {
         let mut plan = vec![self.strips()];
         for &scene in &self.scenes {
             let sizes = match &self.cells[..] {
-                [] => &[scene.cells()],
+                [] => &[scene.defaults().1],
                 sizes => sizes,
             };
             plan.extend(sizes.iter().map(|&cells| self.runs(scene, cells)));
@@ -194,11 +191,8 @@ impl Experiment for Tear {
 
     /// A mesh twice as fine has four times as many edges, and steps that are half as long if the method is explicit.
     fn guess_s(&self, key: &Row) -> f64 {
-        let at_default_s = match key.scene {
-            EnsembleScene::Trouser => 7.0,
-            EnsembleScene::Rip => 2.0,
-        };
-        let finer = f64::from(key.cells) / f64::from(key.scene.cells());
+        let (_, cells, at_default_s) = key.scene.defaults();
+        let finer = f64::from(key.cells) / f64::from(cells);
         at_default_s * finer.powf(2.5) * f64::from(key.step_divisor)
     }
 
@@ -213,14 +207,11 @@ impl Experiment for Tear {
             (Some(Rule::Toughness), Some(toughness)) => Threshold::Toughness(toughness),
             (_, ratio) => Threshold::Stretch(ratio.unwrap_or(Scene::STRETCH_RATIO)),
         };
-        let scene = Scene {
-            solver: Method::named(&key.method)?.settings()?,
-            tearing: Some(Tearing {
-                weakening,
-                ..Tearing::new(threshold)
-            }),
-            ..ready(&frame)
-        };
+        let mut tearing = Tearing::new(threshold);
+        tearing.weakening = weakening;
+        let mut scene = ready(&frame);
+        scene.solver = Method::named(&key.method)?.settings()?;
+        scene.tearing = Some(tearing);
         let subject = Subject {
             mesh: &mesh,
             positions: &positions,
@@ -232,19 +223,16 @@ impl Experiment for Tear {
         if member.status == MemberStatus::Interrupted {
             return None;
         }
-        let mut row = Row {
-            status: Status::Failed,
+        let observed = member.observed;
+        Some(vec![Row {
+            status: observed.map_or(Status::Failed, |_| Status::Ok),
+            torn_m: observed.map(|one| one.torn_m),
+            pieces: observed.map(|one| one.pieces),
+            largest_force_n: observed.and_then(|one| one.largest_force_n),
+            work_j: observed.and_then(|one| one.work_j),
             why: member.why,
             ..key.clone()
-        };
-        if let Some(observed) = member.observed {
-            row.status = Status::Ok;
-            row.torn_m = Some(observed.torn_m);
-            row.pieces = Some(observed.pieces);
-            row.largest_force_n = observed.largest_force_n;
-            row.work_j = observed.work_j;
-        }
-        Some(vec![row])
+        }])
     }
 }
 

@@ -60,12 +60,8 @@ impl Chart for Cuts {
                 .unwrap_or("The time of cuts, and their distance from the plane".to_owned()),
             about: "Cuts through wavy sheets along random lines, the same for all methods."
                 .to_owned(),
-            columns: 2,
-            panel_size: [580.0, 460.0],
-            panels: MEASURES
-                .iter()
-                .map(|measure| panel(rows, measure))
-                .collect(),
+            layout: (2, [580.0, 460.0]),
+            panels: MEASURES.map(|measure| panel(rows, &measure)).into(),
             footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
             ..Figure::default()
         }
@@ -76,10 +72,9 @@ impl Chart for Cuts {
         text.extend(MEASURES.map(|(head, ..)| format!(" {head:>9}")));
         for row in rows {
             write!(text, "\n{:<16} {:>7}", row.method, row.faces).expect("a string grows");
-            let medians = MEASURES.iter().map(|(.., of)| match of(row) {
-                Some([median, _]) => short(median, 3),
-                None => "–".to_owned(),
-            });
+            let medians = MEASURES
+                .iter()
+                .map(|(.., of)| of(row).map_or("–".to_owned(), |[median, _]| short(median, 3)));
             text.extend(medians.map(|median| format!(" {median:>9}")));
             if row.status != Status::Ok {
                 text += &format!("  {}", row.status.name());
@@ -140,11 +135,5 @@ fn panel(rows: &[Row], (_, title, axis, of): &Measure) -> Panel {
             layers.push(Layer::Mark([median, y], mark, hover));
         }
     }
-    Panel {
-        title: (*title).to_owned(),
-        x: axis(""),
-        y: Axis::named(names),
-        layers,
-        ..Panel::default()
-    }
+    Panel::new(title, "", [axis(""), Axis::named(names)], layers)
 }

@@ -22,6 +22,7 @@ impl Chart for Fig7 {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
         let names = IMPLEMENTATIONS[1..].iter().map(|(name, _)| *name);
         let (mut legend, mut layers) = (Vec::new(), Vec::new());
+        let axes = ["faces", "CPU time, ms"].map(Axis::log);
         for (name, colour) in names.zip([COLOURS[1], COLOURS[4], COLOURS[0]]) {
             let mark = Mark::new(Shape::DISC, colour);
             legend.push((mark, name.to_owned()));
@@ -38,14 +39,8 @@ impl Chart for Fig7 {
                  of {ROUNDS} rounds."
             ),
             legend,
-            columns: 1,
-            panel_size: [720.0, 460.0],
-            panels: vec![Panel {
-                x: Axis::log("faces"),
-                y: Axis::log("CPU time, ms"),
-                layers,
-                ..Panel::default()
-            }],
+            layout: (1, [720.0, 460.0]),
+            panels: vec![Panel::new("", "", axes, layers)],
             footer: provenance.footer("", rows.iter().map(|row| row.status)),
         }
     }

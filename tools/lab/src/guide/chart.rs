@@ -21,30 +21,19 @@ const ERROR: Quantity = ("error, %", |row| Some(100.0 * row.error?.max(1e-8)));
 const TORN: Quantity = ("torn length, m", |row| row.torn_m);
 const WORK: Quantity = ("work of the hand, J", |row| row.work_j);
 
+const FLAG: &str = "flag: where the free corner is, and how far it swings";
+const TROUSER: &str = "trouser: time and force of the first tear";
+const TORN_AFTER: &str = "After the first tear of rip: torn length";
+const WORK_AFTER: &str = "After the first tear of rip: work of the hand";
+
 /// The panels: the topic, the title, and what is drawn.
 const PANELS: [(Topic, &str, Quantity); 6] = [
     (Topic::Hang, "hang: the shape at rest", ERROR),
-    (
-        Topic::Flag,
-        "flag: where the free corner is, and how far it swings",
-        ERROR,
-    ),
+    (Topic::Flag, FLAG, ERROR),
     (Topic::Rip, "rip: time and force of the first tear", ERROR),
-    (
-        Topic::Trouser,
-        "trouser: time and force of the first tear",
-        ERROR,
-    ),
-    (
-        Topic::Aftermath,
-        "After the first tear of rip: torn length",
-        TORN,
-    ),
-    (
-        Topic::Aftermath,
-        "After the first tear of rip: work of the hand",
-        WORK,
-    ),
+    (Topic::Trouser, TROUSER, ERROR),
+    (Topic::Aftermath, TORN_AFTER, TORN),
+    (Topic::Aftermath, WORK_AFTER, WORK),
 ];
 
 /// A method at one step: all runs of it.
@@ -89,8 +78,7 @@ impl Chart for Guide {
                  error of the scene's main results. Down and to the left is better.",
                 cells / 2
             ),
-            columns: 2,
-            panel_size: [600.0, 400.0],
+            layout: (2, [600.0, 400.0]),
             panels: sections.iter().map(Section::panel).collect(),
             footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
             ..Figure::default()
@@ -161,10 +149,6 @@ impl Point<'_> {
         Some([self.cost?, self.y?[1]])
     }
 
-    fn has_failed(&self) -> bool {
-        self.row.status != Status::Ok
-    }
-
     /// What to type for this method and step.
     fn command(&self) -> String {
         let mut command = format!("tearmesh tear in.obj --scene {}", self.row.topic.name());
@@ -189,15 +173,10 @@ impl Section<'_> {
     }
 
     fn panel(&self) -> Panel {
-        let axis = [Axis::linear, Axis::log][usize::from(self.is_error())];
-        let mut panel = Panel {
-            title: self.title.to_owned(),
-            about: self.about(),
-            x: Axis::log("CPU seconds per simulated second"),
-            y: axis(self.label),
-            words: self.words(),
-            ..Panel::default()
-        };
+        let y = [Axis::linear, Axis::log][usize::from(self.is_error())];
+        let axes = [Axis::log("CPU seconds per simulated second"), y(self.label)];
+        let mut panel = Panel::new(self.title, &self.about(), axes, Vec::new());
+        panel.words = self.words();
         if !self.points().any(|point| point.at().is_some()) {
             return panel;
         }
@@ -237,7 +216,7 @@ impl Section<'_> {
     /// The runs that failed, at the cost that their step would have.
     fn failures(&self) -> Option<Strip> {
         let marks = self.fine.iter().flat_map(|(method, points)| {
-            let failed = points.iter().filter(|point| point.has_failed());
+            let failed = points.iter().filter(|point| point.row.status != Status::Ok);
             failed.filter_map(|point| {
                 let cost = points[0].cost? / point.row.step_multiple?;
                 let (status, why) = (point.row.status.name(), &point.row.why);
@@ -287,7 +266,7 @@ impl Section<'_> {
         }
         let mut failing = Vec::new();
         for (Method { name, .. }, points) in &self.fine {
-            let failed = points.iter().filter(|point| point.has_failed());
+            let failed = points.iter().filter(|point| point.row.status != Status::Ok);
             if let Some(dt_s) = failed.filter_map(|point| point.row.dt_s).reduce(f64::min) {
                 failing.push(format!(
                     "{name} takes no step of {} ms",

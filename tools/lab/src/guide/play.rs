@@ -6,11 +6,12 @@ use std::sync::OnceLock;
 use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::ensemble::Disturbance;
+use tearmesh_cloth::scene::ensemble::{Disturbance, NOISE_M};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, TearLog};
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{FRAME_S, Method, TearReport};
 
+use self::Topic::{Aftermath, Flag, Hang, Rip, Trouser};
 use crate::experiment::{Bounds, Status};
 use crate::method;
 use crate::pareto::{fastest_m_per_s, status_of};
@@ -37,41 +38,34 @@ pub enum Topic {
 
 impl Topic {
     /// All topics, in the order of panels.
-    pub const ALL: [Topic; 5] = [
-        Topic::Hang,
-        Topic::Flag,
-        Topic::Rip,
-        Topic::Trouser,
-        Topic::Aftermath,
-    ];
+    pub const ALL: [Topic; 5] = [Hang, Flag, Rip, Trouser, Aftermath];
 
     /// Returns the name of the scene on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Topic::Hang => "hang",
-            Topic::Flag => "flag",
-            Topic::Rip | Topic::Aftermath => "rip",
-            Topic::Trouser => "trouser",
+            Hang => "hang",
+            Flag => "flag",
+            Rip | Aftermath => "rip",
+            Trouser => "trouser",
         }
     }
 
     /// The scene, with what does not belong to the topic left out.
     fn scene(self, frame: &Frame) -> Scene {
+        let ready = match self {
+            Hang => Scene::hang,
+            Flag => Scene::flag,
+            Rip | Aftermath => Scene::rip,
+            Trouser => Scene::trouser,
+        };
+        let mut scene = ready(frame);
         match self {
-            Topic::Hang => Scene {
-                tearing: None,
-                duration_s: REST_S,
-                ..Scene::hang(frame)
-            },
-            Topic::Flag => Scene {
-                cuts: Vec::new(),
-                duration_s: 1.5,
-                ..Scene::flag(frame)
-            },
-            Topic::Rip | Topic::Aftermath => Scene::rip(frame),
-            Topic::Trouser => Scene::trouser(frame),
+            Hang => (scene.tearing, scene.duration_s) = (None, REST_S),
+            Flag => (scene.cuts, scene.duration_s) = (Vec::new(), 1.5),
+            _ => {}
         }
+        scene
     }
 }
 
@@ -150,16 +144,17 @@ pub struct Row {
 impl Row {
     /// What the runs of an ensemble have in common, beside their topic and their cells.
     pub(super) fn ensemble(&self) -> (u64, Role, &str, Option<f64>) {
-        let (role, method) = (self.role, &*self.method);
-        (self.diagonals, role, method, self.step_multiple)
+        let method = &self.method;
+        (self.diagonals, self.role, method, self.step_multiple)
     }
 
-    /// The rms distance between the last positions of two runs, in metres; `None` if either has none.
-    pub(super) fn apart_m(&self, other: &Row) -> Option<f64> {
+    /// The rms distance between the last positions of this run and of one with noise, divided by the noise; `None` if
+    /// either has none.
+    pub(super) fn amplification(&self, other: &Row) -> Option<f64> {
         let pairs = self.last.iter().zip(&other.last);
         let squares: Vec<f64> = pairs.map(|(p, q)| (p - q).norm_squared()).collect();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-        (!squares.is_empty()).then(|| mean.sqrt())
+        (!squares.is_empty()).then(|| mean.sqrt() / NOISE_M)
     }
 }
 
@@ -204,8 +199,8 @@ fn mean(runs: &[&Row]) -> Option<Answer> {
     let mut mean = Answer::clone(answers.first()?);
     for (i, quantity) in mean.iter_mut().enumerate() {
         for (j, number) in quantity.iter_mut().enumerate() {
-            let sum: f64 = answers.iter().map(|answer| answer[i][j]).sum();
-            *number = sum / answers.len() as f64;
+            let numbers = answers.iter().map(|answer| answer[i][j]);
+            *number = numbers.sum::<f64>() / answers.len() as f64;
         }
     }
     Some(mean)
@@ -215,7 +210,7 @@ impl Stage {
     pub(super) fn new(topic: Topic, cells: u32, diagonals: u64) -> Stage {
         let mut random = Random::new(diagonals);
         let (across, size_m) = match topic {
-            Topic::Trouser => (cells / 2, STRIP_M),
+            Trouser => (cells / 2, STRIP_M),
             _ => (cells, [1.0; 2]),
         };
         let (mesh, positions) = grid([across, cells], size_m, |_, _| random.next() < 0.5);
@@ -234,15 +229,15 @@ impl Stage {
     /// An estimate of the CPU time of a run, in seconds, from those of sheets of 32 cells.
     pub(super) fn guess_s(&self, key: &Row) -> f64 {
         let (method_s, second_s) = match self.topic {
-            Topic::Hang => (0.35, 8.0),
-            Topic::Flag => (0.6, 7.0),
-            Topic::Rip => (0.12, 1.5),
-            Topic::Trouser => (0.7, 8.0),
-            Topic::Aftermath => (1.6, 0.0),
+            Hang => (0.35, 8.0),
+            Flag => (0.6, 7.0),
+            Rip => (0.12, 1.5),
+            Trouser => (0.7, 8.0),
+            Aftermath => (1.6, 0.0),
         };
         let seconds = match (key.role, self.topic) {
             (Role::Second, _) => second_s,
-            (Role::Reference, Topic::Flag) => 2.0 * method_s,
+            (Role::Reference, Flag) => 2.0 * method_s,
             (Role::Reference, _) => 8.0 * method_s,
             _ => method_s / key.step_multiple.unwrap_or(1.0),
         };
@@ -250,23 +245,15 @@ impl Stage {
         seconds * finer.powi(3)
     }
 
-    /// Plays the scene. Returns `None` if it was interrupted.
-    pub(super) fn play(&self, key: &Row, bounds: &Bounds<'_>) -> Option<Row> {
-        let mut row = key.clone();
-        let end = self.measure(&mut row, bounds).err();
-        (row.status, row.why) = end.unwrap_or((Status::Ok, String::new()));
-        (row.status != Status::Interrupted).then_some(row)
-    }
-
     /// Takes a run to its end, or to its first tear if the topic is that.
-    fn measure(&self, row: &mut Row, bounds: &Bounds<'_>) -> Result<(), End> {
+    pub(super) fn measure(&self, row: &mut Row, bounds: &Bounds<'_>) -> Result<(), End> {
         let flat = self.positions.as_slice();
         let shape_of = |at: &dyn Fn(usize) -> Vector| {
             let numbers = (0..flat.len()).flat_map(|v| <[f64; 3]>::from(at(v)));
             vec![numbers.collect()]
         };
         let mut rest = None;
-        if self.topic == Topic::Hang {
+        if self.topic == Hang {
             let shape = self.rest.get_or_init(|| self.shape_at_rest(bounds.stop));
             let shape = shape.as_ref().map_err(End::clone)?;
             if let Role::Reference | Role::Mesh = row.role {
@@ -279,7 +266,7 @@ impl Stage {
         let mut run = self.begin(row, rest)?;
         row.dt_s = Some(run.step_s());
         let before_m = run.torn_length_m();
-        let is_first_tear = matches!(self.topic, Topic::Rip | Topic::Trouser);
+        let is_first_tear = matches!(self.topic, Rip | Trouser);
         let mut tear_log = TearLog::new(&run);
         let (mut frames, mut times, mut began) = (Vec::new(), Vec::new(), bounds.now());
         take_steps(&mut run, bounds.stop, |run, step| {
@@ -296,8 +283,8 @@ impl Stage {
         let displaced = |v: usize| later.iter().map(move |points| points[v] - flat[v]);
         let mean = |v: usize| displaced(v).sum::<Vector>() / later.len() as f64;
         row.answer = match self.topic {
-            Topic::Hang => Some(shape_of(&mean)),
-            Topic::Flag => {
+            Hang => Some(shape_of(&mean)),
+            Flag => {
                 // The lower right one: the pole is on the left.
                 let corner = self.cells as usize;
                 let mean = mean(corner);
@@ -305,15 +292,15 @@ impl Stage {
                 let spread_m = (squares / later.len() as f64).sqrt();
                 Some(vec![<[f64; 3]>::from(mean).to_vec(), vec![spread_m]])
             }
-            Topic::Rip | Topic::Trouser => {
+            Rip | Trouser => {
                 let nothing = || (Status::Restless, "nothing tore".to_owned());
                 let first = tear_log.first_tear().ok_or_else(nothing)?;
                 // The hand of a rip begins to pull after half a second.
-                let begins_s = if self.topic == Topic::Rip { 0.5 } else { 0.0 };
+                let begins_s = if self.topic == Rip { 0.5 } else { 0.0 };
                 let numbers = [Some(first.event.time_s - begins_s), first.force_n];
                 Some(numbers.into_iter().flatten().map(|x| vec![x]).collect())
             }
-            Topic::Aftermath => {
+            Aftermath => {
                 row.torn_m = Some(run.torn_length_m() - before_m);
                 let force_n = tear_log.largest_force_n();
                 row.work_j = force_n.map(|_| run.energy_balance().held_j);
@@ -327,32 +314,29 @@ impl Stage {
 
     /// The run of a key that is about to begin.
     fn begin(&self, key: &Row, rest: Option<&[Point]>) -> Result<Run, End> {
-        let method = method::Method::named(&key.method);
+        let method = method::Method::named(&key.method).and_then(|method| method.settings());
         let mut scene = self.topic.scene(&self.frame);
-        scene.solver = method
-            .and_then(|method| method.settings())
-            .unwrap_or(Method::Verlet);
-        let (multiple, divisor) = match (key.role, self.topic) {
-            (Role::Second, Topic::Hang) => {
+        scene.solver = method.unwrap_or(Method::Verlet);
+        let (multiple, divisor, reference) = match (key.role, self.topic) {
+            (Role::Second, Hang) => {
                 (scene.step_s, scene.duration_s) = (Some(REST_STEP_S), 1.0);
-                (None, 1)
+                (None, 1, Some(Reference::to_rest()))
             }
             // It takes longer steps than Verlet's method by as much as its order allows.
-            (Role::Second, _) => (Some(2.0), 1),
+            (Role::Second, _) => (Some(2.0), 1, Some(Reference::new(self.mesh.indices()))),
             // For a flag chance is larger than what a shorter step changes.
-            (Role::Reference, Topic::Flag) => (None, 2),
-            (Role::Reference, _) => (None, 8),
-            _ => (key.step_multiple, 1),
+            (Role::Reference, Flag) => (None, 2, None),
+            (Role::Reference, _) => (None, 8, None),
+            _ => (key.step_multiple, 1, None),
         };
         if let Some(multiple) = multiple {
             scene.step_s = Some(multiple * self.run(scene.clone(), 0, None)?.step_s());
         }
         let run = self.run(scene, key.seed, rest)?;
         let run = run.in_smaller_steps(NonZero::new(divisor).unwrap_or(NonZero::<u32>::MIN));
-        Ok(match (key.role, self.topic) {
-            (Role::Second, Topic::Hang) => run.with_solver(Reference::to_rest()),
-            (Role::Second, _) => run.with_solver(Reference::new(self.mesh.indices())),
-            _ => run,
+        Ok(match reference {
+            Some(reference) => run.with_solver(reference),
+            None => run,
         })
     }
 
@@ -378,13 +362,10 @@ impl Stage {
             tolerance: 1e-5,
             ..implicit::Settings::default()
         };
-        let scene = Scene {
-            solver: Method::Implicit(backward_euler),
-            step_s: Some(REST_STEP_S),
-            drag_per_s: 20.0,
-            duration_s: 100.0,
-            ..self.topic.scene(&self.frame)
-        };
+        let mut scene = self.topic.scene(&self.frame);
+        scene.solver = Method::Implicit(backward_euler);
+        scene.step_s = Some(REST_STEP_S);
+        (scene.drag_per_s, scene.duration_s) = (20.0, 100.0);
         let depth = |p: &Point| 0.01 * (3.0 * p.x).sin() * (2.0 * p.y).cos();
         let bulged = self.positions.as_slice().iter();
         let bulged = bulged.map(|p| Point::new(p.x, p.y, depth(p)));

@@ -37,8 +37,7 @@ impl Chart for Pareto {
                  better."
             ),
             legend: families.map(entry).collect(),
-            columns: 3,
-            panel_size: [390.0, 330.0],
+            layout: (3, [390.0, 330.0]),
             panels: groups.iter().map(|group| group.panel(unit)).collect(),
             footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
         }
@@ -111,13 +110,9 @@ fn title(groups: &[Group<'_>], unit: &str) -> String {
 impl Group<'_> {
     fn panel(&self, unit: &str) -> Panel {
         let (first, floor) = (&self.case[0], self.floor);
-        let mut panel = Panel {
-            title: format!("{}: {}", first.scene, self.observable.name()),
-            about: about(first),
-            x: Axis::log(unit),
-            y: Axis::log("relative error"),
-            ..Panel::default()
-        };
+        let title = format!("{}: {}", first.scene, self.observable.name());
+        let axes = [unit, "relative error"].map(Axis::log);
+        let mut panel = Panel::new(&title, &about(first), axes, Vec::new());
         if self.runs.is_empty() {
             panel.about = match (floor, first.noise_amplification) {
                 (Some(_), _) => "no run reached its end".to_owned(),
@@ -183,10 +178,8 @@ impl Group<'_> {
         let Some(floor) = self.floor else {
             return "no reference, or noise grows too much".to_owned();
         };
-        let tolerances = match self.observable {
-            Observable::Displacement => &FINE[..],
-            _ => &COARSE,
-        };
+        let is_fine = self.observable == Observable::Displacement;
+        let tolerances = if is_fine { &FINE[..] } else { &COARSE };
         let default = self.runs.iter().find(|one| one.row.is_default());
         let answer = |tolerance: f64| match self.cheapest(tolerance) {
             None if tolerance < FLOORS * floor => "below the error floor".to_owned(),
@@ -227,10 +220,11 @@ fn draw_family(layers: &mut Vec<Layer>, of_family: Mark, own: &[&Ranked<'_>]) {
     let is_best = |run: &Ranked<'_>| !own.iter().any(|other| beats(other.at, run.at));
     let best = own.iter().copied().filter(|run| is_best(run));
     layers.push(line(best, of_family.colour, 1.0));
-    layers.extend(own.iter().map(|run| match is_best(run) {
-        true if run.row.is_at_floor() => mark(run, of_family.hollow()),
-        true => mark(run, of_family),
-        false => mark(run, of_family.sized(1.6)),
+    layers.extend(own.iter().map(|run| {
+        let is_best = is_best(run);
+        let mut shown = of_family.sized(if is_best { of_family.size } else { 1.6 });
+        shown.is_hollow = is_best && run.row.is_at_floor();
+        mark(run, shown)
     }));
 }
 

@@ -25,28 +25,17 @@ pub(super) fn extrapolated(coarse: &Records, fine: &Records) -> Records {
     limit
 }
 
-/// The error of a run by an observable, relative to a reference; `None` if one of them has no value.
-pub(super) fn error(
-    case: &Case,
-    observable: Observable,
-    run: &Records,
-    reference: &Records,
-) -> Option<f64> {
-    let run = run.get(&observable)?;
-    let reference = match observable.is_energy() {
-        true => run,
-        false => reference.get(&observable)?,
-    };
+/// The error of a run by an observable, relative to a known one; `None` if one of them has no value.
+pub(super) fn error(case: &Case, by: Observable, run: &Records, known: &Records) -> Option<f64> {
+    let run = run.get(&by)?;
+    let known = if by.is_energy() { run } else { known.get(&by)? };
     let start: Vec<f64> = flat(&case.start).collect();
-    let pairs = run.iter().zip(reference);
-    let each = pairs.map(|(run, reference)| match observable {
-        Observable::Displacement => {
-            let norm = |p: &[f64], q: &[f64]| mass_weighted_square(case, p, q).sqrt();
-            norm(run, reference) / norm(reference, &start)
-        }
-        Observable::StrainRms => strain_rms(run, reference),
+    let norm = |p: &[f64], q: &[f64]| mass_weighted_square(case, p, q).sqrt();
+    let each = run.iter().zip(known).map(|(run, known)| match by {
+        Observable::Displacement => norm(run, known) / norm(known, &start),
+        Observable::StrainRms => strain_rms(run, known),
         Observable::EnergyMade | Observable::EnergyLost => run[0],
-        _ => (run[0] - reference[0]).abs() / reference[0].abs(),
+        _ => (run[0] - known[0]).abs() / known[0].abs(),
     });
     Some(each.fold(0.0, worse)).filter(|error| error.is_finite())
 }

@@ -9,7 +9,7 @@ use tearmesh_cloth::{Loads, Path, System};
 
 use self::Observable::*;
 use crate::reference::Reference;
-use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet, system};
+use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet, random_vectors, system};
 
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug)]
@@ -86,9 +86,8 @@ pub enum Until {
 impl Until {
     /// The longest time of the scene, in seconds.
     pub(super) fn seconds(self) -> f64 {
-        match self {
-            Until::Time(s) | Until::Rest(s) | Until::Tears(s) => s,
-        }
+        let (Until::Time(s) | Until::Rest(s) | Until::Tears(s)) = self;
+        s
     }
 }
 
@@ -288,8 +287,7 @@ impl Case {
         if scene.start == Start::Shuffled {
             let mut random = Random::new(SEED);
             for i in (1..edges.len()).rev() {
-                let j = (random.next() * (i + 1) as f64) as usize;
-                edges.swap(i, j);
+                edges.swap(i, random.below(i + 1));
             }
         }
         let mut case = Case {
@@ -374,13 +372,9 @@ impl Case {
     /// The system at its start, with each free particle moved at random by up to `noise_m` metres along each
     /// axis, always in the same way.
     pub(super) fn disturbed(&self, noise_m: f64) -> System {
-        let mut random = Random::new(SEED);
         let mut system = self.system();
-        let free: Vec<bool> = system.inverse_masses().iter().map(|w| *w > 0.0).collect();
-        let mut off = || noise_m * (2.0 * random.next() - 1.0);
-        let points = system.state_mut().0.iter_mut().zip(free);
-        for (x, _) in points.filter(|(_, is_free)| *is_free) {
-            *x += Vector::new(off(), off(), off());
+        for (i, off_m) in random_vectors(&system, noise_m) {
+            system.state_mut().0[i] += off_m;
         }
         system
     }

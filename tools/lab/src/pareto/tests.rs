@@ -55,7 +55,7 @@ fn assessed() -> Vec<Row> {
         },
         cases: vec![oscillator()],
     };
-    conduct(&experiment, workers(), &UNBOUNDED, |_| {}).rows
+    conduct(&experiment, workers(), &UNBOUNDED, |_| {}).0
 }
 
 /// The error of a weight that moves as cos wt: the largest of ten checkpoints.
@@ -138,7 +138,7 @@ fn options(scenes: &[&str], cells: u32) -> Options {
 }
 
 fn made(options: Options, threads: NonZero<usize>) -> Vec<Row> {
-    conduct(&Pareto::new(options), threads, &UNBOUNDED, |_| {}).rows
+    conduct(&Pareto::new(options), threads, &UNBOUNDED, |_| {}).0
 }
 
 #[test]
@@ -178,17 +178,11 @@ fn an_interrupted_table_has_a_row_for_each_run() {
         stop: &stop,
         ..UNBOUNDED
     };
-    let conducted = conduct(
-        &Pareto::new(options(&["swing"], 4)),
-        workers(),
-        &bounds,
-        |_| {},
-    );
-    assert_eq!(
-        (conducted.done, conducted.rows.len()),
-        (0, conducted.planned)
-    );
-    let mut rows = conducted.rows.iter();
+    let experiment = Pareto::new(options(&["swing"], 4));
+    let (rows, done) = conduct(&experiment, workers(), &bounds, |_| {});
+    let planned = experiment.plan().concat().len();
+    assert_eq!((done, rows.len()), (0, planned));
+    let mut rows = rows.iter();
     assert!(rows.all(|row| row.status == Status::Interrupted && row.cost(false).is_none()));
 }
 

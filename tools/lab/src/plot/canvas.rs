@@ -14,9 +14,12 @@ pub(super) const END: &str = " text-anchor=\"end\"";
 pub(super) const HALO: &str = " paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"";
 
 /// The attribute of a text that is read upward, turned about its place.
-pub(super) fn upward([x, y]: [f64; 2]) -> String {
+pub(super) fn upward([x, y]: Place) -> String {
     format!("{MIDDLE} transform=\"rotate(-90 {x:.1} {y:.1})\"")
 }
+
+/// A place in pixels: to the right and down.
+pub(super) type Place = [f64; 2];
 
 /// The size of a text in pixels, its colour, and its attributes.
 pub(super) type Style<'a> = (f64, Colour, &'a str);
@@ -42,7 +45,7 @@ impl Canvas {
         writeln!(self.text, "{element}").expect("a string grows");
     }
 
-    pub(super) fn text(&mut self, text: &str, [x, y]: [f64; 2], style: Style<'_>) {
+    pub(super) fn text(&mut self, text: &str, [x, y]: Place, style: Style<'_>) {
         let (size, colour, attributes) = style;
         if !text.is_empty() {
             self.element(format_args!(
@@ -54,13 +57,8 @@ impl Canvas {
     }
 
     /// Writes a paragraph from a first line at this place on; returns where the next line would stand.
-    pub(super) fn paragraph(
-        &mut self,
-        text: &str,
-        [x, mut y]: [f64; 2],
-        width: f64,
-        style: Style<'_>,
-    ) -> f64 {
+    pub(super) fn paragraph(&mut self, text: &str, at: Place, width: f64, style: Style<'_>) -> f64 {
+        let [x, mut y] = at;
         for line in wrapped(text, width, style.0) {
             self.text(&line, [x, y], style);
             y += style.0 + 4.0;
@@ -92,7 +90,7 @@ impl Canvas {
     }
 
     /// Draws a mark, with words that appear where the pointer rests on it.
-    pub(super) fn mark(&mut self, mark: Mark, [x, y]: [f64; 2], hover: &str) {
+    pub(super) fn mark(&mut self, mark: Mark, [x, y]: Place, hover: &str) {
         if !(x.is_finite() && y.is_finite()) {
             return;
         }
@@ -105,10 +103,8 @@ impl Canvas {
             (false, false) => (&*colour, "#fff", 0.6),
         };
         let width = width / mark.size;
-        let title = match hover.is_empty() {
-            true => String::new(),
-            false => format!("<title>{}</title>", escaped(hover)),
-        };
+        let title = format!("<title>{}</title>", escaped(hover));
+        let title = if hover.is_empty() { "" } else { &title };
         self.element(format_args!(
             "<path d=\"{path}\" transform=\"translate({x:.1} {y:.1}) scale({:.1})\" fill=\"{fill}\" \
              stroke=\"{stroke}\" stroke-width=\"{width:.2}\">{title}</path>",

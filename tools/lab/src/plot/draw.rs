@@ -25,8 +25,8 @@ const RED_BORDER: &str = " stroke=\"#cc0000\" stroke-width=\"3\"";
 /// Returns a figure as the text of an SVG file.
 #[must_use]
 pub fn svg(figure: &Figure) -> String {
-    let columns = figure.columns.max(1);
-    let [panel_width, _] = figure.panel_size;
+    let (columns, size) = figure.layout;
+    let (columns, panel_width) = (columns.max(1), size[0]);
     let inner = (panel_width * columns as f64).max(640.0);
     let mut canvas = Canvas::default();
     let mut y = MARGIN + TITLE.0;
@@ -37,8 +37,7 @@ pub fn svg(figure: &Figure) -> String {
         let top = y;
         for (i, panel) in row.iter().enumerate() {
             let corner = [MARGIN + panel_width * i as f64, top];
-            let bottom = draw_panel(&mut canvas, panel, corner, figure.panel_size);
-            y = y.max(bottom);
+            y = y.max(draw_panel(&mut canvas, panel, [corner, size]));
         }
     }
     y += 10.0;
@@ -77,12 +76,8 @@ impl Frame<'_> {
 }
 
 /// Draws a panel with the words under it, and returns where it ends.
-fn draw_panel(
-    canvas: &mut Canvas,
-    panel: &Panel,
-    [left, top]: [f64; 2],
-    [width, height]: [f64; 2],
-) -> f64 {
+fn draw_panel(canvas: &mut Canvas, panel: &Panel, [at, size]: [[f64; 2]; 2]) -> f64 {
+    let ([left, top], [width, height]) = (at, size);
     let y = canvas.paragraph(&panel.title, [left, top + HEAD.0], width - 16.0, HEAD);
     let y = canvas.paragraph(&panel.about, [left, y], width - 20.0, REMARK);
     let names = panel.y.names.iter().map(|name| text_width(name, SMALL));
@@ -219,10 +214,8 @@ fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
 fn place_label(frame: &mut Frame<'_>, at: [f64; 2], width: f64) -> [f64; 2] {
     let ([_, right], [bottom, top]) = (frame.x.pixels, frame.y.pixels);
     let [x, y] = frame.at(at);
-    let left = match x + 8.0 + width > right + 14.0 {
-        true => x - 8.0 - width,
-        false => x + 8.0,
-    };
+    let has_room = x + 8.0 + width <= right + 14.0;
+    let left = if has_room { x + 8.0 } else { x - 8.0 - width };
     let around = |y: f64| [left, y - 6.0, left + width, y + 6.0];
     let offsets = (0..40).map(|i| f64::from((i + 1) / 2) * if i % 2 == 0 { 6.0 } else { -6.0 });
     let hits = |a: &[f64; 4], b: &[f64; 4]| {
@@ -248,8 +241,7 @@ mod tests {
     fn points_stand_between_the_ends_of_the_axes_in_proportion() {
         let mark = |at| Layer::Mark(at, Mark::new(Shape::DISC, INK), String::new());
         let figure = Figure {
-            columns: 1,
-            panel_size: [400.0, 300.0],
+            layout: (1, [400.0, 300.0]),
             panels: vec![Panel {
                 x: Axis::log("x"),
                 y: Axis::linear("y"),
@@ -286,8 +278,7 @@ mod tests {
     fn labels_at_one_point_stand_apart() {
         let label = |text: &str| Layer::Label([1.0, 1.0], text.to_owned(), INK);
         let figure = Figure {
-            columns: 1,
-            panel_size: [400.0, 300.0],
+            layout: (1, [400.0, 300.0]),
             panels: vec![Panel {
                 x: Axis::linear("x"),
                 y: Axis::linear("y"),

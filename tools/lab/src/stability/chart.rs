@@ -11,8 +11,7 @@ impl Chart for Stability {
             title: title(rows),
             about: "Red border: a failure without a message, or an outcome that is not the expected one."
                 .to_owned(),
-            columns: 2,
-            panel_size: [760.0, 660.0],
+            layout: (2, [760.0, 660.0]),
             panels: vec![steps(rows), scenes(rows)],
             footer: provenance.footer("", rows.iter().map(|row| row.status)),
             ..Figure::default()
@@ -67,10 +66,12 @@ fn outcome_in_words(row: &Row) -> String {
     }
 }
 
+const STEP_LABEL: &str = "step, as a multiple of the limit in theory, or of 2/ω if there is none";
+
 /// The map of single steps over all nets.
 fn steps(rows: &[Row]) -> Panel {
     let key = |row: &Row| Some([short(row.step_ratio?, 4), row.method.clone()]);
-    let map = map(rows, key, |of| {
+    let (axes, layers) = map(rows, key, |of| {
         let count = |is: fn(&Row) -> bool| of.iter().filter(|row| is(row)).count();
         let stable = count(|row| row.measured == Some(Status::Ok));
         let refused = count(|row| row.watched == Some(Status::Refused));
@@ -83,17 +84,11 @@ fn steps(rows: &[Row]) -> Panel {
         let refused = format!("{refused} refused");
         (outcome, vec![stable, "stable".to_owned(), refused])
     });
-    Panel {
-        title: "Steps on nets".to_owned(),
-        about: "Small motions of four nets at each stiffness: the nets on which they stay bounded without the \
-                guard, and those on which the guard refuses the step."
-            .to_owned(),
-        x: Axis {
-            label: "step, as a multiple of the limit in theory, or of 2/ω if there is none".to_owned(),
-            ..map.x
-        },
-        ..map
-    }
+    let about = "Small motions of four nets at each stiffness: the nets on which they stay bounded without the \
+                 guard, and those on which the guard refuses the step.";
+    let mut panel = Panel::new("Steps on nets", about, axes, layers);
+    panel.x.label = STEP_LABEL.to_owned();
+    panel
 }
 
 /// The map of scenes: the outcome with its measure, and the codes of the messages.
@@ -102,7 +97,7 @@ fn scenes(rows: &[Row]) -> Panel {
         let scene = row.measured.filter(|_| is_scene(row));
         scene.map(|_| [row.method.clone(), row.place.clone()])
     };
-    let map = map(rows, key, |of| {
+    let (axes, layers) = map(rows, key, |of| {
         let measure = of[0].measure.map(|x| format!(" · {}", short(x, 2)));
         let outcome = outcome_in_words(of[0]) + &measure.unwrap_or_default();
         let codes = of[0].codes.split(" | ").map(str::to_owned);
@@ -112,14 +107,11 @@ fn scenes(rows: &[Row]) -> Panel {
     });
     let abouts = TRIALS.iter();
     let abouts = abouts.map(|trial| format!("{}: {}.", trial.name, trial.about));
-    Panel {
-        title: "Scenes as a user plays them".to_owned(),
-        about: "The outcome; the largest strain, the error of positions or the largest energy as a multiple of \
-                that at the start; and the codes of all messages."
-            .to_owned(),
-        words: abouts.collect(),
-        ..map
-    }
+    let about = "The outcome; the largest strain, the error of positions or the largest energy as a multiple of \
+                 that at the start; and the codes of all messages.";
+    let mut panel = Panel::new("Scenes as a user plays them", about, axes, layers);
+    panel.words = abouts.collect();
+    panel
 }
 
 /// A map with a cell for all rows of the same key, which is the names along both axes, in their order in the
@@ -128,7 +120,7 @@ fn map(
     rows: &[Row],
     key: impl Fn(&Row) -> Option<[String; 2]>,
     cell: impl Fn(&[&Row]) -> (Status, Vec<String>),
-) -> Panel {
+) -> ([Axis; 2], Vec<Layer>) {
     let [mut xs, mut ys] = [Vec::new(), Vec::new()];
     for [x, y] in rows.iter().filter_map(&key) {
         for (name, names) in [(x, &mut xs), (y, &mut ys)] {
@@ -153,12 +145,7 @@ fn map(
             layers.push(Layer::Cell(at, colour(outcome), lines, is_marked));
         }
     }
-    Panel {
-        x: Axis::named(xs),
-        y: Axis::named(ys),
-        layers,
-        ..Panel::default()
-    }
+    ([xs, ys].map(Axis::named), layers)
 }
 
 fn colour(outcome: Status) -> Colour {

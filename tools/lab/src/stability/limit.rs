@@ -1,14 +1,13 @@
 //! Limits: small motions of nets at steps below and above the limit in theory.
 
-use tearmesh::Vector;
-use tearmesh_cloth::statistics::Random;
-use tearmesh_cloth::{Solver, StepError, System, Unstable, energy, recommended_step_s};
+use tearmesh_cloth::{Unstable, energy, recommended_step_s};
 
 use super::net::{NETS, omega_rad_per_s};
 use super::row::Row;
 use crate::experiment::Status;
 use crate::method::Method;
 use crate::pareto::status_of;
+use crate::sheet::random_vectors;
 
 /// The theoretical stability of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,20 +42,20 @@ pub const STIFFNESS_N_PER_M: [f64; 5] = [1e2, 1e3, 1e4, 1e5, 1e6];
 const STEP_RATIOS: [f64; 8] = [0.9, 0.998, 1.002, 1.1, 2.0, 10.0, 100.0, 1000.0];
 
 impl Theory {
-    /// Tries all steps of a method of this theory on all nets, and returns a row for each. `None` if it was
-    /// interrupted.
+    /// Tries all steps of a method of this theory on all nets, at each stiffness in N/m, and returns a row for each.
+    /// `None` if it was interrupted.
     pub(super) fn rows(
         self,
-        method: &str,
-        stiffness_n_per_m: &[f64],
+        name: &str,
+        stiffness: &[f64],
         stop: &dyn Fn() -> bool,
     ) -> Option<Vec<Row>> {
-        let method = Method::named(method).expect("a method of the list");
+        let method = Method::named(name).expect("a method of the list");
         let mut rows = Vec::new();
-        for (name, net) in NETS {
-            let unit_omega_rad_per_s = omega_rad_per_s(&net(1.0));
-            for &stiffness_n_per_m in stiffness_n_per_m {
-                let mut system = net(stiffness_n_per_m);
+        for (net, build) in NETS {
+            let unit_omega_rad_per_s = omega_rad_per_s(&build(1.0));
+            for &stiffness_n_per_m in stiffness {
+                let mut system = build(stiffness_n_per_m);
                 let omega_rad_per_s = unit_omega_rad_per_s * stiffness_n_per_m.sqrt();
                 let theory_s = match self {
                     Theory::UpTo(limit) => Some(limit / omega_rad_per_s),
@@ -65,64 +64,55 @@ impl Theory {
                 };
                 // Near a limit, motions must stay small even when they have grown.
                 let push_m = if self == Theory::Always { 1e-4 } else { 1e-10 };
-                push(&mut system, push_m * omega_rad_per_s);
-                let play = |dt_s, unstable| {
-                    let mut system = system.clone();
+                for (i, velocity) in random_vectors(&system, push_m * omega_rad_per_s) {
+                    system.state_mut().1[i] = velocity;
+                }
+                let kinetic_j = energy::kinetic_j(&system);
+                let (steps, kinetic_max_j) = match self {
+                    // Errors that sweeps leave in a taut net set it in motion.
+                    Theory::Always => (300, 4.0 * (kinetic_j + energy::elastic_j(&system))),
+                    // Just below a limit motions grow a hundredfold, just above it without bound but slowly.
+                    _ => (3000, 1e6 * kinetic_j),
+                };
+                // Takes steps until one fails or the motion has grown too much.
+                let play = |dt_s: f64, unstable| {
+                    let (mut system, mut solver) = (system.clone(), method.solver());
                     system.when_unstable(unstable);
-                    self.play(method.solver(), system, dt_s, stop)
+                    for _ in 0..steps {
+                        if stop() {
+                            return None;
+                        }
+                        if let Err(error) = system.step(&mut *solver, dt_s) {
+                            return Some((status_of(&error), error.code()));
+                        }
+                        let is_bounded = energy::kinetic_j(&system) <= kinetic_max_j;
+                        // Written so that NaN has blown up.
+                        if !is_bounded {
+                            return Some((Status::BlownUp, ""));
+                        }
+                    }
+                    Some((Status::Ok, ""))
                 };
                 for step_ratio in STEP_RATIOS {
                     let dt_s = step_ratio * theory_s.unwrap_or(2.0 / omega_rad_per_s);
                     let (measured, _) = play(dt_s, Unstable::Allow)?;
-                    let (watched, error) = play(dt_s, Unstable::Refuse)?;
-                    let row = Row {
-                        place: name.to_owned(),
+                    let (watched, code) = play(dt_s, Unstable::Refuse)?;
+                    rows.push(self.assessed(Row {
+                        place: net.to_owned(),
                         stiffness_n_per_m: Some(stiffness_n_per_m),
                         method: method.family.name().to_owned(),
                         step_ratio: Some(step_ratio),
                         dt_s: Some(dt_s),
                         measured: Some(measured),
                         watched: Some(watched),
-                        codes: error.map_or("", |error| error.code()).to_owned(),
+                        codes: code.to_owned(),
                         status: Status::Ok,
                         ..Row::default()
-                    };
-                    rows.push(self.assessed(row));
+                    }));
                 }
             }
         }
         Some(rows)
-    }
-
-    /// Takes steps until one fails or the motion has grown too much. `None` is an interruption.
-    fn play(
-        self,
-        mut solver: Box<dyn Solver>,
-        mut system: System,
-        dt_s: f64,
-        stop: &dyn Fn() -> bool,
-    ) -> Option<(Status, Option<StepError>)> {
-        let kinetic_j = energy::kinetic_j(&system);
-        let (steps, kinetic_max_j) = match self {
-            // Errors that sweeps leave in a taut net set it in motion.
-            Theory::Always => (300, 4.0 * (kinetic_j + energy::elastic_j(&system))),
-            // Just below a limit motions grow a hundredfold, just above it without bound but slowly.
-            _ => (3000, 1e6 * kinetic_j),
-        };
-        for _ in 0..steps {
-            if stop() {
-                return None;
-            }
-            if let Err(error) = system.step(&mut *solver, dt_s) {
-                return Some((status_of(&error), Some(error)));
-            }
-            let is_bounded = energy::kinetic_j(&system) <= kinetic_max_j;
-            // Written so that NaN has blown up.
-            if !is_bounded {
-                return Some((Status::BlownUp, None));
-            }
-        }
-        Some((Status::Ok, None))
     }
 
     /// Compares the row of a step with theory.
@@ -149,17 +139,6 @@ impl Theory {
             agrees: Some(is_guarded && (expected.is_none() || expected == step.measured)),
             is_silent: Some(has_failed && (is_admitted || step.codes.is_empty())),
             ..step
-        }
-    }
-}
-
-/// Gives all free particles velocities at random.
-fn push(system: &mut System, most_m_per_s: f64) {
-    let mut random = Random::new(1);
-    for i in 0..system.positions().len() {
-        if !system.is_held(i) {
-            let mut push = || most_m_per_s * (2.0 * random.next() - 1.0);
-            system.state_mut().1[i] = Vector::new(push(), push(), push());
         }
     }
 }

@@ -33,9 +33,8 @@ const LINKS: usize = 16;
 /// Links in a row, `taut` times as long as at rest. The first particle is held, and the last too if they are
 /// taut.
 fn links(taut: f64, stiffness: f64) -> System {
-    let points: Vec<Point> = (0..=LINKS)
-        .map(|i| Point::new(0.1 * i as f64, 0.0, 0.0))
-        .collect();
+    let points = (0..=LINKS).map(|i| Point::new(0.1 * i as f64, 0.0, 0.0));
+    let points: Vec<Point> = points.collect();
     let springs = (0..LINKS).map(|i| ([i, i + 1], 0.1 / taut));
     let mut net = system(&points, vec![0.01; LINKS + 1], springs, stiffness);
     net.hold(0);
@@ -110,13 +109,10 @@ fn is_above(number: f64, matrix: &[Vec<f64>]) -> bool {
         for j in 0..=i {
             let sum: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
             let left = if i == j { number } else { 0.0 } - matrix[i][j] - sum;
-            if i == j && left <= 0.0 {
-                return false;
-            }
-            factor[i][j] = if i == j {
-                left.sqrt()
-            } else {
-                left / factor[j][j]
+            factor[i][j] = match i == j {
+                true if left <= 0.0 => return false,
+                true => left.sqrt(),
+                false => left / factor[j][j],
             };
         }
     }

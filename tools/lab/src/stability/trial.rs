@@ -221,9 +221,8 @@ impl Trial {
             let judged = judge.map(|(measure, most)| (measure(&played, &reference), most));
             // Written so that NaN is wrong.
             let is_right = judged.is_none_or(|(measure, most)| measure <= most);
-            let measured = played
-                .failure
-                .unwrap_or(if is_right { Fine } else { Wrong });
+            let judgement = if is_right { Fine } else { Wrong };
+            let measured = played.failure.unwrap_or(judgement);
             Some(Row {
                 place: self.name.to_owned(),
                 method: method.name.to_owned(),
@@ -257,23 +256,20 @@ impl Trial {
         let mut scene = self.scene(method.unwrap_or(Method::Verlet), &frame);
         let step_s = ready(scene.clone()).step_s();
         (self.adjust)(&mut scene, step_s);
-        if is_reference {
-            scene.step_s = Some(step_s / FINER);
-        }
-        let mut run = ready(scene);
-        if is_reference {
-            run = run.with_solver(Reference::new(mesh.indices()));
-        }
+        // The lengths that sweeps leave belong to no force.
+        let is_swept = matches!(scene.solver, Method::Xpbd(_) | Method::Pbd(_));
+        let mut run = match is_reference {
+            false => ready(scene),
+            true => {
+                scene.step_s = Some(step_s / FINER);
+                ready(scene).with_solver(Reference::new(mesh.indices()))
+            }
+        };
         let energies_j = |run: &Run| {
             let system = run.cloth().system();
             [energy::kinetic_j(system), energy::elastic_j(system)]
         };
         let start_j: f64 = energies_j(&run).iter().sum();
-        // The lengths that sweeps leave belong to no force.
-        let counted = match run.scene().solver {
-            Method::Xpbd(_) | Method::Pbd(_) => 1,
-            _ => 2,
-        };
         let (mut error, mut energy) = (None, 1.0_f64);
         let mut positions = vec![self.bulged(rest.as_slice(), 0.0)];
         while error.is_none() && !run.is_over() {
@@ -285,7 +281,8 @@ impl Trial {
             if steps * MOMENTS / planned > positions.len() as u64 - 1 {
                 positions.push(run.cloth().positions().to_vec());
             }
-            let now_j: f64 = energies_j(&run)[..counted].iter().sum();
+            let [kinetic_j, elastic_j] = energies_j(&run);
+            let now_j = kinetic_j + if is_swept { 0.0 } else { elastic_j };
             energy = energy.max(now_j / start_j);
         }
         let warnings = [Warning::before(&run, &frame), Warning::after(&run)].concat();

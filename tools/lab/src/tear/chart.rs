@@ -40,8 +40,7 @@ impl Chart for Tear {
             title: title(rows),
             about: "Trouser tests of strips on several meshes, and ensembles of whole tears."
                 .to_owned(),
-            columns: 3,
-            panel_size: [390.0, 330.0],
+            layout: (3, [390.0, 330.0]),
             panels,
             footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
             ..Figure::default()
@@ -85,22 +84,13 @@ fn strips(rows: &[Row]) -> Panel {
             layers.push(Layer::Label(points[0], text, colour));
         }
         let mark = Mark::new(Shape::DISC, colour);
-        layers.extend(
-            points
-                .iter()
-                .map(|&at| Layer::Mark(at, mark, String::new())),
-        );
+        let marks = points.iter();
+        layers.extend(marks.map(|&at| Layer::Mark(at, mark, String::new())));
         layers.push(Layer::Line(points, colour, 2.0));
     }
-    Panel {
-        title: "Force to tear a strip".to_owned(),
-        about: "slopes of the logarithms: 1 is proportional, 0 is independent of the mesh"
-            .to_owned(),
-        x: Axis::log("length of edges, mm"),
-        y: Axis::log("largest force, N"),
-        layers,
-        ..Panel::default()
-    }
+    let about = "slopes of the logarithms: 1 is proportional, 0 is independent of the mesh";
+    let axes = ["length of edges, mm", "largest force, N"].map(Axis::log);
+    Panel::new("Force to tear a strip", about, axes, layers)
 }
 
 /// What the strips show.
@@ -224,17 +214,10 @@ impl Ensembles {
             }
         }
         let is_log = least > 0.0 && most > 20.0 * least && most.is_finite();
-        Panel {
-            title: format!("{}: {}", self.name, self.quantity),
-            about: self.about(),
-            x: Axis::named(names),
-            y: Axis {
-                is_log,
-                ..Axis::linear(self.quantity)
-            },
-            layers,
-            ..Panel::default()
-        }
+        let title = format!("{}: {}", self.name, self.quantity);
+        let y = [Axis::linear, Axis::log][usize::from(is_log)];
+        let axes = [Axis::named(names), y(self.quantity)];
+        Panel::new(&title, &self.about(), axes, layers)
     }
 
     fn words(&self) -> String {

@@ -20,7 +20,7 @@ fn made(strips: &[u32], seeds: u64) -> Vec<Row> {
         clock: None,
         stop: &|| false,
     };
-    conduct(&tear(strips, seeds), workers(), &bounds, |_| {}).rows
+    conduct(&tear(strips, seeds), workers(), &bounds, |_| {}).0
 }
 
 /// The force at which an edge tears is k ε h by stretch and √(2 k G h) by toughness: slopes of one and of a half
@@ -62,14 +62,10 @@ fn interrupted_keys_are_rows_with_that_status() {
         clock: None,
         stop: &|| true,
     };
-    let conducted = conduct(&tear(&[4, 6], 2), workers(), &bounds, |_| {});
-    assert_eq!((conducted.done, conducted.rows.len()), (0, 4 + 12));
-    assert!(
-        conducted
-            .rows
-            .iter()
-            .all(|row| row.status == Status::Interrupted)
-    );
+    let (rows, done) = conduct(&tear(&[4, 6], 2), workers(), &bounds, |_| {});
+    assert_eq!((done, rows.len()), (0, 4 + 12));
+    let mut rows = rows.iter();
+    assert!(rows.all(|row| row.status == Status::Interrupted));
 }
 
 /// Sixteen runs by a method at each step, whose torn lengths are around these medians.
