@@ -96,9 +96,13 @@ fn strips(rows: &[Row]) -> Panel {
 /// What the strips show.
 fn title(rows: &[Row]) -> String {
     match RULES.map(|(rule, _)| slope(&forces(rows, rule))) {
-        [Some(stretch), Some(toughness)] => format!(
+        [Some(stretch), Some(toughness)] if toughness.abs() < 0.5 * stretch => format!(
             "By stretch ratio the force to tear depends on the mesh (slope {stretch:+.2}), by toughness much less \
              ({toughness:+.2}): where forces matter, use --toughness"
+        ),
+        [Some(stretch), Some(toughness)] => format!(
+            "By both rules the force to tear depends on the mesh (slope {stretch:+.2} by stretch ratio, \
+             {toughness:+.2} by toughness)"
         ),
         _ => "After the first tear, only distributions over many seeds compare".to_owned(),
     }

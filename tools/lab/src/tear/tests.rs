@@ -56,6 +56,35 @@ fn table_and_figure_have_a_row_for_every_run_and_survive_a_file() {
     assert!(!figure(&read).contains("NaN"));
 }
 
+/// Slopes by hand: forces that are proportional to the length of edges, or to its root, or nearly the same.
+#[test]
+fn title_says_that_toughness_depends_less_on_the_mesh_only_if_it_does() {
+    let title = |power: f64| {
+        let rules = [(Rule::Stretch, 1.0), (Rule::Toughness, power)];
+        let rows = rules.into_iter().flat_map(|(rule, power)| {
+            [8, 16].map(|cells| Row {
+                cells,
+                rule: Some(rule),
+                largest_force_n: Some(f64::from(cells).powf(-power)),
+                ..Row::default()
+            })
+        });
+        let rows: Vec<Row> = rows.collect();
+        tear(&[8, 16], 0)
+            .figure(&rows, &Provenance::default())
+            .title
+    };
+    let [little, much] = [0.25, 0.75].map(title);
+    assert!(
+        little.contains("(slope +1.00), by toughness much less (+0.25)"),
+        "{little}"
+    );
+    assert!(
+        much.contains("+0.75 by toughness)") && !much.contains("less"),
+        "{much}"
+    );
+}
+
 #[test]
 fn interrupted_keys_are_rows_with_that_status() {
     let bounds = Bounds {
