@@ -145,7 +145,7 @@ fn made(options: Options, threads: NonZero<usize>) -> Vec<Row> {
 fn table_and_figure_do_not_depend_on_threads_and_survive_a_file() {
     let options = Options {
         stiffness_n_per_m: vec![1e3, 1e4],
-        ..options(&["swing", "crushed"], 4)
+        ..options(&["swing", "crushed"], 3)
     };
     let experiment = Pareto::new(options.clone());
     let one = NonZero::<usize>::MIN;
