@@ -21,7 +21,7 @@
 //! faces along it stay divided as far as points on their edges reach.
 //!
 //! The result is a mesh of its own, with maps back, and no edit of the old one: an edit would renumber
-//! faces, and every follower would have to know of that. (`tearmesh-obj` does the same with a file, whose
+//! faces, and every follower would have to know of that. (`tearmesh-obj` carries out the same plan with a file, whose
 //! record outlives the log, and has positions, texture and other programs to reckon with.)
 
 use crate::edit::{CornerSource, Cursor, Edit, FaceFamily, Follower};

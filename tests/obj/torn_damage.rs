@@ -241,6 +241,21 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
     warns(&lonely, "W-OBJ-RECORD", (6, 1), message);
 }
 
+/// What a record says of faces is not believed before the file is known to have them.
+#[test]
+fn regression_faces_that_a_file_has_not_take_no_memory() {
+    let items = "#~ parent 1 4000000000 1 2 3\n#~ again 0 1 2 3 3999999999\n";
+    let hash = hash(items.as_bytes());
+    let file = format!(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
+         #tearmesh record 4 v 3 f 4000000000 vt 0 0 vn 0 0 faces {hash:016x}\n{items}\
+         #tearmesh end 2 {hash:016x}\n",
+    );
+    let message = "this record is not used, since another program changed the file: \
+                   it had 4000000000 `f`, and has 1";
+    is_plain(&warns(&file, "W-OBJ-RECORD", (5, 1), message));
+}
+
 /// Copies anywhere, and lists of what was inserted.
 #[test]
 fn what_version_2_adds_is_checked_as_well() {

@@ -221,6 +221,20 @@ impl Document {
         &self.diagnostics
     }
 
+    /// All numbers of the `v` of a vertex.
+    pub(crate) fn numbers(&self, vertex: usize) -> Vec<f64> {
+        let place: [f64; 3] = self.positions[vertex].into();
+        [&place, self.extras.row(vertex)].concat()
+    }
+
+    /// The numbers of a texture coordinate (0) or a normal (1).
+    pub(crate) fn value(&self, which: usize, index: u32) -> &[f64] {
+        match which {
+            0 => self.texture.row(index as usize),
+            _ => &self.normals[index as usize],
+        }
+    }
+
     /// The corner of all polygons' corners that a corner of a triangle is.
     #[inline]
     pub(crate) fn corner_of_polygon(

@@ -1,12 +1,12 @@
-//! Faces that were divided again: which faces cover each, where what covers a parent came about in
-//! several steps.
+//! Divided faces: which faces cover each, where parts were divided again.
+
+use std::ops::Range;
 
 use crate::store::push;
 
 const NONE: u32 = u32::MAX;
 
-/// Divided faces within parents. Each is covered by its own faces and by the divided ones whose `above`
-/// it is.
+/// Divided faces. Each is covered by its own faces and by the divided ones whose `above` it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Families {
     all: Vec<Family>,
@@ -15,12 +15,13 @@ pub(crate) struct Families {
     of_face: Vec<u32>,
 }
 
-/// A face that was divided and was part of a divided one.
+/// A divided face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Family {
     /// The classes at its corners, in its order.
     pub(crate) corners: [u32; 3],
-    /// The family that it was part of, which has a lower number; `None` for a parent.
+    /// The family that it was part of, which has a lower number; `None` for one that was no part, the
+    /// parent of all that is within.
     pub(crate) above: Option<u32>,
 }
 
@@ -40,15 +41,15 @@ impl Families {
         push(&mut self.all, family);
     }
 
-    /// Gives a face to the last family.
-    pub(crate) fn give(&mut self, face: usize) {
+    /// Gives a face to a family.
+    pub(crate) fn give(&mut self, face: usize, family: u32) {
         while self.of_face.len() <= face {
             push(&mut self.of_face, NONE);
         }
-        self.of_face[face] = self.all.len() as u32 - 1;
+        self.of_face[face] = family;
     }
 
-    /// Divides a face again, that has these corners, into others.
+    /// Divides a face that has these corners into others.
     pub(crate) fn divide(
         &mut self,
         face: usize,
@@ -56,17 +57,61 @@ impl Families {
         into: impl Iterator<Item = usize>,
     ) {
         let above = self.of(face);
+        let number = self.all.len() as u32;
         self.add(Family { corners, above });
-        into.for_each(|face| self.give(face));
+        into.for_each(|face| self.give(face, number));
     }
 
-    /// The outermost family of a face.
-    pub(crate) fn outermost(&self, face: usize) -> Option<u32> {
-        let mut family = self.of(face)?;
+    /// The outermost of the families that contain this one, which may be itself.
+    pub(crate) fn outermost(&self, mut family: u32) -> u32 {
         while let Some(above) = self.all[family as usize].above {
             family = above;
         }
-        Some(family)
+        family
+    }
+
+    /// Makes a family without `above` a part of another one.
+    pub(crate) fn put_within(&mut self, family: u32, above: u32) {
+        self.all[family as usize].above = Some(above);
+    }
+
+    /// The parents and the faces that cover each, in the order of these.
+    pub(crate) fn parents(&self) -> Vec<(u32, Range<u32>)> {
+        let mut parents: Vec<(u32, Range<u32>)> = Vec::new();
+        for face in 0..self.of_face.len() {
+            let Some(family) = self.of(face) else {
+                continue;
+            };
+            let (parent, face) = (self.outermost(family), face as u32);
+            match parents.last_mut() {
+                Some((last, faces)) if *last == parent => faces.end = face + 1,
+                _ => parents.push((parent, face..face + 1)),
+            }
+        }
+        parents
+    }
+
+    /// The families that stay, where the faces are others and belong to these.
+    pub(crate) fn of_faces(
+        &self,
+        faces: impl Iterator<Item = Option<u32>>,
+        stays: impl Fn(usize) -> bool,
+    ) -> Families {
+        let mut families = Families::default();
+        let mut numbers = Vec::with_capacity(self.all.len());
+        for (number, family) in self.all.iter().enumerate() {
+            numbers.push(families.all.len() as u32);
+            if stays(number) {
+                let above = family.above.map(|above| numbers[above as usize]);
+                families.add(Family { above, ..*family });
+            }
+        }
+        for (face, family) in faces.enumerate() {
+            if let Some(family) = family {
+                families.give(face, numbers[family as usize]);
+            }
+        }
+        families
     }
 
     /// Renames the classes at corners.

@@ -147,12 +147,12 @@
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`), by way of a text |
 //! | `repair.rs` | repair of defects, on request |
 //! | `coincident.rs` | coincident boundary edges that no record explains |
-//! | `torn.rs`, `torn/` | edits of a document: corners, splits, order, removable and edited vertices |
-//! | `record.rs`, `families.rs` | the contents of the record, and its checksum; faces that were divided again |
+//! | `torn.rs`, `torn/` | edits of a document: corners, splits, order |
+//! | `record.rs`, `families.rs` | the contents of the record, and its checksum; divided faces |
 //! | `sections.rs`, `order.rs` | the ends of objects, and the order and numbers of written statements |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, fans, the record, numbers, pieces |
 //! | `slides.rs` | vertices that slid, and their earlier values |
-//! | `simplify.rs` | a document without vertices that can be removed |
+//! | `simplify.rs`, `simplify/` | a document without what can be undone: the plan, and what was edited |
 //! | `diagnostic.rs`, `keyword.rs` | diagnostics; the keywords of the format |
 //!
 //! This crate reads and writes streams of bytes. Opening files, replacing them as a whole, and

@@ -26,7 +26,7 @@ pub(crate) struct Added {
 /// The statements of a kind in the order of writing.
 #[derive(Debug)]
 pub(crate) struct Order {
-    /// The number in the file of each element, from 0, or [`NONE`] for what is left out. `None` if
+    /// The number in the file of each element, from 0. `None` if
     /// every statement of the document is written, nothing is added, and numbers stay.
     numbers: Option<Vec<u32>>,
     /// The element that each statement of the document is, or [`NONE`]; `None` if each is the element
@@ -50,49 +50,35 @@ impl Order {
         }
     }
 
-    /// The order of elements, each of which has its turn or is left out, in a document with a given
-    /// number of statements.
-    pub(crate) fn new(
-        statements: usize,
-        elements: usize,
-        turns: impl Iterator<Item = Option<Turn>>,
-    ) -> Order {
-        let mut numbers = vec![NONE; elements];
+    /// The order of elements with these turns, in a document with a given number of statements.
+    pub(crate) fn new(statements: usize, turns: impl Iterator<Item = Turn>) -> Order {
         let mut elements = vec![NONE; statements];
         let mut added = Vec::new();
+        let mut count = 0;
         for (turn, element) in turns.zip(0..) {
+            count += 1;
             match turn {
-                Some(Turn::Own(statement)) => elements[statement as usize] = element,
-                Some(Turn::Added { behind, rank }) => added.push(Added {
+                Turn::Own(statement) => elements[statement as usize] = element,
+                Turn::Added { behind, rank } => added.push(Added {
                     behind,
                     rank,
                     element,
                 }),
-                None => {}
             }
         }
         added.sort_unstable();
-        let mut count = 0;
-        let mut number = |element: u32| {
-            numbers[element as usize] = count;
-            count += 1;
-        };
-        let mut left = added.iter().peekable();
-        for (&element, statement) in elements.iter().zip(0..) {
-            while let Some(first) = left.next_if(|first| first.behind <= statement) {
-                number(first.element);
-            }
-            if element != NONE {
-                number(element);
-            }
-        }
-        left.for_each(|last| number(last.element));
-        Order {
-            count: count as usize,
-            numbers: Some(numbers),
+        let mut order = Order {
+            numbers: None,
             elements: Some(elements),
             added,
+            count,
+        };
+        let mut numbers = vec![NONE; count];
+        for (element, number) in order.in_order().into_iter().zip(0..) {
+            numbers[element as usize] = number;
         }
+        order.numbers = Some(numbers);
+        order
     }
 
     /// How many are written.
@@ -105,10 +91,6 @@ impl Order {
     pub(crate) fn number(&self, element: u32) -> u32 {
         let numbers = self.numbers.as_ref();
         numbers.map_or(element, |numbers| numbers[element as usize])
-    }
-
-    pub(crate) fn has(&self, element: u32) -> bool {
-        self.number(element) != NONE
     }
 
     /// The element that a statement of the document is, if it is written.
@@ -125,17 +107,20 @@ impl Order {
         &self.added
     }
 
-    /// The elements that are written, in order.
+    /// The elements, in the order of writing.
     pub(crate) fn in_order(&self) -> Vec<u32> {
-        let Some(numbers) = &self.numbers else {
+        let Some(elements) = &self.elements else {
             return (0..self.count as u32).collect();
         };
-        let mut order = vec![NONE; self.count];
-        for (&number, element) in numbers.iter().zip(0..) {
-            if number != NONE {
-                order[number as usize] = element;
+        let mut order = Vec::with_capacity(self.count);
+        let mut left = self.added.iter().peekable();
+        for (&element, statement) in elements.iter().zip(0..) {
+            while let Some(first) = left.next_if(|first| first.behind <= statement) {
+                order.push(first.element);
             }
+            order.extend(Some(element).filter(|&element| element != NONE));
         }
+        order.extend(left.map(|last| last.element));
         order
     }
 }

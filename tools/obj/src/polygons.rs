@@ -49,6 +49,12 @@ impl Polygons {
         }
     }
 
+    /// The texture coordinate and the normal of a corner.
+    #[inline]
+    pub(crate) fn indices(&self, corner: usize) -> [Option<u32>; 2] {
+        [self.texture.get(corner), self.normals.get(corner)]
+    }
+
     /// The triangles of a polygon: a polygon of n corners has n − 2, so the corners before
     /// it say how many come before.
     #[inline]

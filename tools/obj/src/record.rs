@@ -27,14 +27,11 @@ pub(crate) struct Record {
     pub(crate) splits: Vec<SplitOff>,
     /// Ascending.
     pub(crate) inserted: Vec<Inserted>,
-    /// Ascending, and apart.
-    pub(crate) parents: Vec<Parent>,
-    /// Parts of parents that were divided again.
+    /// Divided faces.
     pub(crate) families: Families,
     /// Texture coordinates and normals that were inserted: the first of each run, and the one behind
     /// its last. Ascending, and apart.
-    pub(crate) texture: Vec<[u32; 2]>,
-    pub(crate) normals: Vec<[u32; 2]>,
+    pub(crate) new_indices: [Vec<[u32; 2]>; 2],
     pub(crate) slides: Slides,
     /// Ascending.
     pub(crate) apart: Vec<Apart>,
@@ -123,15 +120,6 @@ impl At {
     }
 }
 
-/// Faces that cover what was one face: `first` and those behind it, before `end`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Parent {
-    pub(crate) first: u32,
-    pub(crate) end: u32,
-    /// The roots at its corners, in its order.
-    pub(crate) corners: [u32; 3],
-}
-
 /// A vertex that its `v` puts elsewhere, so that the two sides of a cut do not lie on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Apart {
@@ -152,7 +140,7 @@ impl Record {
     pub(crate) fn is_empty(&self) -> bool {
         self.splits.is_empty()
             && self.inserted.is_empty()
-            && self.parents.is_empty()
+            && self.families.all().is_empty()
             && self.slides.is_empty()
             && self.apart.is_empty()
     }
@@ -200,9 +188,6 @@ impl Record {
         for inserted in &mut self.inserted {
             inserted.vertex = id(inserted.vertex);
             inserted.at = inserted.at.map(&id);
-        }
-        for parent in &mut self.parents {
-            parent.corners = parent.corners.map(&id);
         }
         self.families.renumber(&id);
         self.slides = self.slides.filtered(|_, v| Some(id(v)), |_, index| index);

@@ -1,11 +1,24 @@
 //! Removes vertices that cuts inserted, and puts back vertices that cuts moved.
+//!
+//! What can be undone follows from a file and its record alone (`simplify/plan.rs`), so an edited document
+//! is written and read first. Then the plan is applied to the statements.
 
-use tearmesh::{Mesh, Positions};
+mod past;
+mod plan;
 
+use std::collections::BTreeMap;
+
+use tearmesh::{HalfEdgeId, Mesh, Point, Positions};
+
+use self::plan::Undo;
 use crate::diagnostic::ReadError;
 use crate::document::Document;
+use crate::polygons::Corner;
+use crate::read::text::without_statements_of_vertex;
+use crate::record::{Record, runs};
+use crate::slides::Exchange;
+use crate::store::Kind;
 use crate::torn::TornDocument;
-use crate::write::{Prepared, write};
 
 /// A simplified document, and counts of the vertices that had to stay or were put back. Returned by
 /// [`TornDocument::simplified`].
@@ -53,9 +66,11 @@ impl TornDocument<'_> {
     /// in the record.
     ///
     /// If a cut is mended completely and nothing was edited, the result when written is byte for byte
-    /// the file before the cut.
+    /// the file before the cut. Only `v` that had to be moved up before a face with new vertices, since
+    /// other statements may name vertices by number, stay there.
     ///
-    /// The result is written and read again: linear in the document, with memory for one more file.
+    /// The document is written and read again before and after: linear in the document, with memory for
+    /// two more files.
     ///
     /// # Errors
     ///
@@ -87,28 +102,233 @@ impl TornDocument<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn simplified(&self, mesh: &Mesh, positions: &Positions) -> Result<Simplified, ReadError> {
-        self.assert_in_step(mesh, positions);
-        let (removal, found) = self.removal(mesh, positions);
-        let simplified = Simplified {
-            document: None,
-            edited: found.edited,
-            slid_back: found.slid_back,
-            slid_edited: found.slid_edited,
+        let document = written(self, mesh, positions)?;
+        let Some(record) = document.record.as_deref() else {
+            return Ok(Simplified::default());
         };
-        let Some(removal) = removal else {
-            return Ok(simplified);
-        };
-        let mut bytes = Vec::new();
-        write(
-            self,
-            &Prepared::new(self, mesh, Some(&removal), self.apart(positions)),
-            positions,
-            &mut bytes,
-        )?;
-        let document = Some(Document::read(&bytes[..])?);
+        let mesh = document.mesh().expect("the mesh that was written");
+        let undo = Undo::find(&document, record, &mesh);
+        let rest = Rest::of(&document, record, &mesh, &undo);
+        let mut divided = 0..record.families.all().len();
+        let is_changed = divided.any(|family| undo.restored(family).is_some());
+        let is_changed = is_changed || !rest.put_back.is_empty();
         Ok(Simplified {
-            document,
-            ..simplified
+            document: is_changed.then(|| rest.document()).transpose()?,
+            edited: undo.edited,
+            slid_back: rest.put_back.len(),
+            slid_edited: undo.slid_edited(),
         })
     }
+}
+
+/// A torn document, written and read again.
+fn written(
+    torn: &TornDocument<'_>,
+    mesh: &Mesh,
+    positions: &Positions,
+) -> Result<Document, ReadError> {
+    let mut bytes = Vec::new();
+    torn.write_in_place(mesh, positions, &mut bytes)?;
+    Document::read(&bytes[..])
+}
+
+/// What stays of a document.
+struct Rest<'d> {
+    document: &'d Document,
+    record: &'d Record,
+    undo: &'d Undo<'d>,
+    /// For each face, the corners of the one that takes its place, and the divided face that this is part
+    /// of.
+    faces: Vec<Option<[HalfEdgeId; 3]>>,
+    families: Vec<Option<u32>>,
+    /// For each vertex that stays and of which slides are undone, what its `v` has then, and which indices
+    /// its corners exchange, in this order.
+    put_back: BTreeMap<u32, (&'d [f64], Vec<Exchange>)>,
+}
+
+impl<'d> Rest<'d> {
+    fn of(document: &'d Document, record: &'d Record, mesh: &Mesh, undo: &'d Undo<'d>) -> Rest<'d> {
+        let mut faces: Vec<_> = mesh.faces().map(|f| Some(f.half_edges())).collect();
+        let mut families: Vec<_> = (0..faces.len()).map(|f| record.families.of(f)).collect();
+        // What is around takes the place of what is within, and has a lower number.
+        for (number, divided) in undo.divided.iter().enumerate().rev() {
+            let mut restored = undo.restored(number);
+            if restored.is_some() {
+                for f in &divided.faces {
+                    faces[f.index()] = restored.take();
+                    families[f.index()] = record.families.all()[number].above;
+                }
+            }
+        }
+        let mut put_back: BTreeMap<u32, (&[f64], Vec<Exchange>)> = BTreeMap::new();
+        for (slide, slid) in record.slides.iter().enumerate().rev() {
+            if undo.is_back[slide] && !undo.goes(slid.vertex) {
+                let (numbers, exchanges) = put_back.entry(slid.vertex).or_default();
+                *numbers = record.slides.before(slide);
+                let of_slide = record.slides.exchanges(slide);
+                exchanges.extend(of_slide.map(|(exchange, _)| exchange));
+            }
+        }
+        Rest {
+            document,
+            record,
+            undo,
+            faces,
+            families,
+            put_back,
+        }
+    }
+
+    /// The vertex, the texture coordinate and the normal of a corner, without the slides that are undone.
+    fn corner(&self, h: HalfEdgeId) -> [Option<u32>; 3] {
+        let vertex = self.document.polygons.vertices[h.index()];
+        let mut indices = self.document.polygons.indices(h.index());
+        let exchanges = self.put_back.get(&vertex).into_iter();
+        for exchange in exchanges.flat_map(|(_, exchanges)| exchanges) {
+            let index = &mut indices[exchange.which];
+            if *index == Some(exchange.new) {
+                *index = Some(exchange.old);
+            }
+        }
+        [Some(vertex), indices[0], indices[1]]
+    }
+
+    /// Whether a slide stays on record.
+    fn has_slide(&self, slide: usize) -> bool {
+        let vertex = self.record.slides.get(slide).vertex;
+        !self.undo.is_back[slide] && !self.undo.goes(vertex)
+    }
+
+    /// Whether each vertex, texture coordinate and normal stays. Of texture coordinates and normals that were
+    /// inserted, those do that a corner or a slide has.
+    fn stays(&self) -> [Vec<bool>; 3] {
+        let vertices = 0..self.document.positions.len() as u32;
+        let counts = [self.document.texture.len(), self.document.normals.len()];
+        let [mut texture, mut normals] = counts.map(|count| vec![true; count]);
+        for (stays, inserted) in [&mut texture, &mut normals]
+            .into_iter()
+            .zip(&self.record.new_indices)
+        {
+            for &[first, end] in inserted {
+                stays[first as usize..end as usize].fill(false);
+            }
+        }
+        let mut stays = [
+            vertices.map(|v| !self.undo.goes(v)).collect(),
+            texture,
+            normals,
+        ];
+        for &h in self.faces.iter().flatten().flatten() {
+            for (stays, index) in stays.iter_mut().zip(self.corner(h)) {
+                index
+                    .into_iter()
+                    .for_each(|index| stays[index as usize] = true);
+            }
+        }
+        let slides = &self.record.slides;
+        for slide in (0..slides.len()).filter(|&slide| self.has_slide(slide)) {
+            for (Exchange { which, new, old }, _) in slides.exchanges(slide) {
+                stays[1 + which][new as usize] = true;
+                stays[1 + which][old as usize] = true;
+            }
+        }
+        stays
+    }
+
+    /// The document without what is removed, written and read again.
+    fn document(&self) -> Result<Document, ReadError> {
+        let document = self.document;
+        let stays = self.stays();
+        let numbers = stays.each_ref().map(|stays| numbers(stays));
+        let mut simple = Document {
+            layout: document.layout.clone(),
+            text: document.text.clone(),
+            record: Some(Box::new(self.record(&stays, &numbers))),
+            ..Document::default()
+        };
+        let staying = |of: usize| {
+            let stays = &stays[of];
+            (0..stays.len()).filter(|&index| stays[index])
+        };
+        for v in staying(0) {
+            let (at, extras) = match self.put_back.get(&(v as u32)) {
+                Some(&([x, y, z, extras @ ..], _)) => (Point::new(*x, *y, *z), extras),
+                _ => (document.positions[v], document.extras.row(v)),
+            };
+            if !extras.is_empty() {
+                simple.extras.set(simple.positions.len(), extras);
+            }
+            simple.positions.push(at);
+        }
+        for index in staying(1) {
+            simple
+                .texture
+                .set(simple.texture.len(), document.texture.row(index));
+        }
+        simple.normals = staying(2).map(|index| document.normals[index]).collect();
+        for corners in self.faces.iter().flatten() {
+            simple.polygons.add(corners.iter().map(|&h| {
+                let corner = self.corner(h);
+                let number = |of: usize| Some(numbers[of][corner[of]? as usize]);
+                Corner {
+                    vertex: number(0).expect("a corner has a vertex"),
+                    texture: number(1),
+                    normal: number(2),
+                }
+            }));
+        }
+        let count = |kind: Kind, number: usize| match kind {
+            Kind::Vertex => usize::from(stays[0][number]),
+            Kind::Texture => usize::from(stays[1][number]),
+            Kind::Normal => usize::from(stays[2][number]),
+            Kind::Polygon | Kind::Text => usize::from(self.faces[number].is_some()),
+        };
+        let passes = without_statements_of_vertex;
+        simple.layout.replace(&mut simple.text, count, passes);
+        let mesh = simple
+            .mesh()
+            .expect("the mesh before an insertion is a torn mesh");
+        let positions = Positions::new(simple.positions.iter().copied());
+        let positions = positions.expect("the reader checks coordinates");
+        written(&TornDocument::new(&simple), &mesh, &positions)
+    }
+
+    /// The record of what stays, by the new numbers.
+    fn record(&self, stays: &[Vec<bool>; 3], numbers: &[Vec<u32>; 3]) -> Record {
+        let mut record = self.record.clone();
+        let has = |vertex: u32| stays[0][vertex as usize];
+        record.splits.retain(|split| has(split.vertex));
+        record.inserted.retain(|inserted| has(inserted.vertex));
+        record
+            .apart
+            .retain(|apart| has(apart.vertex) && !self.put_back.contains_key(&apart.vertex));
+        let faces = self.faces.iter().zip(&self.families);
+        let of_faces = faces.filter_map(|(corners, family)| corners.map(|_| *family));
+        let is_divided = |number: usize| self.undo.restored(number).is_none();
+        record.families = self.record.families.of_faces(of_faces, is_divided);
+        record.new_indices = [0, 1].map(|which| {
+            let all = self.record.new_indices[which].iter();
+            let all = all.flat_map(|&[first, end]| first..end);
+            let staying = all.filter(|&index| stays[1 + which][index as usize]);
+            runs(staying.map(|index| numbers[1 + which][index as usize]))
+        });
+        let slides = &self.record.slides;
+        record.slides = slides.filtered(
+            |slide, vertex| self.has_slide(slide).then_some(vertex),
+            |which, index| numbers[1 + which][index as usize],
+        );
+        record.renumber(|vertex| numbers[0][vertex as usize]);
+        record
+    }
+}
+
+/// The number of each element that stays among those that do.
+fn numbers(stays: &[bool]) -> Vec<u32> {
+    let mut next = 0;
+    let number = |&stays: &bool| {
+        let number = next;
+        next += u32::from(stays);
+        number
+    };
+    stays.iter().map(number).collect()
 }

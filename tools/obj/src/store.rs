@@ -229,57 +229,41 @@ impl Layout {
         }
     }
 
-    /// Drops these vertices, which are ascending, and for each text run behind one the statements in
-    /// it that do not pass: what was said of a vertex goes with it.
-    pub(crate) fn drop_vertices(
+    /// Puts as many statements as `count` says in the place of each, given its kind and its number. Text
+    /// behind a vertex that is gone has to pass: what was said of the vertex goes with it.
+    pub(crate) fn replace(
         &mut self,
-        dropped: &[u32],
         text: &mut Vec<u8>,
+        count: impl Fn(Kind, usize) -> usize,
         passes: impl Fn(&[u8]) -> Vec<u8>,
     ) {
-        if dropped.is_empty() {
-            return;
-        }
-        let mut dropped = dropped.iter().peekable();
-        let (mut seen, mut at) = (0, 0);
-        let mut is_last_gone = false;
+        let mut layout = Layout::default();
         let mut kept = Vec::with_capacity(text.len());
-        let mut runs = Vec::with_capacity(self.runs.len());
+        let (mut seen, mut at) = ([0; 4], 0);
+        let mut is_gone = false;
         for &run in &self.runs {
-            match run.kind {
-                Kind::Vertex => {
-                    let mut part = Run { count: 0, ..run };
-                    for line in run.lines() {
-                        is_last_gone = dropped.next_if(|&&vertex| vertex == seen).is_some();
-                        seen += 1;
-                        if is_last_gone {
-                            push_run(&mut runs, part);
-                            part.count = 0;
-                        } else {
-                            part.line = if part.count == 0 { line } else { part.line };
-                            part.count += 1;
-                        }
-                    }
-                    push_run(&mut runs, part);
+            if run.kind == Kind::Text {
+                let lines = &text[at..at + run.count as usize];
+                at += lines.len();
+                let before = kept.len();
+                match is_gone {
+                    true => kept.extend(passes(lines)),
+                    false => kept.extend_from_slice(lines),
                 }
-                Kind::Text => {
-                    let lines = &text[at..at + run.count as usize];
-                    at += lines.len();
-                    let before = kept.len();
-                    if is_last_gone {
-                        kept.extend(passes(lines));
-                    } else {
-                        kept.extend_from_slice(lines);
-                    }
-                    let count = (kept.len() - before) as u32;
-                    push_run(&mut runs, Run { count, ..run });
-                }
-                _ => push_run(&mut runs, run),
+                layout.append_text(kept.len() - before, run);
+                is_gone = false;
+                continue;
             }
-            is_last_gone &= run.kind == Kind::Vertex;
+            for line in run.lines() {
+                let number = &mut seen[run.kind as usize];
+                let count = count(run.kind, *number);
+                *number += 1;
+                is_gone = count == 0 && run.kind == Kind::Vertex;
+                (0..count).for_each(|_| layout.push(run.kind, line));
+            }
         }
         *text = kept;
-        self.runs = runs;
+        *self = layout;
     }
 
     pub(crate) fn runs(&self) -> &[Run] {
@@ -312,13 +296,6 @@ impl Layout {
 
     pub(crate) fn shrink(&mut self) {
         self.runs.shrink_to_fit();
-    }
-}
-
-/// Appends a run, if it has anything.
-fn push_run(runs: &mut Vec<Run>, run: Run) {
-    if run.count > 0 {
-        push(runs, run);
     }
 }
 

@@ -7,15 +7,11 @@
 
 mod ancestry;
 mod corners;
-mod edited;
 mod extras;
-mod past;
-mod removal;
 mod slots;
 mod turns;
-mod undo;
 
-pub(crate) use self::removal::Removal;
+pub(crate) use self::corners::{blend, length};
 pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
 
@@ -29,7 +25,7 @@ use self::corners::Corners;
 use self::extras::Extras;
 use crate::document::Document;
 use crate::families::Families;
-use crate::record::{Apart, At, Inserted, Parent, Record, SplitOff, is_in, is_same_point};
+use crate::record::{Apart, At, Inserted, Record, SplitOff, is_in, is_same_point};
 use crate::slides::Slides;
 use crate::store::Rows;
 
@@ -95,7 +91,7 @@ pub struct TornDocument<'d> {
     inserted: Vec<Inserted>,
     /// What became of faces, and of their corners; `None` until the first insertion.
     corners: Option<Corners<'d>>,
-    /// Parts of divided faces that were divided again.
+    /// Divided faces.
     families: Families,
     /// Vertices that slid, by the nodes of the ancestry.
     slides: Slides,
@@ -519,23 +515,7 @@ impl TornDocument<'_> {
         }
     }
 
-    /// Faces that were divided: the triangles of the document where the parts stand, and the
-    /// classes of the corners. Ascending.
-    pub(crate) fn parents(&self) -> Vec<Parent> {
-        let recorded = self
-            .document
-            .record
-            .iter()
-            .flat_map(|record| &record.parents);
-        let mut parents: Vec<Parent> = recorded.copied().collect();
-        if let Some(corners) = &self.corners {
-            parents.extend(corners.divided());
-            parents.sort_unstable_by_key(|parent| parent.first);
-        }
-        parents
-    }
-
-    /// Parts of divided faces that were divided again, by faces of the mesh and classes.
+    /// Divided faces, by faces of the mesh and classes.
     pub(crate) fn families(&self) -> &Families {
         &self.families
     }
@@ -552,13 +532,6 @@ impl TornDocument<'_> {
 
     pub(crate) fn inserted(&self) -> &[Inserted] {
         &self.inserted
-    }
-
-    /// The class of each vertex.
-    pub(crate) fn classes(&self) -> Vec<u32> {
-        (0..self.ancestry.len())
-            .map(|v| self.ancestry.class(v))
-            .collect()
     }
 
     /// The vertex of each class that comes first in an order; `u32::MAX` where there is none.
@@ -623,8 +596,8 @@ impl TornDocument<'_> {
     pub(crate) fn is_index_inserted(&self, which: usize, index: usize) -> bool {
         let known = [self.document.texture.len(), self.document.normals.len()];
         let record = self.document.record.as_deref();
-        let runs = record.map(|record| [&record.texture, &record.normals]);
-        index >= known[which] || runs.is_some_and(|runs| is_in(runs[which], index as u32))
+        let runs = record.map(|record| &record.new_indices[which]);
+        index >= known[which] || runs.is_some_and(|runs| is_in(runs, index as u32))
     }
 
     /// Whether faces and corners are those of the document.

@@ -119,8 +119,21 @@ impl TornDocument<'_> {
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
-        let prepared = Prepared::new(self, mesh, None, self.apart(positions));
-        write(self, &prepared, positions, out)
+        let prepared = Prepared::new(self, mesh, self.apart(positions));
+        write(self, &prepared, positions, out, true)
+    }
+
+    /// Writes the document for our own reader, which takes a face that comes before its vertices: no
+    /// statement leaves its place.
+    pub(crate) fn write_in_place(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+    ) -> io::Result<WriteSummary> {
+        self.assert_in_step(mesh, positions);
+        let prepared = Prepared::new(self, mesh, self.apart(positions));
+        write(self, &prepared, positions, out, false)
     }
 
     /// Returns the vertex of each `v` that [`TornDocument::write`] writes, in order. A vertex with several
@@ -132,7 +145,7 @@ impl TornDocument<'_> {
     /// If `mesh` is not the mesh whose log was followed to its end.
     #[must_use]
     pub fn statements_in_order(&self, mesh: &Mesh) -> Vec<VertexId> {
-        let prepared = Prepared::new(self, mesh, None, Vec::new());
+        let prepared = Prepared::new(self, mesh, Vec::new());
         let elements = prepared.orders[0].in_order().into_iter();
         let vertices = elements.map(|element| prepared.vertex(element));
         vertices.filter_map(VertexId::new).collect()
@@ -162,16 +175,23 @@ impl TornDocument<'_> {
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
-        write(self, &Prepared::unseparated(self, mesh), positions, out)
+        write(
+            self,
+            &Prepared::unseparated(self, mesh),
+            positions,
+            out,
+            true,
+        )
     }
 }
 
-/// Writes what was prepared.
-pub(crate) fn write(
+/// Writes what was prepared. Where a face comes before what it names, that may be moved up.
+fn write(
     torn: &TornDocument<'_>,
     prepared: &Prepared<'_>,
     positions: &Positions,
     out: &mut impl Write,
+    moves_up: bool,
 ) -> io::Result<WriteSummary> {
     let vertices = prepared.orders[0].count();
     let writer = Writer {
@@ -179,6 +199,7 @@ pub(crate) fn write(
         torn,
         prepared,
         positions,
+        moves_up,
         streams: [Kind::Vertex, Kind::Texture, Kind::Normal].map(Stream::new),
         hash: Hash::of_faces(vertices),
         out: Output::new(out),
@@ -197,6 +218,8 @@ struct Writer<'d, W> {
     torn: &'d TornDocument<'d>,
     prepared: &'d Prepared<'d>,
     positions: &'d Positions,
+    /// Whether what a face names is written before it.
+    moves_up: bool,
     /// Of vertices, texture coordinates and normals.
     streams: [Stream; 3],
     /// That of the faces written so far.
@@ -328,7 +351,7 @@ impl<W: Write> Writer<'_, W> {
     /// Writes statements of a kind until the one with this number is written.
     #[inline]
     fn write_until(&mut self, which: usize, number: u32) -> io::Result<()> {
-        while self.streams[which].written <= number {
+        while self.moves_up && self.streams[which].written <= number {
             self.write_statements(which, self.streams[which].done + 1)?;
         }
         Ok(())
@@ -342,9 +365,6 @@ impl<W: Write> Writer<'_, W> {
         match which {
             VERTICES => {
                 let vertex = self.prepared.vertex(element);
-                if let Some(numbers) = self.prepared.put_back(vertex) {
-                    return self.out.statement(b"v", numbers, &[]);
-                }
                 let at = self.prepared.shown(vertex);
                 let at = at.unwrap_or(self.positions.as_slice()[vertex]);
                 let extras = torn.extra_numbers(vertex);
@@ -382,22 +402,22 @@ impl<W: Write> Writer<'_, W> {
         let (document, prepared, torn) = (self.document, self.prepared, self.torn);
         let faces = prepared.slots.of(document.polygons.triangles(polygon));
         let faces = &prepared.slots.faces[faces];
-        if torn.is_undivided() && prepared.removes_nothing() {
+        if torn.is_undivided() {
             for corner in document.polygons.corners(polygon) {
                 let corner = document.polygons.corner(corner);
                 self.write_indices([corner.texture, corner.normal])?;
             }
         } else {
-            for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
-                self.write_indices(prepared.corner(h, torn.corner_of(h as usize)))?;
+            for h in faces.iter().flat_map(|&face| half_edges(face)) {
+                self.write_indices(torn.corner(h as usize, polygon))?;
             }
         }
-        for h in faces.iter().flat_map(|&face| prepared.half_edges(face)) {
+        for h in faces.iter().flat_map(|&face| half_edges(face)) {
             let vertex = prepared.separated.indices[h as usize];
             self.write_until(VERTICES, prepared.orders[VERTICES].number(vertex))?;
         }
         for &face in faces {
-            self.write_triangle(prepared.half_edges(face), polygon)?;
+            self.write_triangle(half_edges(face), polygon)?;
         }
         Ok(())
     }
@@ -420,7 +440,7 @@ impl<W: Write> Writer<'_, W> {
             let vertex = prepared.separated.indices[h as usize];
             let vertex = prepared.orders[VERTICES].number(vertex);
             self.hash.add_corner(vertex);
-            let [texture, normal] = prepared.corner(h, self.torn.corner(h as usize, polygon));
+            let [texture, normal] = self.torn.corner(h as usize, polygon);
             out.push(b' ');
             write_integer(out, u64::from(vertex) + 1);
             if texture.is_some() || normal.is_some() {
@@ -437,6 +457,10 @@ impl<W: Write> Writer<'_, W> {
         out.push(b'\n');
         self.out.flush_if_full()
     }
+}
+
+fn half_edges(face: u32) -> [u32; 3] {
+    [3 * face, 3 * face + 1, 3 * face + 2]
 }
 
 /// How many bytes of the text after a run belong to its last statement.

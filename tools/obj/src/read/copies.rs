@@ -4,7 +4,7 @@ use super::text::without_statements_of_vertex;
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::record::{Record, SplitOff};
-use crate::store::Rows;
+use crate::store::{Kind, Rows};
 
 /// Makes each vertex and its copies one, but for copies that were moved away: these become
 /// vertices that the last cut split off. From then on a record is in terms of the document.
@@ -91,7 +91,10 @@ impl Document {
         }
         self.positions.truncate(kept);
         self.extras = extras;
-        let Document { layout, text, .. } = self;
-        layout.drop_vertices(dropped, text, without_statements_of_vertex);
+        let is_dropped = |vertex: usize| dropped.binary_search(&(vertex as u32)).is_ok();
+        let count =
+            |kind: Kind, number: usize| usize::from(kind != Kind::Vertex || !is_dropped(number));
+        let passes = without_statements_of_vertex;
+        self.layout.replace(&mut self.text, count, passes);
     }
 }

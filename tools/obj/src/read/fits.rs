@@ -4,11 +4,12 @@ use super::fault::quoted;
 use super::items::Items;
 use crate::diagnostic::{Diagnostic, Location};
 use crate::document::Document;
-use crate::record::{Hash, Record, are_last, runs};
+use crate::families::{Families, Family};
+use crate::record::{Hash, are_last, runs};
 use crate::store::push;
 
 /// Why a record, whose faces have this hash, is not one of this document.
-pub(super) fn misfit(items: &Items, hash: u64, document: &Document) -> Option<String> {
+pub(super) fn misfit(items: &mut Items, hash: u64, document: &Document) -> Option<String> {
     let counts = &items.counts;
     let changed = |what: String| {
         Some(format!(
@@ -56,22 +57,10 @@ pub(super) fn misfit(items: &Items, hash: u64, document: &Document) -> Option<St
             has_face[vertex as usize] = true;
         }
     }
-    let Record {
-        parents, families, ..
-    } = &items.record;
-    let parent = |face: usize| parents.partition_point(|parent| parent.end as usize <= face);
-    let mut parent_of = vec![None; families.all().len()];
-    for face in 0..faces {
-        if let Some(family) = families.outermost(face) {
-            let is = parent(face);
-            let lies_within = parents.get(is).is_some_and(|p| p.first as usize <= face);
-            if !lies_within || *parent_of[family as usize].get_or_insert(is) != is {
-                return Some(
-                    "this record is not used: it divides a face of two parents".to_owned(),
-                );
-            }
-        }
-    }
+    let Some(families) = families(items) else {
+        return Some("this record is not used: it divides a face of two parents".to_owned());
+    };
+    items.record.families = families;
     let splits = &items.record.splits;
     if splits.iter().any(|split| items.is_copy(split.from)) {
         return Some("this record is not used: it splits a copy".to_owned());
@@ -81,6 +70,35 @@ pub(super) fn misfit(items: &Items, hash: u64, document: &Document) -> Option<St
         return Some("this record is not used: it splits vertices without faces".to_owned());
     }
     None
+}
+
+/// The divided faces, `None` if a part that was divided again is not of one parent.
+fn families(items: &Items) -> Option<Families> {
+    let mut families = Families::default();
+    for (number, (faces, corners)) in items.parents.iter().enumerate() {
+        let (corners, above) = (*corners, None);
+        families.add(Family { corners, above });
+        faces
+            .clone()
+            .for_each(|face| families.give(face as usize, number as u32));
+    }
+    let parents = families.all().len() as u32;
+    for &Family { corners, above } in &items.again {
+        let above = above.map(|above| parents + above);
+        families.add(Family { corners, above });
+    }
+    for (&face, &again) in &items.again_of {
+        let parent = families.of(face as usize)?;
+        let outermost = families.outermost(parents + again);
+        if outermost >= parents {
+            families.put_within(outermost, parent);
+        } else if outermost != parent {
+            return None;
+        }
+        families.give(face as usize, parents + again);
+    }
+    let mut again = families.all()[parents as usize..].iter();
+    again.all(|again| again.above.is_some()).then_some(families)
 }
 
 /// Whether all that can be taken out again, or is a copy, comes behind all that cannot.
@@ -93,17 +111,21 @@ fn what_may_go_is_last(items: &Items) -> bool {
     may_go.sort_unstable();
     may_go.dedup();
     are_last(&runs(may_go.into_iter()), counts.vertices)
-        && are_last(&record.texture, counts.texture[1])
-        && are_last(&record.normals, counts.normals[1])
+        && are_last(&record.new_indices[0], counts.indices[0][1])
+        && are_last(&record.new_indices[1], counts.indices[1][1])
 }
 
 /// Where the record does not say which elements were inserted, they are the last ones. If the file
 /// has not as many as it had, nobody knows.
-pub(super) fn settle(inserted: &mut Vec<[u32; 2]>, [before, all]: [u32; 2], count: usize) {
-    if all as usize != count {
-        inserted.clear();
-    } else if inserted.is_empty() && before < all {
-        push(inserted, [before, all]);
+pub(super) fn settle(items: &mut Items, document: &Document) {
+    let known = [document.texture.len(), document.normals.len()];
+    let runs = items.record.new_indices.iter_mut();
+    for ((runs, [before, all]), known) in runs.zip(items.counts.indices).zip(known) {
+        if all as usize != known {
+            runs.clear();
+        } else if runs.is_empty() && before < all {
+            push(runs, [before, all]);
+        }
     }
 }
 
@@ -112,8 +134,8 @@ pub(super) fn settle(inserted: &mut Vec<[u32; 2]>, [before, all]: [u32; 2], coun
 pub(super) fn forget_corners(document: &mut Document, items: &mut Items, place: Location) {
     let Items { counts, record, .. } = items;
     let is_known = [
-        counts.texture[1] as usize == document.texture.len(),
-        counts.normals[1] as usize == document.normals.len(),
+        counts.indices[0][1] as usize == document.texture.len(),
+        counts.indices[1][1] as usize == document.normals.len(),
     ];
     let slides = &record.slides;
     let forgotten = |slide: usize| {

@@ -1,12 +1,15 @@
 //! The lines of a record between its first and its last.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use tearmesh::{COORDINATE_MAX, Point};
 
 use super::fault::{Fault, Parsed, quoted};
 use super::scan::Scan;
 use super::words::{CODE, DAMAGED, nothing_more, numbers, out_of_range, whole};
 use crate::families::Family;
-use crate::record::{Apart, At, Inserted, Parent, Record, SplitOff, are_last, is_same_point, runs};
+use crate::record::{Apart, At, Inserted, Record, SplitOff, are_last, is_same_point, runs};
 use crate::slides::Exchange;
 use crate::store::{NUMBERS_MAX, push};
 
@@ -17,6 +20,11 @@ pub(super) struct Items {
     pub(super) record: Record,
     /// Vertices of the file that are copies, each with the one that it is a copy of; ascending.
     pub(super) fans: Vec<[u32; 2]>,
+    /// Faces that cover what was one face, and the roots at its corners; ascending.
+    pub(super) parents: Vec<(Range<u32>, [u32; 3])>,
+    /// Parts of these that were divided again, counted from 0, and the innermost of each face.
+    pub(super) again: Vec<Family>,
+    pub(super) again_of: BTreeMap<u32, u32>,
     /// The place of the last item in the order of kinds.
     kind: usize,
 }
@@ -27,9 +35,8 @@ pub(super) struct Counts {
     pub(super) version: i64,
     pub(super) vertices: u32,
     pub(super) faces: u32,
-    /// Before any was inserted, and all.
-    pub(super) texture: [u32; 2],
-    pub(super) normals: [u32; 2],
+    /// Of texture coordinates and of normals: how many there were before any was inserted, and all.
+    pub(super) indices: [[u32; 2]; 2],
 }
 
 impl Items {
@@ -98,7 +105,7 @@ impl Items {
             b"slide-vn" => return self.exchange(1, scan),
             b"apart" => return self.apart(scan),
             b"again" => self.again(scan)?,
-            _ => self.inserted_indices(word == b"vt", scan)?,
+            _ => self.inserted_indices(usize::from(word == b"vn"), scan)?,
         }
         nothing_more(scan)
     }
@@ -169,16 +176,11 @@ impl Items {
 
     fn parent(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let faces = i64::from(self.counts.faces);
-        let least = self.record.parents.last().map_or(0, |last| last.end);
+        let least = self.parents.last().map_or(0, |(faces, _)| faces.end);
         let first = whole(scan, i64::from(least) + 1, faces)? - 1;
         let end = whole(scan, i64::from(first) + 1, faces)?;
         let corners = self.corners(scan)?;
-        let parent = Parent {
-            first,
-            end,
-            corners,
-        };
-        push(&mut self.record.parents, parent);
+        push(&mut self.parents, (first..end, corners));
         Ok(())
     }
 
@@ -194,13 +196,10 @@ impl Items {
         Ok(corners)
     }
 
-    /// A run of texture coordinates or normals that were inserted.
-    fn inserted_indices(&mut self, is_texture: bool, scan: &mut Scan<'_>) -> Parsed<()> {
-        let (runs, [_, all]) = if is_texture {
-            (&mut self.record.texture, self.counts.texture)
-        } else {
-            (&mut self.record.normals, self.counts.normals)
-        };
+    /// A run of texture coordinates (0) or normals (1) that were inserted.
+    fn inserted_indices(&mut self, which: usize, scan: &mut Scan<'_>) -> Parsed<()> {
+        let [_, all] = self.counts.indices[which];
+        let runs = &mut self.record.new_indices[which];
         let least = runs.last().map_or(0, |&[_, end]| i64::from(end) + 1);
         let first = whole(scan, least + 1, i64::from(all))? - 1;
         let end = whole(scan, i64::from(first) + 1, i64::from(all))?;
@@ -241,7 +240,7 @@ impl Items {
     /// A texture coordinate (0) or a normal (1) that corners of the vertex that slid last got for
     /// another, with what it names.
     fn exchange(&mut self, which: usize, scan: &mut Scan<'_>) -> Parsed<()> {
-        let [_, all] = [self.counts.texture, self.counts.normals][which];
+        let [_, all] = self.counts.indices[which];
         let start = scan.at();
         let new = whole(scan, 1, i64::from(all))? - 1;
         let old = whole(scan, 1, i64::from(all))? - 1;
@@ -284,20 +283,19 @@ impl Items {
 
     /// A part of a parent that was divided again, with the faces that cover it.
     fn again(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let count = self.record.families.all().len() as i64;
-        let above = whole(scan, 0, count)?.checked_sub(1);
+        let above = whole(scan, 0, self.again.len() as i64)?.checked_sub(1);
         let corners = self.corners(scan)?;
-        self.record.families.add(Family { corners, above });
+        let number = self.again.len() as u32;
+        push(&mut self.again, Family { corners, above });
         let mut least = 1;
         while scan.find_token() {
             let start = scan.at();
             let face = whole(scan, least, i64::from(self.counts.faces))?;
             least = i64::from(face) + 1;
-            if self.record.families.of(face as usize - 1).is_some() {
+            if self.again_of.insert(face - 1, number).is_some() {
                 let message = "this record has a face in two that were divided again";
                 return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
             }
-            self.record.families.give(face as usize - 1);
         }
         Ok(())
     }
@@ -342,12 +340,11 @@ impl Items {
         if self.counts.version == 1 && !are_last(&copies, self.counts.vertices) {
             return Some("the copies of this record are not the last vertices");
         }
-        let is_wrong = |[before, all]: [u32; 2], runs: &[[u32; 2]]| {
+        let mut all = self.counts.indices.iter().zip(&self.record.new_indices);
+        let is_wrong = all.any(|(&[before, all], runs)| {
             let listed: u32 = runs.iter().map(|[first, end]| end - first).sum();
             !runs.is_empty() && before.checked_add(listed) != Some(all)
-        };
-        let is_wrong = is_wrong(self.counts.texture, &self.record.texture)
-            || is_wrong(self.counts.normals, &self.record.normals);
+        });
         is_wrong.then_some("the counts of this record do not match its lines")
     }
 }

@@ -113,10 +113,11 @@ impl RecordReader {
         let vertices = whole(scan, 0, largest)?;
         exactly(scan, "f")?;
         let faces = whole(scan, 0, largest)?;
-        exactly(scan, "vt")?;
-        let texture = [whole(scan, 0, largest)?, whole(scan, 0, largest)?];
-        exactly(scan, "vn")?;
-        let normals = [whole(scan, 0, largest)?, whole(scan, 0, largest)?];
+        let mut indices = [[0; 2]; 2];
+        for (counts, word) in indices.iter_mut().zip(["vt", "vn"]) {
+            exactly(scan, word)?;
+            *counts = [whole(scan, 0, largest)?, whole(scan, 0, largest)?];
+        }
         exactly(scan, "faces")?;
         let hash = hexadecimal(scan)?;
         nothing_more(scan)?;
@@ -124,8 +125,7 @@ impl RecordReader {
             version,
             vertices,
             faces,
-            texture,
-            normals,
+            indices,
         });
         self.header = Some(Header {
             hash,
@@ -177,7 +177,7 @@ impl RecordReader {
             return;
         };
         let misfit = match self.state {
-            State::Outside => misfit(&self.items, header.hash, document),
+            State::Outside => misfit(&mut self.items, header.hash, document),
             _ => Some("this record has no end, and is not used".to_owned()),
         };
         if let Some(message) = misfit {
@@ -192,19 +192,7 @@ impl RecordReader {
             });
             return;
         }
-        let Counts {
-            texture, normals, ..
-        } = self.items.counts;
-        settle(
-            &mut self.items.record.texture,
-            texture,
-            document.texture.len(),
-        );
-        settle(
-            &mut self.items.record.normals,
-            normals,
-            document.normals.len(),
-        );
+        settle(&mut self.items, document);
         forget_corners(document, &mut self.items, header.place.0);
         let Items {
             mut record, fans, ..

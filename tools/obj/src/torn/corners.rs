@@ -7,7 +7,6 @@ use tearmesh::{Blend, ChildFace, CornerSource, HalfEdgeId, Insert, Slide, Vertex
 use super::slots::Slots;
 use crate::document::Document;
 use crate::families::Families;
-use crate::record::Parent;
 use crate::slides::Exchange;
 use crate::store::Rows;
 
@@ -22,8 +21,6 @@ pub(super) struct Corners<'d> {
     slots: Vec<u32>,
     /// The texture coordinate and the normal of each corner.
     corners: Vec<[u32; 2]>,
-    /// Triangles that are no parts of a recorded parent and were divided, and their corners.
-    divided: BTreeMap<u32, [u32; 3]>,
     /// Texture coordinates and normals behind those of the document.
     pub(super) new_texture: Rows,
     pub(super) new_normals: Vec<[f64; 3]>,
@@ -53,7 +50,6 @@ impl<'d> Corners<'d> {
             document,
             slots: (0..count as u32).collect(),
             corners,
-            divided: BTreeMap::new(),
             new_texture: Rows::default(),
             new_normals: Vec::new(),
             anchors: Default::default(),
@@ -78,14 +74,6 @@ impl<'d> Corners<'d> {
         self.corners[half_edge].map(|index| (index != NONE).then_some(index))
     }
 
-    pub(super) fn divided(&self) -> impl Iterator<Item = Parent> + '_ {
-        self.divided.iter().map(|(&first, &corners)| Parent {
-            first,
-            end: first + 1,
-            corners,
-        })
-    }
-
     pub(super) fn slots(&self, triangles: usize) -> Slots {
         Slots::sorted(&self.slots, triangles)
     }
@@ -102,12 +90,8 @@ impl<'d> Corners<'d> {
             let parent = family.parent().index();
             let slot = self.slots[parent];
             let corners = original(family.children(), &class);
-            if self.is_part_of_recorded(slot) || self.divided.contains_key(&slot) {
-                let children = family.children().iter().map(|child| child.face.index());
-                families.divide(parent, corners, children);
-            } else {
-                self.divided.insert(slot, corners);
-            }
+            let children = family.children().iter().map(|child| child.face.index());
+            families.divide(parent, corners, children);
             let before = [0, 1, 2].map(|corner| self.corners[3 * parent + corner]);
             for child in family.children() {
                 let face = child.face.index();
@@ -165,15 +149,6 @@ impl<'d> Corners<'d> {
             }
         }
         exchanges
-    }
-
-    fn is_part_of_recorded(&self, slot: u32) -> bool {
-        let Some(record) = &self.document.record else {
-            return false;
-        };
-        let parents = &record.parents;
-        let after = parents.partition_point(|parent| parent.first <= slot);
-        after > 0 && slot < parents[after - 1].end
     }
 
     /// The index of a texture coordinate (0) or normal (1) at a place in a face whose corners
@@ -264,7 +239,8 @@ impl<'d> Corners<'d> {
         });
         let blended = |values: [f64; 3]| blend(values, weights, on_edge);
         let mut normal = [0, 1, 2].map(|axis| blended(normals.map(|normal| normal[axis])));
-        let (length, wanted) = (length(normal), blended(normals.map(length)));
+        let lengths = normals.each_ref().map(|normal| length(normal));
+        let (length, wanted) = (length(&normal), blended(lengths));
         let scale = wanted / length;
         if length > 0.0 && scale.is_finite() {
             normal = normal.map(|x| x * scale);
@@ -277,7 +253,7 @@ impl<'d> Corners<'d> {
 }
 
 /// The value between three by these weights, or on an edge between the first two.
-pub(super) fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
+pub(crate) fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
     if on_edge {
         a.between(&b, weights[1])
     } else {
@@ -285,9 +261,9 @@ pub(super) fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f6
     }
 }
 
-pub(super) fn length(normal: [f64; 3]) -> f64 {
-    let [x, y, z] = normal.map(|x| x * x);
-    (x + y + z).sqrt()
+/// The length of a normal.
+pub(crate) fn length(normal: &[f64]) -> f64 {
+    normal.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The classes of the corners of a divided face: each corner is one of a child.

@@ -36,25 +36,6 @@ impl Slots {
         Slots { faces, starts }
     }
 
-    /// Slots without any faces yet, with room for `faces` faces.
-    pub(super) fn with_capacity(faces: usize) -> Slots {
-        Slots {
-            faces: Vec::with_capacity(faces),
-            starts: vec![0],
-        }
-    }
-
-    /// Appends a triangle, at which these faces stand.
-    pub(super) fn push(&mut self, faces: &[u32]) {
-        self.faces.extend_from_slice(faces);
-        self.starts.push(self.faces.len() as u32);
-    }
-
-    /// The number of triangles.
-    pub(super) fn triangles(&self) -> usize {
-        self.starts.len() - 1
-    }
-
     /// Where the faces of triangles are in `faces`.
     pub(crate) fn of(&self, triangles: Range<usize>) -> Range<usize> {
         self.starts[triangles.start] as usize..self.starts[triangles.end] as usize

@@ -140,8 +140,8 @@ impl<'t> Turns<'t> {
     /// The order of the vertices alone.
     pub(crate) fn vertices(&self) -> Order {
         let count = self.torn.vertex_count();
-        let turns = (0..count).map(|v| Some(self.vertex(v)));
-        Order::new(self.torn.document.positions.len(), count, turns)
+        let turns = (0..count).map(|v| self.vertex(v));
+        Order::new(self.torn.document.positions.len(), turns)
     }
 }
 

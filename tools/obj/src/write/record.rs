@@ -25,12 +25,13 @@ pub(super) fn write_record<W: Write>(
         let counts = runs.iter().map(|[first, end]| end - first);
         counts.sum::<u32>() as usize
     };
-    let says_where = [(&record.texture, texture), (&record.normals, normals)]
+    let [new_texture, new_normals] = &record.new_indices;
+    let says_where = [(new_texture, texture), (new_normals, normals)]
         .map(|(runs, count)| !are_last(runs, count as u32));
     let is_later = says_where.contains(&true) || !record.slides.is_empty();
     let is_later = is_later || !are_last(&copies(prepared), vertices as u32);
     let version = match () {
-        () if !record.families.all().is_empty() => VERSION,
+        () if record.families.all().iter().any(|one| one.above.is_some()) => VERSION,
         () if !record.apart.is_empty() => 3,
         () if is_later => 2,
         () => 1,
@@ -38,9 +39,9 @@ pub(super) fn write_record<W: Write>(
     let counts = [
         vertices,
         prepared.face_count(),
-        texture - inserted(&record.texture),
+        texture - inserted(new_texture),
         texture,
-        normals - inserted(&record.normals),
+        normals - inserted(new_normals),
         normals,
     ];
     let bytes = &mut out.pending;
@@ -68,8 +69,8 @@ pub(super) fn write_record<W: Write>(
     };
     items.write(record, prepared.fans())?;
     for (word, runs, says_where) in [
-        ("vt", &record.texture, says_where[0]),
-        ("vn", &record.normals, says_where[1]),
+        ("vt", new_texture, says_where[0]),
+        ("vn", new_normals, says_where[1]),
     ] {
         for [first, end] in runs.iter().filter(|_| says_where) {
             items.item(word, &[first + 1, *end], &[])?;
@@ -80,7 +81,7 @@ pub(super) fn write_record<W: Write>(
         let numbers = [is.x, is.y, is.z, shown.x, shown.y, shown.z];
         items.item("apart", &[vertex + 1], &numbers)?;
     }
-    items.write_families(&record.families, prepared.face_count())?;
+    items.write_again(&record.families, prepared.face_count())?;
     let Items { out, count, hash } = items;
     let bytes = &mut out.pending;
     bytes.extend_from_slice(END);
@@ -122,9 +123,11 @@ impl<W: Write> Items<'_, '_, W> {
                 } => self.item("face", &[vertex, cut, a + 1, b + 1, c + 1], &weights)?,
             }
         }
-        for parent in &record.parents {
-            let [a, b, c] = parent.corners.map(|v| v + 1);
-            self.item("parent", &[parent.first + 1, parent.end, a, b, c], &[])?;
+        for (parent, faces) in record.families.parents() {
+            let [a, b, c] = record.families.all()[parent as usize]
+                .corners
+                .map(|v| v + 1);
+            self.item("parent", &[faces.start + 1, faces.end, a, b, c], &[])?;
         }
         Ok(())
     }
@@ -141,16 +144,24 @@ impl<W: Write> Items<'_, '_, W> {
         Ok(())
     }
 
-    fn write_families(&mut self, families: &Families, faces: usize) -> io::Result<()> {
+    fn write_again(&mut self, families: &Families, faces: usize) -> io::Result<()> {
         let mut of = vec![Vec::new(); families.all().len()];
         for face in 0..faces {
             if let Some(family) = families.of(face) {
                 of[family as usize].push(face as u32 + 1);
             }
         }
+        // Counted without parents.
+        let (mut numbers, mut count) = (Vec::with_capacity(of.len()), 0);
         for (family, faces) in families.all().iter().zip(of) {
+            let Some(above) = family.above else {
+                numbers.push(0);
+                continue;
+            };
+            count += 1;
+            numbers.push(count);
             let [a, b, c] = family.corners.map(|v| v + 1);
-            let above = family.above.map_or(0, |above| above + 1);
+            let above = numbers[above as usize];
             self.item("again", &[&[above, a, b, c], &faces[..]].concat(), &[])?;
         }
         Ok(())

@@ -1,0 +1,219 @@
+//! What vertices had before they slid, and whether inserted ones are still as they were inserted.
+//!
+//! The record says where a vertex was inserted: between which vertices, and how far along. Its position
+//! follows from the numbers that these had then, and so do its extra numbers, its texture coordinates
+//! and its normals. A vertex that has others was edited since, by whichever program, and removing it
+//! would lose that. If one of these vertices slid later, the record has what it had before, unless it
+//! was edited since.
+//!
+//! The numbers of a file that we wrote read back as the same bits, so what nobody touched differs by
+//! the rounding of a few operations at most. If another program rounded all numbers, to six digits say,
+//! every vertex was edited in this sense: how much that program meant to round is unknown, and to keep a
+//! vertex is no loss. The same holds if an end of the edge was moved.
+
+use std::collections::BTreeMap;
+
+use crate::document::Document;
+use crate::record::{At, Record};
+use crate::slides::Slides;
+use crate::torn::{blend, length};
+
+/// By how many units of the last place of the largest number concerned a number may differ: an
+/// interpolation rounds three times, whichever end it begins at, and so does the mean of
+/// two copies that are merged.
+const ROUNDINGS: f64 = 8.0;
+
+/// A document as it was before the slides of some cuts. Corners are those of all faces, by half-edge.
+pub(super) struct Past<'d> {
+    document: &'d Document,
+    pub(super) slides: &'d Slides,
+    /// The root of each vertex.
+    pub(super) roots: Vec<u32>,
+    /// The slides of the vertices of each root, as they were made.
+    by_root: BTreeMap<u32, Vec<usize>>,
+    /// Whether a vertex is, but for later slides, as each one left it.
+    pub(super) is_intact: Vec<bool>,
+}
+
+/// Values with their weights.
+type Sources<T> = [(T, f64); 3];
+
+impl<'d> Past<'d> {
+    pub(super) fn new(document: &'d Document, record: &'d Record) -> Past<'d> {
+        let slides = &record.slides;
+        let roots = record.roots(document.positions.len());
+        let mut by_root: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (slide, slid) in slides.iter().enumerate() {
+            let of_root = by_root.entry(roots[slid.vertex as usize]).or_default();
+            of_root.push(slide);
+        }
+        let mut past = Past {
+            document,
+            slides,
+            roots,
+            by_root,
+            is_intact: vec![false; slides.len()],
+        };
+        for slide in (0..slides.len()).rev() {
+            past.is_intact[slide] = past.is_as_left(slide);
+        }
+        past
+    }
+
+    /// Whether a vertex is, but for later slides, as this one left it.
+    fn is_as_left(&self, slide: usize) -> bool {
+        let vertex = self.slides.get(slide).vertex;
+        let later = self.of(vertex).find(|&later| later > slide);
+        let is = match later {
+            Some(later) if !self.is_intact[later] => return false, // What it was before, nobody knows.
+            Some(later) => self.slides.before(later).to_vec(),
+            None => self.document.numbers(vertex as usize),
+        };
+        let mut exchanges = self.slides.exchanges(slide);
+        are_same(&is, self.slides.after(slide))
+            && exchanges.all(|(exchange, value)| {
+                are_same(self.document.value(exchange.which, exchange.new), value)
+            })
+    }
+
+    /// The slides of the vertices of a root.
+    pub(super) fn of_root(&self, root: u32) -> impl DoubleEndedIterator<Item = usize> + '_ {
+        self.by_root.get(&root).into_iter().flatten().copied()
+    }
+
+    /// The slides of a vertex.
+    pub(super) fn of(&self, vertex: u32) -> impl DoubleEndedIterator<Item = usize> + '_ {
+        let slides = self.of_root(self.roots[vertex as usize]);
+        slides.filter(move |&slide| self.slides.get(slide).vertex == vertex)
+    }
+
+    fn vertex(&self, corner: usize) -> u32 {
+        self.document.polygons.vertices[corner]
+    }
+
+    /// The root at a corner.
+    pub(super) fn root(&self, corner: usize) -> u32 {
+        self.roots[self.vertex(corner) as usize]
+    }
+
+    /// The numbers of the `v` at a corner before the slides of a cut and later ones, as far as is known.
+    fn numbers(&self, corner: usize, since: u32) -> Vec<f64> {
+        let vertex = self.vertex(corner);
+        let mut known = self.of(vertex).filter(|&slide| self.is_intact[slide]);
+        match known.find(|&slide| self.slides.get(slide).cut >= since) {
+            Some(first) => self.slides.before(first).to_vec(),
+            None => self.document.numbers(vertex as usize),
+        }
+    }
+
+    /// The texture coordinate (0) or the normal (1) of a corner before some of the slides.
+    pub(super) fn index(
+        &self,
+        corner: usize,
+        which: usize,
+        is_undone: impl Fn(usize) -> bool,
+    ) -> Option<u32> {
+        let mut index = self.document.polygons.indices(corner)[which]?;
+        let slides = self.of(self.vertex(corner)).rev();
+        for slide in slides.filter(|&slide| is_undone(slide)) {
+            let mut exchanges = self.slides.exchanges(slide).map(|(exchange, _)| exchange);
+            let own = exchanges.find(|exchange| exchange.which == which && exchange.new == index);
+            index = own.map_or(index, |own| own.old);
+        }
+        Some(index)
+    }
+
+    /// Whether the vertex at a corner is as it was inserted before the slides of a cut, between corners of
+    /// parts of one face. `None` of these is known if the record does not fit.
+    pub(super) fn is_as_inserted(
+        &self,
+        corner: usize,
+        at: &At,
+        since: u32,
+        end: impl Fn(u32) -> Option<usize>,
+    ) -> bool {
+        let sources = match *at {
+            At::Edge { ends: [a, b], t } => [(a, 1.0 - t), (b, t), (b, 0.0)],
+            At::Face {
+                corners: [a, b, c],
+                weights: [u, v, w],
+            } => [(a, u), (b, v), (c, w)],
+        };
+        let weights = sources.map(|(_, weight)| weight);
+        let [Some(a), Some(b), Some(c)] = sources.map(|(root, _)| end(root)) else {
+            return false;
+        };
+
+        let is = self.numbers(corner, since);
+        let rows = [a, b, c].map(|source| self.numbers(source, since));
+        // There are no extra numbers between rows of different lengths.
+        let are_alike = rows.iter().all(|row| row.len() == rows[0].len());
+        let count = if are_alike { rows[0].len() } else { 3 };
+        let rows = rows.each_ref().map(|row| &row[..count]);
+        if is.len() != count || !is_between(&is, with(rows, weights)) {
+            return false;
+        }
+        [0, 1].into_iter().all(|which| {
+            let is_undone = |slide| self.slides.get(slide).cut >= since;
+            let index = |corner| self.index(corner, which, is_undone);
+            let value = |index| self.document.value(which, index);
+            let ([Some(a), Some(b), Some(c)], Some(is)) = ([a, b, c].map(index), index(corner))
+            else {
+                let has_none = [a, b, c].map(index).contains(&None);
+                return has_none && index(corner).is_none();
+            };
+            let rows = with([a, b, c].map(value), weights);
+            match which {
+                0 => is_between(value(is), rows),
+                _ => is_normal_between(value(is), rows),
+            }
+        })
+    }
+}
+
+fn with(rows: [&[f64]; 3], weights: [f64; 3]) -> Sources<&[f64]> {
+    [0, 1, 2].map(|i| (rows[i], weights[i]))
+}
+
+/// Whether numbers are the same to the bit.
+fn are_same(some: &[f64], others: &[f64]) -> bool {
+    let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    bits(some) == bits(others)
+}
+
+/// Whether each number is, but for rounding, the weighted sum of those of the sources; a number that
+/// a row has not counts as 0, as it does for texture coordinates.
+fn is_between(is: &[f64], sources: Sources<&[f64]>) -> bool {
+    let length = sources.iter().map(|(row, _)| row.len()).max();
+    (0..is.len().max(length.unwrap_or(0))).all(|i| {
+        let at = |row: &[f64]| row.get(i).copied().unwrap_or(0.0);
+        let values = sources.map(|(row, _)| at(row));
+        let wanted = weighted(values, &sources);
+        let largest = values.map(f64::abs).into_iter().fold(0.0, f64::max);
+        (at(is) - wanted).abs() <= ROUNDINGS * f64::EPSILON * largest
+    })
+}
+
+/// Whether a normal is, but for rounding, in the direction between others, and as long as
+/// between them. Where these cancel each other it is one of them.
+fn is_normal_between(is: &[f64], sources: Sources<&[f64]>) -> bool {
+    let normals = sources.map(|(normal, _)| normal);
+    let between = [0, 1, 2].map(|axis| weighted(normals.map(|normal| normal[axis]), &sources));
+    let lengths = normals.map(length);
+    let wanted = weighted(lengths, &sources);
+    let scale = wanted / length(&between);
+    if !scale.is_finite() {
+        return normals.contains(&is);
+    }
+    // Where they nearly cancel, the direction of what is left is rounding, and says nothing.
+    let largest = lengths.into_iter().fold(0.0, f64::max);
+    let allowed = ROUNDINGS * f64::EPSILON * largest * scale.max(1.0);
+    let near = |axis: usize| (is[axis] - between[axis] * scale).abs() <= allowed;
+    allowed >= wanted || (0..3).all(near)
+}
+
+/// The value between three by the weights of sources, of which the first two may be the ends of an edge.
+fn weighted<T>(values: [f64; 3], sources: &Sources<T>) -> f64 {
+    let weights = sources.each_ref().map(|(_, weight)| *weight);
+    blend(values, weights, weights[2] == 0.0)
+}

@@ -1,0 +1,303 @@
+//! What can be undone: insertions, slides, divisions of faces.
+//!
+//! Which insertions go is the kernel's [`RemovalPlan`], of the record's divided faces. Slides are undone with
+//! them, as if in reverse order of the cuts:
+//!
+//! * An inserted vertex goes only if it is as it was inserted (`past.rs`), and if the ends that it was
+//!   put between are where they were then: a later slide of one of them has to be undone too.
+//! * A slide is undone if nothing that its cut or a later one tore holds the vertex apart, if the vertex
+//!   is as it was left, and if everything goes that was put beside it since. What holds a
+//!   slide holds all earlier ones of its vertex.
+//!
+//! All begins with everything going that might, and is planned anew until no more has to stay.
+
+use std::collections::BTreeMap;
+
+use tearmesh::{FaceId, FacePart, HalfEdgeId, Insertions, Mesh, RemovalPlan, VertexId};
+
+use super::past::Past;
+use crate::document::Document;
+use crate::families::Families;
+use crate::record::{At, Inserted, Record};
+
+/// A divided face.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Divided {
+    /// The roots at its corners.
+    corners: [u32; 3],
+    /// The faces that it was divided into, each with the roots at its corners. Of one that was divided
+    /// again it is any face of it.
+    parts: Vec<(FaceId, [u32; 3])>,
+    /// The faces of the mesh that cover it, in order.
+    pub(super) faces: Vec<FaceId>,
+}
+
+pub(super) struct Undo<'d> {
+    pub(super) past: Past<'d>,
+    plan: RemovalPlan,
+    /// The divided faces, by family.
+    pub(super) divided: Vec<Divided>,
+    inserted: &'d [Inserted],
+    /// Whether each slide is undone, and whether what its cut or a later one tore there is open.
+    pub(super) is_back: Vec<bool>,
+    is_open: Vec<bool>,
+    /// By root, whether it was inserted and may go.
+    may_go: Vec<bool>,
+    /// For each inserted vertex, the first cut whose slides came later.
+    since: Vec<u32>,
+    /// How many inserted vertices stay for what was done to them since.
+    pub(super) edited: usize,
+}
+
+impl<'d> Undo<'d> {
+    pub(super) fn find(document: &'d Document, record: &'d Record, mesh: &Mesh) -> Undo<'d> {
+        let past = Past::new(document, record);
+        let divided = divided(&record.families, &past, mesh);
+        let inserted = &record.inserted[..];
+        // The plan knows what is within before what is around.
+        let families = divided
+            .iter()
+            .rev()
+            .map(|face| face.parts_for_plan(inserted));
+        let insertions = Insertions::from_parts(mesh, |v| past.roots[v.index()], families);
+        let mut undo = Undo {
+            plan: insertions.plan(mesh, |_| false, |_, _| true),
+            is_back: Vec::new(),
+            is_open: Vec::new(),
+            may_go: may_go(record, &past, mesh),
+            since: inserted.iter().map(|one| one.cut + 1).collect(),
+            inserted,
+            past,
+            divided,
+            edited: 0,
+        };
+        undo.look_at_slides(record);
+        let plan = |undo: &Undo<'_>| {
+            let may_go = |v: VertexId| undo.may_go[undo.past.roots[v.index()] as usize];
+            insertions.plan(mesh, may_go, |one, other| undo.agree(one, other))
+        };
+        undo.plan = plan(&undo);
+        let divided = undo.divided.iter().enumerate();
+        let restored = divided.filter(|&(number, _)| undo.restored(number).is_some());
+        let unlike = restored.flat_map(|(_, divided)| undo.unlike_within(divided));
+        let unlike = unlike.collect();
+        undo.keep_edited(unlike);
+        loop {
+            undo.plan = plan(&undo);
+            let mut goes = vec![false; undo.may_go.len()];
+            for v in mesh.vertices().filter(|&v| undo.plan.goes(v)) {
+                goes[undo.past.roots[v.index()] as usize] = true;
+            }
+            if !undo.keep_more(&mut goes) {
+                return undo;
+            }
+        }
+    }
+
+    /// Whether two corners of a vertex have the same texture coordinate and normal, once slides are undone.
+    fn agree(&self, one: HalfEdgeId, other: HalfEdgeId) -> bool {
+        let is_back = |slide: usize| self.is_back[slide];
+        let index = |h: HalfEdgeId, which| self.past.index(h.index(), which, is_back);
+        [0, 1].map(|which| index(one, which)) == [0, 1].map(|which| index(other, which))
+    }
+
+    /// The roots within a divided face that might go, but are not as they were inserted: behind the
+    /// slides of their cut, or before these.
+    fn unlike_within(&self, divided: &Divided) -> Vec<(u32, [bool; 2])> {
+        let half_edges = divided.faces.iter().flat_map(|f| f.half_edges());
+        let corners = half_edges.map(|h| (self.past.root(h.index()), h.index()));
+        let mut corners: Vec<(u32, usize)> = corners.collect();
+        corners.sort_by_key(|&(root, _)| root);
+        corners.dedup_by_key(|&mut (root, _)| root);
+        let first = |root: u32| {
+            let found = corners.binary_search_by_key(&root, |&(root, _)| root);
+            found.ok().map(|at| corners[at].1)
+        };
+        let might_go = |root: u32| self.may_go[root as usize] && !divided.corners.contains(&root);
+        let going = corners.iter().filter(|&&(root, _)| might_go(root));
+        let unlike = going.filter_map(|&(root, corner)| {
+            let Inserted { cut, at, .. } = self.inserted[self.place(root)?];
+            let is_unlike = |since: u32| !self.past.is_as_inserted(corner, &at, since, first);
+            let unlike = [cut + 1, cut].map(is_unlike);
+            unlike.contains(&true).then_some((root, unlike))
+        });
+        unlike.collect()
+    }
+
+    /// The place of a root in the list of what was inserted.
+    fn place(&self, root: u32) -> Option<usize> {
+        let place = self.inserted.binary_search_by_key(&root, |one| one.vertex);
+        place.ok()
+    }
+
+    /// Keeps what was edited, and finds out whether the rest was inserted before its cut slid
+    /// vertices or behind that.
+    fn keep_edited(&mut self, mut unlike: Vec<(u32, [bool; 2])>) {
+        unlike.sort_unstable();
+        for of_root in unlike.chunk_by(|a, b| a.0 == b.0) {
+            let root = of_root[0].0;
+            let [behind, before] = [0, 1].map(|i| of_root.iter().any(|(_, unlike)| unlike[i]));
+            let place = self.place(root).expect("it was inserted");
+            if behind && before {
+                self.may_go[root as usize] = false;
+                let waits = self.slides_of_ends(place).any(|slide| self.is_open[slide]);
+                self.edited += usize::from(!waits);
+            } else if behind {
+                self.since[place] = self.inserted[place].cut;
+            }
+        }
+    }
+
+    /// The slides of the ends that an inserted vertex was put between.
+    fn slides_of_ends(&self, place: usize) -> impl Iterator<Item = usize> + '_ {
+        let ends = self.inserted[place].at.roots().iter();
+        ends.flat_map(|&root| self.past.of_root(root))
+    }
+
+    /// Finds the slides that may be undone.
+    fn look_at_slides(&mut self, record: &Record) {
+        let mut torn_by: BTreeMap<u32, u32> = BTreeMap::new();
+        for split in &record.splits {
+            for end in [split.vertex, split.from] {
+                let cut = torn_by.entry(end).or_default();
+                *cut = split.cut.max(*cut);
+            }
+        }
+        for (slid, is_intact) in record.slides.iter().zip(&self.past.is_intact) {
+            let torn_by = torn_by.get(&slid.vertex);
+            let is_open = torn_by.is_some_and(|&cut| cut >= slid.cut);
+            self.is_open.push(is_open);
+            self.is_back.push(*is_intact && !is_open);
+        }
+    }
+
+    /// How many vertices stay only because they were edited since they slid.
+    pub(super) fn slid_edited(&self) -> usize {
+        let is_edited = |&slide: &usize| {
+            let vertex = self.past.slides.get(slide).vertex;
+            let later = self.past.of(vertex).find(|&later| later > slide);
+            let is_first_found = later.is_none_or(|later| self.past.is_intact[later]);
+            let goes = self.goes(vertex);
+            is_first_found && !self.is_open[slide] && !goes && !self.past.is_intact[slide]
+        };
+        (0..self.is_back.len()).filter(is_edited).count()
+    }
+
+    /// The half-edges whose corners a divided face has, if it is restored.
+    pub(super) fn restored(&self, family: usize) -> Option<[HalfEdgeId; 3]> {
+        self.plan.restored(self.divided.len() - 1 - family)
+    }
+
+    /// Whether a vertex is removed.
+    pub(super) fn goes(&self, vertex: u32) -> bool {
+        let vertex = VertexId::new(vertex as usize).expect("I1: ids fit");
+        self.plan.goes(vertex)
+    }
+
+    /// Keeps what depends on something that stays, where `goes` says by root what goes; whether
+    /// there is any.
+    fn keep_more(&mut self, goes: &mut [bool]) -> bool {
+        let mut more = false;
+        // From the last one: its ends were inserted before it.
+        for (place, inserted) in self.inserted.iter().enumerate().rev() {
+            let of_ends: Vec<usize> = self.slides_of_ends(place).collect();
+            let is_later = |slide: &usize| self.past.slides.get(*slide).cut >= self.since[place];
+            let (later, earlier): (Vec<usize>, Vec<usize>) =
+                of_ends.iter().partition(|s| is_later(s));
+            if goes[inserted.vertex as usize] && later.iter().all(|&slide| self.is_back[slide]) {
+                continue;
+            }
+            // Where a slide stays, all earlier ones of its vertex do for the same reason.
+            for slide in earlier {
+                more |= std::mem::take(&mut self.is_back[slide]);
+            }
+            // What stays was put between vertices that stay, or the record would name none.
+            for &root in [inserted.vertex].iter().chain(inserted.at.roots()) {
+                if std::mem::take(&mut goes[root as usize]) {
+                    self.may_go[root as usize] = false;
+                    more = true;
+                }
+            }
+        }
+        more
+    }
+}
+
+/// By root, whether it was inserted; and what no honest record has: a parent between inserted vertices,
+/// and undivided faces there.
+fn may_go(record: &Record, past: &Past<'_>, mesh: &Mesh) -> Vec<bool> {
+    let mut may_go = vec![false; past.roots.len()];
+    for inserted in &record.inserted {
+        may_go[inserted.vertex as usize] = true;
+    }
+    let families = &record.families;
+    for family in families
+        .all()
+        .iter()
+        .filter(|family| family.above.is_none())
+    {
+        let corners = family.corners.iter();
+        corners.for_each(|&root| may_go[root as usize] = false);
+    }
+    for f in mesh.faces().filter(|f| families.of(f.index()).is_none()) {
+        let corners = f.half_edges().into_iter();
+        corners.for_each(|h| may_go[past.root(h.index()) as usize] = false);
+    }
+    may_go
+}
+
+/// All divided faces of a mesh.
+fn divided(families: &Families, past: &Past<'_>, mesh: &Mesh) -> Vec<Divided> {
+    let divided = families.all().iter().map(|family| Divided {
+        corners: family.corners,
+        ..Divided::default()
+    });
+    let mut divided: Vec<Divided> = divided.collect();
+    for face in mesh.faces() {
+        let mut part = (face, face.half_edges().map(|h| past.root(h.index())));
+        let mut family = families.of(face.index());
+        let mut is_new = true;
+        while let Some(number) = family {
+            let within = &mut divided[number as usize];
+            let is_first = within.faces.is_empty();
+            within.faces.push(face);
+            if is_new {
+                within.parts.push(part);
+            }
+            is_new &= is_first;
+            part = (face, within.corners);
+            family = families.all()[number as usize].above;
+        }
+    }
+    divided
+}
+
+impl Divided {
+    /// The parts in the terms of the kernel.
+    fn parts_for_plan(&self, inserted: &[Inserted]) -> Vec<FacePart> {
+        let corner = |class: u32| self.corners.iter().position(|&own| own == class);
+        let classes = self.parts.iter().flat_map(|(_, classes)| classes);
+        let mut on_sides: BTreeMap<u32, [bool; 3]> =
+            classes.map(|&class| (class, [false; 3])).collect();
+        for (i, &own) in self.corners.iter().enumerate() {
+            on_sides.insert(own, [0, 1, 2].map(|side| side == i || (side + 1) % 3 == i));
+        }
+        // A point on an edge is on the sides that both ends are on, which were there before it.
+        for class in on_sides.keys().copied().collect::<Vec<u32>>() {
+            let place = inserted.binary_search_by_key(&class, |one| one.vertex);
+            if let (None, Ok(place)) = (corner(class), place)
+                && let At::Edge { ends, .. } = inserted[place].at
+            {
+                let [one, other] = ends.map(|end| on_sides.get(&end).copied().unwrap_or_default());
+                on_sides.insert(class, [0, 1, 2].map(|side| one[side] && other[side]));
+            }
+        }
+        let part = |&(face, classes): &(FaceId, [u32; 3])| FacePart {
+            face,
+            points: classes,
+            corners: classes.map(corner),
+            on_sides: classes.map(|class| on_sides[&class]),
+        };
+        self.parts.iter().map(part).collect()
+    }
+}
