@@ -7,7 +7,7 @@
 
 use std::io::{ErrorKind, Read};
 
-use memchr::memrchr2;
+use memchr::{memchr2, memrchr2};
 
 use super::fault::{Fault, Line};
 use crate::diagnostic::ReadError;
@@ -161,7 +161,7 @@ fn last_physical_line(bytes: &[u8]) -> &[u8] {
 /// The first logical line: its length without its end and with it, and how many physical lines it has.
 pub(super) fn first_line(bytes: &[u8]) -> (usize, usize, u32) {
     let (mut physical, mut lines) = (0, 1);
-    while let Some(end) = find_line_end(&bytes[physical..]) {
+    while let Some(end) = memchr2(b'\n', b'\r', &bytes[physical..]) {
         let end = physical + end;
         let behind = end
             + if bytes[end..].starts_with(b"\r\n") {
@@ -186,30 +186,6 @@ fn is_continued(line: &[u8]) -> bool {
         end -= 1;
     }
     end > 0 && line[end - 1] == b'\\' && !line.contains(&b'#')
-}
-
-/// The position of the first CR or LF. On lines as short as most, faster than `memchr2` by half.
-#[inline]
-fn find_line_end(bytes: &[u8]) -> Option<usize> {
-    const ONES: u64 = u64::from_ne_bytes([1; 8]);
-    const HIGH: u64 = u64::from_ne_bytes([0x80; 8]);
-    let (words, rest) = bytes.as_chunks::<8>();
-    for (i, word) in words.iter().enumerate() {
-        // A byte of `x` is zero where the word has the sought one; the lowest mark that
-        // the subtraction leaves is right, and those above it do not matter.
-        let word = u64::from_le_bytes(*word);
-        let feed = word ^ (ONES * u64::from(b'\n'));
-        let carriage = word ^ (ONES * u64::from(b'\r'));
-        let marks =
-            ((feed.wrapping_sub(ONES) & !feed) | (carriage.wrapping_sub(ONES) & !carriage)) & HIGH;
-        if marks != 0 {
-            return Some(8 * i + marks.trailing_zeros() as usize / 8);
-        }
-    }
-    let tail = rest
-        .iter()
-        .position(|&byte| byte == b'\n' || byte == b'\r')?;
-    Some(bytes.len() - rest.len() + tail)
 }
 
 #[cfg(test)]
@@ -279,27 +255,6 @@ mod tests {
                 "{:?}",
                 String::from_utf8_lossy(bytes)
             );
-        }
-    }
-
-    #[test]
-    fn the_first_line_end_is_found_among_its_likes() {
-        let mut state = 1_u32;
-        for length in 0..40 {
-            for _ in 0..200 {
-                let bytes: Vec<u8> = (0..length)
-                    .map(|_| {
-                        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                        // Neighbours of CR and LF, with and without the high bit.
-                        [
-                            9, 10, 11, 12, 13, 14, 0x8a, 0x8d, b'x', b'x', b'x', b'x', b'x', 0,
-                            0xff, 1,
-                        ][(state >> 28) as usize]
-                    })
-                    .collect();
-                let naive = bytes.iter().position(|&b| b == 10 || b == 13);
-                assert_eq!(find_line_end(&bytes), naive, "{bytes:?}");
-            }
         }
     }
 }
