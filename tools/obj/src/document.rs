@@ -227,6 +227,12 @@ impl Document {
         [&place, self.extras.row(vertex)].concat()
     }
 
+    /// How many vertices, texture coordinates and normals there are.
+    #[inline]
+    pub(crate) fn counts(&self) -> [usize; 3] {
+        [self.positions.len(), self.texture.len(), self.normals.len()]
+    }
+
     /// The numbers of a texture coordinate (0) or a normal (1).
     pub(crate) fn value(&self, which: usize, index: u32) -> &[f64] {
         match which {

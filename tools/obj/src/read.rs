@@ -30,13 +30,14 @@ use std::io::Read;
 use self::fault::{Fault, Line, Parsed, refuse};
 use self::foreign::binary;
 use self::forward::beyond;
-use self::reader::{Element, Reader};
+use self::reader::Reader;
 use self::scan::Scan;
 use self::source::{Source, first_line};
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::Document;
 use crate::opening::{MARK, Opening};
 use crate::polygons::Polygons;
+use crate::store::Kind;
 use crate::triangulate::Triangulation;
 
 impl Document {
@@ -170,17 +171,13 @@ impl Reader {
 
     /// Judges what can be judged only when the whole file is known.
     fn finish(mut self) -> Result<Document, ReadError> {
-        let offenders = Element::ALL.iter().filter_map(|&element| {
-            let count = self.count(element);
-            Some((
-                self.forward[element as usize].first_beyond(count)?,
-                element,
-                count,
-            ))
+        let offenders = Kind::INDEXED.into_iter().filter_map(|kind| {
+            let count = self.count(kind);
+            let step = self.forward[kind as usize].first_beyond(count)?;
+            Some((step, kind, count))
         });
-        if let Some((step, element, count)) = offenders.min_by_key(|&((location, ..), ..)| location)
-        {
-            return Err(beyond(element.name(), element.plural(), step, count));
+        if let Some((step, kind, count)) = offenders.min_by_key(|&((location, ..), ..)| location) {
+            return Err(beyond(kind, step, count));
         }
         if self.document.polygons.len() == 0 {
             return Err(self.no_face());

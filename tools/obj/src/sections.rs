@@ -17,38 +17,18 @@ use crate::store::Kind;
 /// Where the sections of vertices, of texture coordinates and of normals end.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sections {
-    /// By [`Of`]: how many statements there are up to the end of each section but the last,
+    /// By kind: how many statements there are up to the end of each section but the last,
     /// ascending.
     ends: [Vec<u32>; 3],
     counts: [u32; 3],
 }
 
-/// What is in a section.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Of {
-    Vertices,
-    Texture,
-    Normals,
-}
-
-impl Of {
-    /// How many statements of the kind a document has.
-    pub(crate) fn count(self, document: &Document) -> usize {
-        match self {
-            Of::Vertices => document.positions.len(),
-            Of::Texture => document.texture.len(),
-            Of::Normals => document.normals.len(),
-        }
-    }
-}
-
 impl Sections {
     /// The whole file as one section.
     pub(crate) fn one(document: &Document) -> Sections {
-        let all = [Of::Vertices, Of::Texture, Of::Normals];
         Sections {
             ends: Default::default(),
-            counts: all.map(|of| of.count(document) as u32),
+            counts: document.counts().map(|count| count as u32),
         }
     }
 
@@ -64,9 +44,6 @@ impl Sections {
         for run in document.layout.runs() {
             let count = run.count as usize;
             let which = match run.kind {
-                Kind::Vertex => 0,
-                Kind::Texture => 1,
-                Kind::Normal => 2,
                 Kind::Polygon => {
                     for polygon in polygons..polygons + count {
                         document.raise_to_needs(polygon, &mut written);
@@ -83,6 +60,7 @@ impl Sections {
                     }
                     continue;
                 }
+                kind => kind as usize,
             };
             had[which] += run.count;
             written[which] = written[which].max(had[which]);
@@ -99,10 +77,12 @@ impl Sections {
     }
 
     /// How many statements there are up to the end of the section that one of them is in.
-    pub(crate) fn end(&self, of: Of, statement: u32) -> u32 {
-        let ends = &self.ends[of as usize];
+    pub(crate) fn end(&self, kind: Kind, statement: u32) -> u32 {
+        let ends = &self.ends[kind as usize];
         let next = ends.partition_point(|&end| end <= statement);
-        ends.get(next).copied().unwrap_or(self.counts[of as usize])
+        ends.get(next)
+            .copied()
+            .unwrap_or(self.counts[kind as usize])
     }
 }
 

@@ -138,6 +138,20 @@ pub(crate) enum Kind {
     Text,
 }
 
+impl Kind {
+    /// The kinds that indices count.
+    pub(crate) const INDEXED: [Kind; 3] = [Kind::Vertex, Kind::Texture, Kind::Normal];
+
+    /// What one of an indexed kind is called, and several.
+    pub(crate) fn names(self) -> [&'static str; 2] {
+        match self {
+            Kind::Texture => ["texture coordinate", "texture coordinates"],
+            Kind::Normal => ["normal", "normals"],
+            _ => ["vertex", "vertices"],
+        }
+    }
+}
+
 /// Neighbouring statements of one kind, on consecutive lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Run {

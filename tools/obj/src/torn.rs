@@ -11,7 +11,7 @@ mod extras;
 mod slots;
 mod turns;
 
-pub(crate) use self::corners::{blend, length};
+pub(crate) use self::corners::{length, normal_between, numbers_between};
 pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
 
@@ -27,7 +27,6 @@ use crate::document::Document;
 use crate::families::Families;
 use crate::record::{Apart, At, Inserted, Record, SplitOff, is_in, is_same_point};
 use crate::slides::Slides;
-use crate::store::Rows;
 
 /// A document together with all edits of its mesh. It is a [`Follower`] of the mesh's log, and
 /// writes the edited file.
@@ -398,7 +397,7 @@ impl<'d> TornDocument<'d> {
         if document.texture.len() + document.normals.len() > 0 {
             let corners = self.corners.get_or_insert_with(|| Corners::new(document));
             for exchange in corners.slide(slide) {
-                let value = self.value(exchange.which, exchange.new);
+                let value = self.value(exchange.which, exchange.new).to_vec();
                 self.slides.push_exchange(exchange, &value);
             }
         }
@@ -585,19 +584,17 @@ impl TornDocument<'_> {
 
     /// How many texture coordinates and normals there are.
     pub(crate) fn counts(&self) -> [usize; 2] {
-        let new = self.new_texture().map_or(0, |rows| rows.len());
-        [
-            self.document.texture.len() + new,
-            self.document.normals.len() + self.new_normals().len(),
-        ]
+        let [_, texture, normals] = self.document.counts();
+        let corners = self.corners.as_ref();
+        corners.map_or([texture, normals], Corners::counts)
     }
 
     /// Whether a texture coordinate (0) or a normal (1) was inserted.
     pub(crate) fn is_index_inserted(&self, which: usize, index: usize) -> bool {
-        let known = [self.document.texture.len(), self.document.normals.len()];
+        let known = self.document.counts()[1 + which];
         let record = self.document.record.as_deref();
         let runs = record.map(|record| &record.new_indices[which]);
-        index >= known[which] || runs.is_some_and(|runs| is_in(runs, index as u32))
+        index >= known || runs.is_some_and(|runs| is_in(runs, index as u32))
     }
 
     /// Whether faces and corners are those of the document.
@@ -605,37 +602,11 @@ impl TornDocument<'_> {
         self.corners.is_none()
     }
 
-    /// What a texture coordinate (0) or a normal (1) names.
-    pub(crate) fn value(&self, which: usize, index: u32) -> Vec<f64> {
-        match which {
-            0 => self.texture_row(index).to_vec(),
-            _ => self.normal(index).to_vec(),
+    /// The numbers of a texture coordinate (0) or a normal (1).
+    pub(crate) fn value(&self, which: usize, index: u32) -> &[f64] {
+        match &self.corners {
+            Some(corners) => corners.value(which, index),
+            None => self.document.value(which, index),
         }
-    }
-
-    pub(crate) fn texture_row(&self, index: u32) -> &[f64] {
-        let count = self.document.texture.len();
-        match ((index as usize).checked_sub(count), &self.corners) {
-            (Some(new), Some(corners)) => corners.new_texture.row(new),
-            _ => self.document.texture.row(index as usize),
-        }
-    }
-
-    pub(crate) fn normal(&self, index: u32) -> [f64; 3] {
-        let count = self.document.normals.len();
-        match (index as usize).checked_sub(count) {
-            None => self.document.normals[index as usize],
-            Some(new) => self.new_normals()[new],
-        }
-    }
-
-    pub(crate) fn new_texture(&self) -> Option<&Rows> {
-        self.corners.as_ref().map(|corners| &corners.new_texture)
-    }
-
-    pub(crate) fn new_normals(&self) -> &[[f64; 3]] {
-        self.corners
-            .as_ref()
-            .map_or(&[], |corners| &corners.new_normals)
     }
 }

@@ -200,7 +200,7 @@ fn write(
         prepared,
         positions,
         moves_up,
-        streams: [Kind::Vertex, Kind::Texture, Kind::Normal].map(Stream::new),
+        streams: Kind::INDEXED.map(Stream::new),
         hash: Hash::of_faces(vertices),
         out: Output::new(out),
     };
@@ -294,9 +294,6 @@ impl<W: Write> Writer<'_, W> {
         for (i, run) in runs.iter().enumerate() {
             let count = run.count as usize;
             let which = match run.kind {
-                Kind::Vertex => VERTICES,
-                Kind::Texture => TEXTURE,
-                Kind::Normal => NORMALS,
                 Kind::Polygon => {
                     for polygon in polygons..polygons + count {
                         self.write_polygon(polygon)?;
@@ -313,6 +310,7 @@ impl<W: Write> Writer<'_, W> {
                     self.out.text(&lines[written..])?;
                     continue;
                 }
+                kind => kind as usize,
             };
             counts[which] += run.count;
             self.write_statements(which, counts[which])?;
@@ -370,8 +368,8 @@ impl<W: Write> Writer<'_, W> {
                 let extras = torn.extra_numbers(vertex);
                 self.out.statement(b"v", &[at.x, at.y, at.z], extras)
             }
-            TEXTURE => self.out.statement(b"vt", torn.texture_row(element), &[]),
-            _ => self.out.statement(b"vn", &torn.normal(element), &[]),
+            TEXTURE => self.out.statement(b"vt", torn.value(0, element), &[]),
+            _ => self.out.statement(b"vn", torn.value(1, element), &[]),
         }
     }
 

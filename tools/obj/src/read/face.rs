@@ -3,7 +3,7 @@
 use tearmesh::Mesh;
 
 use super::fault::{Fault, Parsed, quoted};
-use super::reader::{Element, Reader, absolute, limit};
+use super::reader::{Reader, absolute, limit};
 use super::scan::Scan;
 use crate::store::{Kind, extend, push};
 
@@ -28,12 +28,12 @@ impl Reader {
                 extend(&mut self.document.polygons.vertices, &vertices);
             }
             let mut token = scan.at();
-            vertices[count % 4] = match self.usual_reference(scan, Element::Vertex) {
+            vertices[count % 4] = match self.usual_reference(scan, Kind::Vertex) {
                 Some(vertex) => vertex,
                 None if !scan.find_token() => break,
                 None => {
                     token = scan.at();
-                    let (vertex, behind) = self.any_reference(*scan, token, Element::Vertex)?;
+                    let (vertex, behind) = self.any_reference(*scan, token, Kind::Vertex)?;
                     scan.go_to(behind);
                     vertex
                 }
@@ -41,13 +41,13 @@ impl Reader {
             if scan.peek() == Some(b'/') {
                 scan.skip(1);
                 if scan.peek() != Some(b'/') && !scan.at_token_end() {
-                    let texture = self.reference(scan, token, Element::Texture)?;
+                    let texture = self.reference(scan, token, Kind::Texture)?;
                     self.document.polygons.texture.set(first + count, texture);
                 }
                 if scan.peek() == Some(b'/') {
                     scan.skip(1);
                     if !scan.at_token_end() {
-                        let normal = self.reference(scan, token, Element::Normal)?;
+                        let normal = self.reference(scan, token, Kind::Normal)?;
                         self.document.polygons.normals.set(first + count, normal);
                         if scan.peek() == Some(b'/') {
                             return Err(malformed(scan.moved_to(token)));
@@ -80,18 +80,18 @@ impl Reader {
 
     /// Reads an index of an element that is there, and counts it from 0.
     #[inline(always)]
-    fn usual_reference(&mut self, scan: &mut Scan<'_>, element: Element) -> Option<u32> {
-        let count = self.count(element);
-        scan.usual_index(count, &mut self.widths.index[element as usize])
+    fn usual_reference(&mut self, scan: &mut Scan<'_>, kind: Kind) -> Option<u32> {
+        let count = self.count(kind);
+        scan.usual_index(count, &mut self.widths.index[kind as usize])
     }
 
     /// Reads an index of a corner, and counts it from 0; the corner ends behind it, or a `/` comes.
     #[inline(always)]
-    fn reference(&mut self, scan: &mut Scan<'_>, corner: usize, element: Element) -> Parsed<u32> {
-        if let Some(index) = self.usual_reference(scan, element) {
+    fn reference(&mut self, scan: &mut Scan<'_>, corner: usize, kind: Kind) -> Parsed<u32> {
+        if let Some(index) = self.usual_reference(scan, kind) {
             return Ok(index);
         }
-        let (index, behind) = self.any_reference(*scan, corner, element)?;
+        let (index, behind) = self.any_reference(*scan, corner, kind)?;
         scan.go_to(behind);
         Ok(index)
     }
@@ -103,7 +103,7 @@ impl Reader {
         &mut self,
         mut scan: Scan<'_>,
         corner: usize,
-        element: Element,
+        kind: Kind,
     ) -> Parsed<(u32, usize)> {
         let start = scan.at();
         let given = scan.integer();
@@ -111,10 +111,10 @@ impl Reader {
         let Some(given) = given.filter(|_| is_whole) else {
             return Err(malformed(scan.moved_to(corner)));
         };
-        let (count, span) = (self.count(element), start..scan.at());
-        let absolute = absolute(given, count, element, &span)?;
+        let (count, span) = (self.count(kind), start..scan.at());
+        let absolute = absolute(given, count, kind, &span)?;
         if absolute as usize > count {
-            self.forward[element as usize].note(absolute, count, &scan.line, span);
+            self.forward[kind as usize].note(absolute, count, &scan.line, span);
         }
         Ok((absolute - 1, scan.at()))
     }

@@ -1,11 +1,11 @@
 //! Statements that are carried through as bytes.
 
 use super::fault::{Fault, Line, Parsed};
-use super::reader::{Element, Reader, absolute};
+use super::reader::{Reader, absolute};
 use super::scan::Scan;
 use super::source::first_line;
 use crate::keyword::{Class, tokens_before_indices};
-use crate::store::{extend, push};
+use crate::store::{Kind, extend, push};
 
 impl Reader {
     /// Carries a line through that begins with none of `v`, `vt`, `vn`, `f` and `fo`; its keyword,
@@ -47,7 +47,7 @@ impl Reader {
             let mut element = 0;
             while token_number >= skipped && scan.at() < end && element < 3 {
                 let start = scan.at();
-                let counted = Element::ALL[element];
+                let counted = Kind::INDEXED[element];
                 if let Some(given @ ..0) = scan.integer()
                     && (scan.at_token_end() || scan.peek() == Some(b'/'))
                 {

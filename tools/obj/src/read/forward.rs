@@ -14,6 +14,7 @@ use std::ops::Range;
 use super::fault::{Line, locate, refuse};
 use super::source::first_line;
 use crate::diagnostic::{Excerpt, Location, ReadError};
+use crate::store::Kind;
 
 /// The most bytes of text that are kept.
 const TEXT_BUDGET: usize = 1 << 20;
@@ -114,11 +115,11 @@ impl Forward {
 
 /// The error for an index that no element has, though the whole file is known.
 pub(super) fn beyond(
-    what: &str,
-    plural: &str,
+    kind: Kind,
     (location, index, excerpt): (Location, u32, Option<Excerpt>),
     count: usize,
 ) -> ReadError {
+    let [what, plural] = kind.names();
     let message = match count {
         0 => format!("{what} {index} does not exist: the file has no {plural}"),
         1 => format!("{what} {index} does not exist: the file has 1 {what}"),

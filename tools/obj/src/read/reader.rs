@@ -8,6 +8,7 @@ use super::forward::Forward;
 use super::record::RecordReader;
 use super::tally::ForeignStatements;
 use crate::document::Document;
+use crate::store::Kind;
 
 /// What has been read so far.
 #[derive(Debug, Default)]
@@ -24,12 +25,8 @@ pub(super) struct Reader {
 impl Reader {
     /// How many elements of a kind there are so far.
     #[inline(always)]
-    pub(super) fn count(&self, element: Element) -> usize {
-        match element {
-            Element::Vertex => self.document.positions.len(),
-            Element::Texture => self.document.texture.len(),
-            Element::Normal => self.document.normals.len(),
-        }
+    pub(super) fn count(&self, kind: Kind) -> usize {
+        self.document.counts()[kind as usize]
     }
 
     /// The number of the next line.
@@ -58,44 +55,11 @@ fn over_limit(most: usize, what: &str) -> Box<Fault> {
 /// The largest index: [`Mesh::MAX_VERTICES`].
 const INDEX_MAX: i64 = 1 << 31;
 
-/// What an index counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Element {
-    Vertex,
-    Texture,
-    Normal,
-}
-
-impl Element {
-    pub(super) const ALL: [Element; 3] = [Element::Vertex, Element::Texture, Element::Normal];
-
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Element::Vertex => "vertex",
-            Element::Texture => "texture coordinate",
-            Element::Normal => "normal",
-        }
-    }
-
-    pub(super) const fn plural(self) -> &'static str {
-        match self {
-            Element::Vertex => "vertices",
-            Element::Texture => "texture coordinates",
-            Element::Normal => "normals",
-        }
-    }
-}
-
 /// An index as counted from 1 from the start of the file, with `count` elements so far.
 /// It may lie beyond them.
 #[cold]
-pub(super) fn absolute(
-    given: i64,
-    count: usize,
-    element: Element,
-    span: &Range<usize>,
-) -> Parsed<u32> {
-    let what = element.name();
+pub(super) fn absolute(given: i64, count: usize, kind: Kind, span: &Range<usize>) -> Parsed<u32> {
+    let [what, _] = kind.names();
     if given == 0 {
         return Err(Fault::new(
             "E-OBJ-ZERO",

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use crate::document::Document;
 use crate::record::{At, Record};
 use crate::slides::Slides;
-use crate::torn::{blend, length};
+use crate::torn::{length, normal_between, numbers_between};
 
 /// By how many units of the last place of the largest number concerned a number may differ: an
 /// interpolation rounds three times, whichever end it begins at, and so does the mean of
@@ -34,9 +34,6 @@ pub(super) struct Past<'d> {
     /// Whether a vertex is, but for later slides, as each one left it.
     pub(super) is_intact: Vec<bool>,
 }
-
-/// Values with their weights.
-type Sources<T> = [(T, f64); 3];
 
 impl<'d> Past<'d> {
     pub(super) fn new(document: &'d Document, record: &'d Record) -> Past<'d> {
@@ -150,7 +147,7 @@ impl<'d> Past<'d> {
         let are_alike = rows.iter().all(|row| row.len() == rows[0].len());
         let count = if are_alike { rows[0].len() } else { 3 };
         let rows = rows.each_ref().map(|row| &row[..count]);
-        if is.len() != count || !is_between(&is, with(rows, weights)) {
+        if is.len() != count || !is_between(&is, rows, weights) {
             return false;
         }
         [0, 1].into_iter().all(|which| {
@@ -162,17 +159,13 @@ impl<'d> Past<'d> {
                 let has_none = [a, b, c].map(index).contains(&None);
                 return has_none && index(corner).is_none();
             };
-            let rows = with([a, b, c].map(value), weights);
+            let rows = [a, b, c].map(value);
             match which {
-                0 => is_between(value(is), rows),
-                _ => is_normal_between(value(is), rows),
+                0 => is_between(value(is), rows, weights),
+                _ => is_normal_between(value(is), rows, weights),
             }
         })
     }
-}
-
-fn with(rows: [&[f64]; 3], weights: [f64; 3]) -> Sources<&[f64]> {
-    [0, 1, 2].map(|i| (rows[i], weights[i]))
 }
 
 /// Whether numbers are the same to the bit.
@@ -183,37 +176,31 @@ fn are_same(some: &[f64], others: &[f64]) -> bool {
 
 /// Whether each number is, but for rounding, the weighted sum of those of the sources; a number that
 /// a row has not counts as 0, as it does for texture coordinates.
-fn is_between(is: &[f64], sources: Sources<&[f64]>) -> bool {
-    let length = sources.iter().map(|(row, _)| row.len()).max();
-    (0..is.len().max(length.unwrap_or(0))).all(|i| {
+fn is_between(is: &[f64], rows: [&[f64]; 3], weights: [f64; 3]) -> bool {
+    let between = numbers_between(rows, weights, is_on_edge(weights));
+    (0..is.len().max(between.len())).all(|i| {
         let at = |row: &[f64]| row.get(i).copied().unwrap_or(0.0);
-        let values = sources.map(|(row, _)| at(row));
-        let wanted = weighted(values, &sources);
-        let largest = values.map(f64::abs).into_iter().fold(0.0, f64::max);
-        (at(is) - wanted).abs() <= ROUNDINGS * f64::EPSILON * largest
+        let largest = rows.iter().map(|row| at(row).abs()).fold(0.0, f64::max);
+        (at(is) - at(&between)).abs() <= ROUNDINGS * f64::EPSILON * largest
     })
 }
 
 /// Whether a normal is, but for rounding, in the direction between others, and as long as
 /// between them. Where these cancel each other it is one of them.
-fn is_normal_between(is: &[f64], sources: Sources<&[f64]>) -> bool {
-    let normals = sources.map(|(normal, _)| normal);
-    let between = [0, 1, 2].map(|axis| weighted(normals.map(|normal| normal[axis]), &sources));
-    let lengths = normals.map(length);
-    let wanted = weighted(lengths, &sources);
-    let scale = wanted / length(&between);
+fn is_normal_between(is: &[f64], normals: [&[f64]; 3], weights: [f64; 3]) -> bool {
+    let (sum, wanted) = normal_between(normals, weights, is_on_edge(weights));
+    let scale = wanted / length(&sum);
     if !scale.is_finite() {
         return normals.contains(&is);
     }
     // Where they nearly cancel, the direction of what is left is rounding, and says nothing.
-    let largest = lengths.into_iter().fold(0.0, f64::max);
+    let largest = normals.map(length).into_iter().fold(0.0, f64::max);
     let allowed = ROUNDINGS * f64::EPSILON * largest * scale.max(1.0);
-    let near = |axis: usize| (is[axis] - between[axis] * scale).abs() <= allowed;
-    allowed >= wanted || (0..3).all(near)
+    let mut axes = is.iter().zip(&sum);
+    allowed >= wanted || axes.all(|(is, sum)| (is - sum * scale).abs() <= allowed)
 }
 
-/// The value between three by the weights of sources, of which the first two may be the ends of an edge.
-fn weighted<T>(values: [f64; 3], sources: &Sources<T>) -> f64 {
-    let weights = sources.each_ref().map(|(_, weight)| *weight);
-    blend(values, weights, weights[2] == 0.0)
+/// Whether a point is between the first two of its sources alone.
+fn is_on_edge(weights: [f64; 3]) -> bool {
+    weights[2] == 0.0
 }

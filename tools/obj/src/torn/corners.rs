@@ -22,10 +22,9 @@ pub(super) struct Corners<'d> {
     /// The texture coordinate and the normal of each corner.
     corners: Vec<[u32; 2]>,
     /// Texture coordinates and normals behind those of the document.
-    pub(super) new_texture: Rows,
-    pub(super) new_normals: Vec<[f64; 3]>,
+    new_values: [Rows; 2],
     /// For each of these, the one of the document in whose section it belongs.
-    anchors: [Vec<u32>; 2],
+    pub(super) anchors: [Vec<u32>; 2],
 }
 
 /// What a new corner lies between: the class of its vertex, which tells the edge and how far
@@ -50,20 +49,27 @@ impl<'d> Corners<'d> {
             document,
             slots: (0..count as u32).collect(),
             corners,
-            new_texture: Rows::default(),
-            new_normals: Vec::new(),
+            new_values: Default::default(),
             anchors: Default::default(),
         }
     }
 
-    /// The texture coordinate of the document in whose section a new one belongs.
-    pub(super) fn texture_anchor(&self, new: usize) -> u32 {
-        self.anchors[0][new]
+    /// How many texture coordinates and normals there are.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        let [_, texture, normals] = self.document.counts();
+        [
+            texture + self.new_values[0].len(),
+            normals + self.new_values[1].len(),
+        ]
     }
 
-    /// The normal of the document in whose section a new one belongs.
-    pub(super) fn normal_anchor(&self, new: usize) -> u32 {
-        self.anchors[1][new]
+    /// The numbers of a texture coordinate (0) or a normal (1).
+    pub(super) fn value(&self, which: usize, index: u32) -> &[f64] {
+        let known = self.document.counts()[1 + which];
+        match (index as usize).checked_sub(known) {
+            None => self.document.value(which, index),
+            Some(new) => self.new_values[which].row(new),
+        }
     }
 
     pub(super) fn face_count(&self) -> usize {
@@ -197,63 +203,55 @@ impl<'d> Corners<'d> {
     ) -> u32 {
         let anchors = behind.iter().map(|&index| self.anchor(which, index));
         let last = anchors.max().expect("it has sources");
+        let sources = between.map(|index| self.value(which, index));
+        let row = match which {
+            0 => numbers_between(sources, weights, on_edge),
+            _ => {
+                let (sum, wanted) = normal_between(sources, weights, on_edge);
+                let scale = wanted / length(&sum);
+                match scale.is_finite() {
+                    true => sum.iter().map(|x| x * scale).collect(),
+                    false => sources[0].to_vec(),
+                }
+            }
+        };
+        let new = self.counts()[which];
         self.anchors[which].push(last);
-        if which == 0 {
-            self.new_texture_between(between, weights, on_edge)
-        } else {
-            self.new_normal_between(between, weights, on_edge)
-        }
+        let rows = &mut self.new_values[which];
+        rows.set(rows.len(), &row);
+        new as u32
     }
 
     fn anchor(&self, which: usize, index: u32) -> u32 {
-        let known = [self.document.texture.len(), self.document.normals.len()];
-        match (index as usize).checked_sub(known[which]) {
+        let known = self.document.counts()[1 + which];
+        match (index as usize).checked_sub(known) {
             None => index,
             Some(new) => self.anchors[which][new],
         }
     }
+}
 
-    fn new_texture_between(&mut self, between: [u32; 3], weights: [f64; 3], on_edge: bool) -> u32 {
-        let count = self.document.texture.len();
-        let rows = between.map(|index| match (index as usize).checked_sub(count) {
-            None => self.document.texture.row(index as usize),
-            Some(new) => self.new_texture.row(new),
-        });
-        let length = rows.iter().map(|row| row.len()).max().unwrap_or(0);
-        let row: Vec<f64> = (0..length)
-            .map(|i| {
-                let values = rows.map(|row| row.get(i).copied().unwrap_or(0.0));
-                blend(values, weights, on_edge)
-            })
-            .collect();
-        let new = self.new_texture.len();
-        self.new_texture.set(new, &row);
-        (count + new) as u32
-    }
+/// The numbers between those of three rows; one that a row does not have counts as 0.
+pub(crate) fn numbers_between(rows: [&[f64]; 3], weights: [f64; 3], on_edge: bool) -> Vec<f64> {
+    let count = rows.map(<[f64]>::len).into_iter().max().unwrap_or(0);
+    let values = |i: usize| rows.map(|row| row.get(i).copied().unwrap_or(0.0));
+    (0..count)
+        .map(|i| blend(values(i), weights, on_edge))
+        .collect()
+}
 
-    fn new_normal_between(&mut self, between: [u32; 3], weights: [f64; 3], on_edge: bool) -> u32 {
-        let count = self.document.normals.len();
-        let normals = between.map(|index| match (index as usize).checked_sub(count) {
-            None => self.document.normals[index as usize],
-            Some(new) => self.new_normals[new],
-        });
-        let blended = |values: [f64; 3]| blend(values, weights, on_edge);
-        let mut normal = [0, 1, 2].map(|axis| blended(normals.map(|normal| normal[axis])));
-        let lengths = normals.each_ref().map(|normal| length(normal));
-        let (length, wanted) = (length(&normal), blended(lengths));
-        let scale = wanted / length;
-        if length > 0.0 && scale.is_finite() {
-            normal = normal.map(|x| x * scale);
-        } else {
-            normal = normals[0];
-        }
-        self.new_normals.push(normal);
-        (count + self.new_normals.len() - 1) as u32
-    }
+/// The sum of normals by weights, and how long the normal between them is.
+pub(crate) fn normal_between(
+    normals: [&[f64]; 3],
+    weights: [f64; 3],
+    on_edge: bool,
+) -> (Vec<f64>, f64) {
+    let wanted = blend(normals.map(length), weights, on_edge);
+    (numbers_between(normals, weights, on_edge), wanted)
 }
 
 /// The value between three by these weights, or on an edge between the first two.
-pub(crate) fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
+fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
     if on_edge {
         a.between(&b, weights[1])
     } else {

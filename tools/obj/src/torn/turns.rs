@@ -10,7 +10,8 @@ use tearmesh::VertexId;
 
 use super::TornDocument;
 use crate::order::{Order, Turn};
-use crate::sections::{Of, Sections};
+use crate::sections::Sections;
+use crate::store::Kind;
 
 /// Behind all ranks of vertices: those of copies for fans.
 const COPIES: u64 = 1 << 32;
@@ -71,10 +72,10 @@ impl<'t> Turns<'t> {
         }
     }
 
-    fn behind(&self, of: Of, statement: impl FnOnce() -> u32) -> u32 {
+    fn behind(&self, kind: Kind, statement: impl FnOnce() -> u32) -> u32 {
         match &self.sections {
-            Some(sections) => sections.end(of, statement()),
-            None => of.count(self.torn.document) as u32,
+            Some(sections) => sections.end(kind, statement()),
+            None => self.torn.document.counts()[kind as usize] as u32,
         }
     }
 
@@ -88,7 +89,7 @@ impl<'t> Turns<'t> {
             return Turn::Own(home);
         }
         Turn::Added {
-            behind: self.behind(Of::Vertices, || self.anchor(v)),
+            behind: self.behind(Kind::Vertex, || self.anchor(v)),
             rank: u64::from(home),
         }
     }
@@ -97,7 +98,7 @@ impl<'t> Turns<'t> {
     pub(crate) fn copy(&self, v: usize) -> Turn {
         let home = self.torn.ancestry.node(v);
         Turn::Added {
-            behind: self.behind(Of::Vertices, || {
+            behind: self.behind(Kind::Vertex, || {
                 let is_own = (home as usize) < self.torn.document.positions.len();
                 if is_own { home } else { self.anchor(v) }
             }),
@@ -111,27 +112,15 @@ impl<'t> Turns<'t> {
         anchor(&self.anchors, known, self.torn.ancestry.class(v))
     }
 
-    /// The turn of a texture coordinate.
-    pub(crate) fn texture(&self, index: usize) -> Turn {
-        let corners = self.torn.corners.as_ref();
-        self.index(Of::Texture, index, |new| {
-            corners.map_or(0, |corners| corners.texture_anchor(new))
-        })
-    }
-
-    /// The turn of a normal.
-    pub(crate) fn normal(&self, index: usize) -> Turn {
-        let corners = self.torn.corners.as_ref();
-        self.index(Of::Normals, index, |new| {
-            corners.map_or(0, |corners| corners.normal_anchor(new))
-        })
-    }
-
-    fn index(&self, of: Of, index: usize, anchor: impl Fn(usize) -> u32) -> Turn {
-        match index.checked_sub(of.count(self.torn.document)) {
+    /// The turn of a texture coordinate or a normal.
+    pub(crate) fn index(&self, kind: Kind, index: usize) -> Turn {
+        match index.checked_sub(self.torn.document.counts()[kind as usize]) {
             None => Turn::Own(index as u32),
             Some(new) => Turn::Added {
-                behind: self.behind(of, || anchor(new)),
+                behind: self.behind(kind, || {
+                    let corners = self.torn.corners.as_ref();
+                    corners.map_or(0, |corners| corners.anchors[kind as usize - 1][new])
+                }),
                 rank: new as u64,
             },
         }

@@ -133,11 +133,10 @@ impl<'t> PieceWriter<'t> {
             used.dedup();
             used
         });
-        for &index in &used[0] {
-            out.statement(b"vt", torn.texture_row(index), &[])?;
-        }
-        for &index in &used[1] {
-            out.statement(b"vn", &torn.normal(index), &[])?;
+        for (which, keyword) in [b"vt", b"vn"].into_iter().enumerate() {
+            for &index in &used[which] {
+                out.statement(keyword, torn.value(which, index), &[])?;
+            }
         }
         let mut said = [None; KEYWORDS.len()];
         for &f in &faces {

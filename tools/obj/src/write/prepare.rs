@@ -8,7 +8,7 @@ use tearmesh::{Mesh, Point};
 use super::separate::Separated;
 use crate::order::Order;
 use crate::record::{Apart, Inserted, Record, runs};
-use crate::sections::Of;
+use crate::store::Kind;
 use crate::torn::{Slots, TornDocument, Turns};
 
 /// What is written, worked out before the first byte.
@@ -57,8 +57,7 @@ impl<'m> Prepared<'m> {
             mesh_vertices: mesh.vertex_count(),
             apart,
             orders: match turns {
-                None => [Of::Vertices, Of::Texture, Of::Normals]
-                    .map(|of| Order::of_document(of.count(document))),
+                None => document.counts().map(Order::of_document),
                 Some(turns) => orders(torn, &turns, &separated),
             },
             separated,
@@ -167,8 +166,8 @@ fn orders(torn: &TornDocument<'_>, turns: &Turns<'_>, separated: &Separated<'_>)
     let vertices = (0..torn.vertex_count()).map(|v| turns.vertex(v));
     let copies = separated.copies.iter().map(|v| turns.copy(v.index()));
     let [textures, normals] = torn.counts();
-    let texture = (0..textures).map(|index| turns.texture(index));
-    let normal = (0..normals).map(|index| turns.normal(index));
+    let texture = (0..textures).map(|index| turns.index(Kind::Texture, index));
+    let normal = (0..normals).map(|index| turns.index(Kind::Normal, index));
     [
         Order::new(document.positions.len(), vertices.chain(copies)),
         Order::new(document.texture.len(), texture),
