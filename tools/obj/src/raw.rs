@@ -19,7 +19,6 @@
 //! those of this text.
 
 use std::collections::{BTreeMap, HashMap};
-use std::fmt::Write as _;
 use std::io::{Error, ErrorKind};
 
 use obj::raw::RawObj;
@@ -91,47 +90,23 @@ impl Text {
                 self.line(keyword, [x, y, z].iter().map(number));
             }
         }
-        self.elements(
-            "p",
-            raw,
-            &raw.points,
-            |group| &group.points,
-            |&v| vec![corner([Some(v), None, None])],
-        )?;
-        self.elements(
-            "l",
-            raw,
-            &raw.lines,
-            |group| &group.lines,
-            |line| match line {
-                Line::P(all) => all.iter().map(|&v| corner([Some(v), None, None])).collect(),
-                Line::PT(all) => all
-                    .iter()
-                    .map(|&(v, t)| corner([Some(v), Some(t), None]))
-                    .collect(),
-            },
-        )?;
-        self.elements(
-            "f",
-            raw,
-            &raw.polygons,
-            |group| &group.polygons,
-            |face| match face {
-                Polygon::P(all) => all.iter().map(|&v| corner([Some(v), None, None])).collect(),
-                Polygon::PT(all) => all
-                    .iter()
-                    .map(|&(v, t)| corner([Some(v), Some(t), None]))
-                    .collect(),
-                Polygon::PN(all) => all
-                    .iter()
-                    .map(|&(v, n)| corner([Some(v), None, Some(n)]))
-                    .collect(),
-                Polygon::PTN(all) => all
-                    .iter()
-                    .map(|&(v, t, n)| corner([Some(v), Some(t), Some(n)]))
-                    .collect(),
-            },
-        )
+        let points = |&v: &usize| vec![corner(v, None, None)];
+        self.elements("p", raw, &raw.points, |group| &group.points, points)?;
+        let lines = |line: &Line| match line {
+            Line::P(all) => all.iter().map(|&v| corner(v, None, None)).collect(),
+            Line::PT(all) => all.iter().map(|&(v, t)| corner(v, Some(t), None)).collect(),
+        };
+        self.elements("l", raw, &raw.lines, |group| &group.lines, lines)?;
+        let faces = |face: &Polygon| match face {
+            Polygon::P(all) => all.iter().map(|&v| corner(v, None, None)).collect(),
+            Polygon::PT(all) => all.iter().map(|&(v, t)| corner(v, Some(t), None)).collect(),
+            Polygon::PN(all) => all.iter().map(|&(v, n)| corner(v, None, Some(n))).collect(),
+            Polygon::PTN(all) => {
+                let corners = all.iter().map(|&(v, t, n)| corner(v, Some(t), Some(n)));
+                corners.collect()
+            }
+        };
+        self.elements("f", raw, &raw.polygons, |group| &group.polygons, faces)
     }
 
     fn line(&mut self, keyword: &str, words: impl Iterator<Item = String>) {
@@ -154,14 +129,15 @@ impl Text {
     ) -> Result<(), ReadError> {
         let count = elements.len();
         let names = [
-            names_by_element("g", &raw.groups, count, ranges)?,
-            names_by_element("usemtl", &raw.meshes, count, ranges)?,
-            names_by_element("s", &raw.smoothing_groups, count, ranges)?,
-            names_by_element("mg", &raw.merging_groups, count, ranges)?,
+            statements("g", &raw.groups, count, ranges)?,
+            statements("usemtl", &raw.meshes, count, ranges)?,
+            statements("s", &raw.smoothing_groups, count, ranges)?,
+            statements("mg", &raw.merging_groups, count, ranges)?,
         ];
         for (number, element) in elements.iter().enumerate() {
             for (said, names) in self.said.iter_mut().zip(&names) {
-                if let Some(now) = names.get(&number).filter(|now| *now != said) {
+                let now = &names[number];
+                if now != said {
                     said.clone_from(now);
                     self.text += now;
                     self.text.push('\n');
@@ -173,61 +149,53 @@ impl Text {
     }
 }
 
-/// The statement at each element of a kind where another holds than before.
-fn names_by_element<K: ToString>(
+/// The statement that holds at each element of a kind.
+fn statements<K: ToString>(
     keyword: &str,
     groups: &HashMap<K, Group>,
     count: usize,
     ranges: fn(&Group) -> &[Range],
-) -> Result<BTreeMap<usize, String>, ReadError> {
-    let mut changes: BTreeMap<usize, Vec<(String, i64)>> = BTreeMap::from([(0, Vec::new())]);
-    // So that of several that cannot be printed the same one is told.
+) -> Result<Vec<String>, ReadError> {
+    // In the order of names, so that of several that cannot be printed the same one is told.
     let by_name: BTreeMap<String, &Group> = groups
         .iter()
         .map(|(name, group)| (name.to_string(), group))
         .collect();
-    for (name, group) in by_name {
+    let mut names: Vec<Vec<&str>> = vec![Vec::new(); count];
+    for (name, group) in &by_name {
         for &Range { start, end } in ranges(group) {
-            if start > end || end > count {
+            let Some(covered) = names.get_mut(start..end) else {
                 let range = format!("`{keyword}` {name:?} covers {start} up to {end}, of {count}");
                 return Err(refused(range));
-            }
+            };
             if !(name.is_empty() && keyword == "usemtl") {
-                word(keyword, &name)?; // The material before the first `usemtl` has no name.
+                word(keyword, name)?; // The material before the first `usemtl` has no name.
             }
-            changes.entry(start).or_default().push((name.clone(), 1));
-            changes.entry(end).or_default().push((name.clone(), -1));
+            covered.iter_mut().for_each(|names| names.push(name));
         }
     }
-    let mut inside: BTreeMap<String, i64> = BTreeMap::new();
-    let mut statements = BTreeMap::new();
-    for (at, changes) in changes {
-        for (name, step) in changes {
-            *inside.entry(name).or_default() += step;
-        }
-        inside.retain(|_, depth| *depth > 0);
-        let names: Vec<&str> = inside.keys().map(String::as_str).collect();
+    let statement = |mut names: Vec<&str>| {
+        names.dedup(); // Ranges of one group may overlap.
         let value = match (keyword, &names[..]) {
             ("g", []) => "default".to_owned(),
             ("s" | "mg", []) => "off".to_owned(),
             ("g", _) | (_, [] | [_]) => names.join(" "),
             _ => return Err(refused(format!("`{keyword}` of one element is {names:?}"))),
         };
-        statements.insert(at, format!("{keyword} {value}").trim_end().to_owned());
-    }
-    Ok(statements)
+        Ok(format!("{keyword} {value}").trim_end().to_owned())
+    };
+    names.into_iter().map(statement).collect()
 }
 
 /// `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1.
-fn corner(indices: [Option<usize>; 3]) -> String {
-    let mut text = String::new();
-    for (index, before) in indices.into_iter().zip(["", "/", "/"]) {
-        text += before;
-        if let Some(index) = index {
-            write!(text, "{}", index as u128 + 1).expect("memory");
-        }
+fn corner(vertex: usize, texture: Option<usize>, normal: Option<usize>) -> String {
+    let number = |index: usize| (index as u128 + 1).to_string();
+    let vertex = number(vertex);
+    match (texture.map(number), normal.map(number)) {
+        (None, None) => vertex,
+        (Some(texture), None) => format!("{vertex}/{texture}"),
+        (texture, Some(normal)) => format!("{vertex}/{}/{normal}", texture.unwrap_or_default()),
     }
-    text.trim_end_matches('/').to_owned()
 }
 
 /// A name must be one word of one line.
