@@ -80,7 +80,7 @@ impl Document {
         if repair == Repair::All {
             for choose in [Document::on_the_same_vertices, Document::superfluous] {
                 let dropped = choose(&self);
-                if !dropped.is_empty() {
+                if dropped.gone.contains(&true) {
                     self.drop_triangles(dropped);
                 }
             }
@@ -99,23 +99,15 @@ impl Document {
         let mut dropped = Dropped::none(self.triangles().len());
         self.diagnose(usize::MAX, |defect| match defect {
             Defect::DuplicateFaces { faces, .. } => {
-                let kept = faces.first();
+                let (kept, reason) = (faces.first(), Reason::Duplicate);
                 for face in faces.iter().skip(1) {
-                    dropped.add(Drop {
-                        face,
-                        kept,
-                        reason: Reason::Duplicate,
-                    });
+                    dropped.add(Drop { face, kept, reason });
                 }
             }
-            Defect::Pillow {
-                faces: [kept, face],
-                ..
-            } => dropped.add(Drop {
-                face,
-                kept,
-                reason: Reason::Pillow,
-            }),
+            Defect::Pillow { faces, .. } => {
+                let ([kept, face], reason) = (faces, Reason::Pillow);
+                dropped.add(Drop { face, kept, reason });
+            }
             _ => {}
         });
         dropped
@@ -170,73 +162,74 @@ impl Document {
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
         let mut kept = 0;
-        let mut layout = Layout::default();
-        let mut polygon = 0;
-        for &run in self.layout.runs() {
-            if run.kind != Kind::Polygon {
-                layout.append(run);
-                continue;
-            }
-            for line in run.lines() {
-                let triangles = self.polygons.triangles(polygon);
-                let corners = self.polygons.corners(polygon);
-                if !gone[triangles.clone()].contains(&true) {
-                    polygons.add(corners.map(|corner| self.polygons.corner(corner)));
-                    if let Some(Triangulation { triangles: all }) = &mut triangulation {
-                        all.copy_within(triangles.clone(), kept);
-                    }
-                    kept += triangles.len();
-                    layout.push(Kind::Polygon, line);
-                } else {
-                    // Of a triangle alone none stays.
-                    let Some(Triangulation { triangles: all }) = &mut triangulation else {
-                        polygon += 1;
-                        continue;
-                    };
-                    for triangle in triangles.filter(|&triangle| !gone[triangle]) {
-                        all[kept] = all[triangle];
-                        let own = corners.clone().map(|corner| self.polygons.corner(corner));
-                        let corner = |vertex| own.clone().find(|corner| corner.vertex == vertex);
-                        polygons.add(all[kept].into_iter().filter_map(corner));
-                        kept += 1;
-                        layout.push(Kind::Polygon, line);
-                    }
+        // How many polygons stand for each.
+        let mut counts: Vec<u16> = Vec::with_capacity(self.polygons.len());
+        for polygon in 0..self.polygons.len() {
+            let triangles = self.polygons.triangles(polygon);
+            let corners = self.polygons.corners(polygon);
+            let corners = corners.map(|corner| self.polygons.corner(corner));
+            let before = polygons.len();
+            let all = triangulation.as_mut().map(|all| &mut all.triangles);
+            if !gone[triangles.clone()].contains(&true) {
+                polygons.add(corners);
+                if let Some(all) = all {
+                    all.copy_within(triangles.clone(), kept);
                 }
-                polygon += 1;
+                kept += triangles.len();
+            } else if let Some(all) = all {
+                for triangle in triangles.filter(|&triangle| !gone[triangle]) {
+                    all[kept] = all[triangle];
+                    let corner = |vertex| corners.clone().find(|corner| corner.vertex == vertex);
+                    polygons.add(all[kept].into_iter().filter_map(corner));
+                    kept += 1;
+                }
             }
+            counts.push((polygons.len() - before) as u16);
         }
         self.triangulation = triangulation.filter(|_| !polygons.all_triangles());
         if let Some(triangulation) = &mut self.triangulation {
             triangulation.triangles.truncate(kept);
         }
         self.polygons = polygons;
-        self.layout = layout;
+        let count = |kind, number: usize| match kind {
+            Kind::Polygon => usize::from(counts[number]),
+            _ => 1,
+        };
+        self.layout.replace(&mut self.text, count, <[u8]>::to_vec);
     }
 
     fn report_drops(&mut self, dropped: &Dropped) {
         for Named { count, first } in &dropped.named {
-            for drop in first.values().take(REPORTED) {
+            for (number, drop) in first.values().enumerate() {
                 let line = self.line_of_triangle(drop.face.index());
-                let polygon = self.polygon_of(drop.face.index());
-                let what = match self.polygons.corners(polygon).len() {
-                    3 => "this face",
-                    _ => "a triangle of this face",
+                let message = match count - number {
+                    more if number == REPORTED => {
+                        format!("and {more} more faces are dropped (the first here)")
+                    }
+                    _ => self.why(drop),
                 };
-                let kept = self.line_of_triangle(drop.kept.index());
-                let (code, why, place) = drop.reason.words();
-                let message = format!("{what} is dropped: it {why} one on line {kept}{place}");
-                self.diagnostics
-                    .push(Diagnostic::warning(code, line, message));
-            }
-            if let Some(next) = first.values().nth(REPORTED) {
-                let line = self.line_of_triangle(next.face.index());
-                let more = count - REPORTED;
-                let message = format!("and {more} more faces are dropped (the first here)");
-                let (code, ..) = next.reason.words();
-                self.diagnostics
-                    .push(Diagnostic::warning(code, line, message));
+                let warning = Diagnostic::warning(drop.reason.code(), line, message);
+                self.diagnostics.push(warning);
             }
         }
+    }
+
+    fn why(&self, drop: &Drop) -> String {
+        let polygon = self.polygon_of(drop.face.index());
+        let what = match self.polygons.corners(polygon).len() {
+            3 => "this face",
+            _ => "a triangle of this face",
+        };
+        let kept = self.line_of_triangle(drop.kept.index());
+        let why = match drop.reason {
+            Reason::Duplicate => format!("has the same vertices as one on line {kept}"),
+            Reason::Pillow => format!("lies back to back with one on line {kept}"),
+            Reason::Edge(ends) => {
+                let [a, b] = ends.map(|end| u64::from(end) + 1);
+                format!("runs the same way as one on line {kept} along the crowded edge {a}-{b}")
+            }
+        };
+        format!("{what} is dropped: it {why}")
     }
 
     /// Gives a vertex to each fan of a bow-tie but the first, and says so.
@@ -414,33 +407,12 @@ struct Named {
     first: BTreeMap<FaceId, Drop>,
 }
 
-/// A triangle to drop.
-struct Drop {
-    face: FaceId,
-    /// The one that stays in its place.
-    kept: FaceId,
-    reason: Reason,
-}
-
-/// Why a triangle is dropped.
-#[derive(Clone, Copy)]
-enum Reason {
-    Duplicate,
-    Pillow,
-    /// The crowded edge, by its ends.
-    Edge([u32; 2]),
-}
-
 impl Dropped {
     fn none(triangles: usize) -> Dropped {
         Dropped {
             gone: vec![false; triangles],
             named: Default::default(),
         }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.named.iter().all(|named| named.count == 0)
     }
 
     /// Adds a triangle; they may come in any order.
@@ -459,29 +431,29 @@ impl Dropped {
     }
 }
 
+/// A triangle to drop.
+struct Drop {
+    face: FaceId,
+    /// The one that stays in its place.
+    kept: FaceId,
+    reason: Reason,
+}
+
+/// Why a triangle is dropped.
+#[derive(Clone, Copy)]
+enum Reason {
+    Duplicate,
+    Pillow,
+    /// The crowded edge, by its ends.
+    Edge([u32; 2]),
+}
+
 impl Reason {
-    /// Its code, what the triangle has to do with the one that stays, and where.
-    fn words(self) -> (&'static str, &'static str, String) {
+    fn code(self) -> &'static str {
         match self {
-            Reason::Duplicate => (
-                "W-OBJ-REPAIR-DUPLICATE",
-                "has the same vertices as",
-                String::new(),
-            ),
-            Reason::Pillow => (
-                "W-OBJ-REPAIR-PILLOW",
-                "lies back to back with",
-                String::new(),
-            ),
-            Reason::Edge([a, b]) => (
-                "W-OBJ-REPAIR-EDGE",
-                "runs the same way as",
-                format!(
-                    " along the crowded edge {}-{}",
-                    u64::from(a) + 1,
-                    u64::from(b) + 1
-                ),
-            ),
+            Reason::Duplicate => "W-OBJ-REPAIR-DUPLICATE",
+            Reason::Pillow => "W-OBJ-REPAIR-PILLOW",
+            Reason::Edge(_) => "W-OBJ-REPAIR-EDGE",
         }
     }
 }

@@ -252,19 +252,23 @@ impl Layout {
         passes: impl Fn(&[u8]) -> Vec<u8>,
     ) {
         let mut layout = Layout::default();
-        let mut kept = Vec::with_capacity(text.len());
-        let (mut seen, mut at) = ([0; 4], 0);
+        // What stays of the text moves up to where the rest was.
+        let (mut seen, mut at, mut kept) = ([0; 4], 0, 0);
         let mut is_gone = false;
         for &run in &self.runs {
             if run.kind == Kind::Text {
-                let lines = &text[at..at + run.count as usize];
-                at += lines.len();
-                let before = kept.len();
-                match is_gone {
-                    true => kept.extend(passes(lines)),
-                    false => kept.extend_from_slice(lines),
+                let lines = at..at + run.count as usize;
+                at = lines.end;
+                let before = kept;
+                if is_gone {
+                    let rest = passes(&text[lines]);
+                    kept += rest.len();
+                    text[before..kept].copy_from_slice(&rest);
+                } else {
+                    kept += lines.len();
+                    text.copy_within(lines, before);
                 }
-                layout.append_text(kept.len() - before, run);
+                layout.append_text(kept - before, run);
                 is_gone = false;
                 continue;
             }
@@ -276,7 +280,7 @@ impl Layout {
                 (0..count).for_each(|_| layout.push(run.kind, line));
             }
         }
-        *text = kept;
+        text.truncate(kept);
         *self = layout;
     }
 
