@@ -7,7 +7,7 @@ use tearmesh::{COORDINATE_MAX, Point};
 
 use super::fault::{Fault, Parsed, quoted};
 use super::scan::Scan;
-use super::words::{CODE, DAMAGED, nothing_more, numbers, out_of_range, whole};
+use super::words::{CODE, damaged, nothing_more, numbers, out_of_range, whole};
 use crate::families::Family;
 use crate::record::{Apart, At, Inserted, Record, SplitOff, are_last, is_same_point, runs};
 use crate::slides::Exchange;
@@ -90,8 +90,10 @@ impl Items {
         match known.find(|(kind, _)| *kind == word) {
             Some(&(_, rank)) if rank >= self.kind => self.kind = rank,
             _ => {
-                let message = format!("this record has no line {} here", quoted(word));
-                return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+                return damaged(
+                    start..scan.at(),
+                    format!("this record has no line {} here", quoted(word)),
+                );
             }
         }
         match word {
@@ -121,23 +123,19 @@ impl Items {
 
     fn fan(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let least = self.fans.last().map_or(1, |&[copy, _]| i64::from(copy) + 1);
-        scan.find_token();
-        let start = scan.at();
+        let start = scan.token_start();
         let copy = whole(scan, least + 1, self.vertices())? - 1;
         let splits = &self.record.splits;
         if splits
             .binary_search_by_key(&copy, |split| split.vertex)
             .is_ok()
         {
-            let message = "a copy of this record was split off";
-            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+            return damaged(start..scan.at(), "a copy of this record was split off");
         }
-        scan.find_token();
-        let start = scan.at();
+        let start = scan.token_start();
         let of = whole(scan, 1, i64::from(copy))? - 1;
         if self.is_copy(of) {
-            let message = "this record has a copy of a copy";
-            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+            return damaged(start..scan.at(), "this record has a copy of a copy");
         }
         push(&mut self.fans, [copy, of]);
         Ok(())
@@ -146,8 +144,7 @@ impl Items {
     fn edge(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let (vertex, cut) = self.inserted(scan)?;
         let ends = [self.root(scan)?, self.root(scan)?];
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         let t = scan.number()?;
         if !(t > 0.0 && t < 1.0) || ends[0] == ends[1] {
             return Err(out_of_range(at..scan.at(), 0, 1));
@@ -162,8 +159,7 @@ impl Items {
         let corners = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
         let mut weights = [0.0; 3];
         for weight in &mut weights {
-            scan.find_token();
-            let at = scan.at();
+            let at = scan.token_start();
             *weight = scan.number()?;
             if !(*weight > 0.0 && *weight < 1.0) {
                 return Err(out_of_range(at..scan.at(), 0, 1));
@@ -186,12 +182,10 @@ impl Items {
 
     /// The roots at the corners of a face.
     fn corners(&self, scan: &mut Scan<'_>) -> Parsed<[u32; 3]> {
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         let corners @ [a, b, c] = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
         if a == b || b == c || c == a {
-            let message = "a face of this record has a vertex twice";
-            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
+            return damaged(at..scan.at(), "a face of this record has a vertex twice");
         }
         Ok(corners)
     }
@@ -209,12 +203,13 @@ impl Items {
 
     /// A vertex that slid, with all numbers of its `v` before and then: to the end of the line.
     fn slide(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         let vertex = whole(scan, 1, self.vertices())? - 1;
         if self.is_copy(vertex) {
-            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
-            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
+            return damaged(
+                at..scan.at(),
+                format!("vertex {} is a copy", u64::from(vertex) + 1),
+            );
         }
         let slides = &mut self.record.slides;
         let last = slides.len().checked_sub(1).map(|last| slides.get(last).cut);
@@ -225,13 +220,16 @@ impl Items {
         let half = count / 2;
         let places = || [0, half].into_iter().flat_map(|at| at..at + 3);
         if count % 2 != 0 || half < 3 || slides.is_full() {
-            let message =
-                "this record has a slide with different counts of numbers before and after";
-            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+            return damaged(
+                start..scan.at(),
+                "this record has a slide with different counts of numbers before and after",
+            );
         }
         if places().any(|at| row[at].abs() > COORDINATE_MAX) {
-            let message = "this record has a coordinate that is too large";
-            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+            return damaged(
+                start..scan.at(),
+                "this record has a coordinate that is too large",
+            );
         }
         slides.push(vertex, cut, &row[..count]);
         Ok(())
@@ -248,8 +246,10 @@ impl Items {
         let count = numbers(scan, &mut value)?;
         let slides = &mut self.record.slides;
         if slides.is_empty() || slides.is_full() || count == 0 || new == old {
-            let message = "this record has corners here without a vertex that slid";
-            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+            return damaged(
+                start..scan.at(),
+                "this record has corners here without a vertex that slid",
+            );
         }
         slides.push_exchange(Exchange { which, new, old }, &value[..count]);
         Ok(())
@@ -258,24 +258,29 @@ impl Items {
     /// A vertex that stands apart: where it is, and where its `v` says.
     fn apart(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let last = self.record.apart.last().map_or(0, |last| last.vertex + 1);
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         let vertex = whole(scan, i64::from(last) + 1, self.vertices())? - 1;
         if self.is_copy(vertex) {
-            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
-            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
+            return damaged(
+                at..scan.at(),
+                format!("vertex {} is a copy", u64::from(vertex) + 1),
+            );
         }
         let start = scan.at();
         let mut row = [0.0; 6];
         let count = numbers(scan, &mut row)?;
         if count < row.len() || row.iter().any(|x| x.abs() > COORDINATE_MAX) {
-            let message = "this record has a vertex without two usable points";
-            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+            return damaged(
+                start..scan.at(),
+                "this record has a vertex without two usable points",
+            );
         }
         let [is, shown] = [0, 3].map(|i| Point::new(row[i], row[i + 1], row[i + 2]));
         if is_same_point(is, shown) {
-            let message = "this record writes a vertex apart at its own position";
-            return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+            return damaged(
+                start..scan.at(),
+                "this record writes a vertex apart at its own position",
+            );
         }
         push(&mut self.record.apart, Apart { vertex, is, shown });
         Ok(())
@@ -293,8 +298,10 @@ impl Items {
             let face = whole(scan, least, i64::from(self.counts.faces))?;
             least = i64::from(face) + 1;
             if self.again_of.insert(face - 1, number).is_some() {
-                let message = "this record has a face in two that were divided again";
-                return Err(Fault::new(CODE, start..scan.at(), message, DAMAGED));
+                return damaged(
+                    start..scan.at(),
+                    "this record has a face in two that were divided again",
+                );
             }
         }
         Ok(())
@@ -302,21 +309,18 @@ impl Items {
 
     /// A vertex that was inserted, and by which cut.
     fn inserted(&self, scan: &mut Scan<'_>) -> Parsed<(u32, u32)> {
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         let vertex = self.root(scan)?;
         let last = self.record.inserted.last();
         if last.is_some_and(|last| last.vertex >= vertex) {
-            let message = "vertices of this record are not in order";
-            return Err(Fault::new(CODE, at..scan.at(), message, DAMAGED));
+            return damaged(at..scan.at(), "vertices of this record are not in order");
         }
         Ok((vertex, whole(scan, 1, i64::from(u32::MAX) - 1)?))
     }
 
     /// A vertex that was split from no other.
     fn root(&self, scan: &mut Scan<'_>) -> Parsed<u32> {
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         let vertex = whole(scan, 1, self.vertices())? - 1;
         if self.is_copy(vertex) {
             let message = format!("vertex {} is a copy", u64::from(vertex) + 1);

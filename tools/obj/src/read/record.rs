@@ -10,7 +10,7 @@ use super::fits::{forget_corners, misfit, settle};
 use super::items::{Counts, Items};
 
 use super::scan::Scan;
-use super::words::{CODE, DAMAGED, exactly, hexadecimal, nothing_more, version, whole};
+use super::words::{CODE, damaged, exactly, hexadecimal, nothing_more, version, whole};
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 use crate::document::Document;
 use crate::record::{END, HEADER, Hash, ITEM};
@@ -145,21 +145,18 @@ impl RecordReader {
                 return Err(Fault::new(CODE, start..scan.at(), message, "ends here"));
             }
         }
-        let damaged = |span, message: &str| Err(Fault::new(CODE, span, message, DAMAGED));
         if let Some(message) = self.items.wrong_counts() {
             return damaged(start..scan.at(), message);
         }
         let largest = i64::from(u32::MAX);
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         if whole(scan, 0, largest)? as usize != self.lines {
             return damaged(
                 at..scan.at(),
                 "lines of this record are missing or were added",
             );
         }
-        scan.find_token();
-        let at = scan.at();
+        let at = scan.token_start();
         if hexadecimal(scan)? != self.hash.0 {
             return damaged(at..scan.at(), "a line of this record was changed");
         }

@@ -84,6 +84,12 @@ impl<'l> Scan<'l> {
         !matches!(self.peek(), None | Some(b'#' | b'\n' | b'\r'))
     }
 
+    /// Moves to the next token; where it starts.
+    pub(super) fn token_start(&mut self) -> usize {
+        self.find_token();
+        self.at()
+    }
+
     #[cold]
     #[inline(never)]
     fn behind_blanks(mut self) -> Self {

@@ -1,17 +1,18 @@
 //! The words in the lines of a record.
 
+use std::ops::Range;
+
 use super::fault::{Fault, Parsed, quoted};
 use super::scan::Scan;
 use crate::record::VERSION;
 
 pub(super) const CODE: &str = "W-OBJ-RECORD";
 
-pub(super) const DAMAGED: &str = "the record is damaged";
+const DAMAGED: &str = "the record is damaged";
 
 /// The version of a record, which must be one that is known.
 pub(super) fn version(scan: &mut Scan<'_>) -> Parsed<i64> {
-    scan.find_token();
-    let start = scan.at();
+    let start = scan.token_start();
     match scan.integer().filter(|_| scan.at_token_end()) {
         Some(version @ 1..=VERSION) => Ok(version),
         Some(later) if later > VERSION => {
@@ -28,9 +29,8 @@ pub(super) fn version(scan: &mut Scan<'_>) -> Parsed<i64> {
 }
 
 pub(super) fn hexadecimal(scan: &mut Scan<'_>) -> Parsed<u64> {
-    scan.find_token();
+    let start = scan.token_start();
     let token = scan.token();
-    let start = scan.at();
     scan.skip(token.len());
     let digits = std::str::from_utf8(token)
         .ok()
@@ -48,18 +48,17 @@ pub(super) fn hexadecimal(scan: &mut Scan<'_>) -> Parsed<u64> {
 }
 
 pub(super) fn exactly(scan: &mut Scan<'_>, word: &str) -> Parsed<()> {
-    scan.find_token();
+    let start = scan.token_start();
     let token = scan.token();
-    let start = scan.at();
     scan.skip(token.len());
     if token == word.as_bytes() {
         return Ok(());
     }
     let message = format!("this record has {} where `{word}` should be", quoted(token));
-    Err(Fault::new(CODE, start..scan.at(), message, DAMAGED))
+    damaged(start..scan.at(), message)
 }
 
-pub(super) fn out_of_range(span: std::ops::Range<usize>, least: i64, most: i64) -> Box<Fault> {
+pub(super) fn out_of_range(span: Range<usize>, least: i64, most: i64) -> Box<Fault> {
     let message = "a number of this record is out of its range";
     Fault::new(CODE, span, message, format!("expected {least} to {most}"))
 }
@@ -76,8 +75,7 @@ pub(super) fn numbers(scan: &mut Scan<'_>, numbers: &mut [f64]) -> Parsed<usize>
 
 /// A whole number.
 pub(super) fn whole(scan: &mut Scan<'_>, least: i64, most: i64) -> Parsed<u32> {
-    scan.find_token();
-    let start = scan.at();
+    let start = scan.token_start();
     match scan.integer() {
         Some(number) if scan.at_token_end() && least <= number && number <= most => {
             Ok(number as u32)
@@ -89,11 +87,15 @@ pub(super) fn whole(scan: &mut Scan<'_>, least: i64, most: i64) -> Parsed<u32> {
     }
 }
 
+/// The refusal of a part of a line of a damaged record.
+pub(super) fn damaged<T>(span: Range<usize>, message: impl Into<String>) -> Parsed<T> {
+    Err(Fault::new(CODE, span, message, DAMAGED))
+}
+
 pub(super) fn nothing_more(scan: &mut Scan<'_>) -> Parsed<()> {
     if !scan.find_token() && scan.at() == scan.line.bytes.len() {
         return Ok(());
     }
     let end = scan.line.bytes.len();
-    let message = "this line of a record has extra words";
-    Err(Fault::new(CODE, scan.at()..end, message, DAMAGED))
+    damaged(scan.at()..end, "this line of a record has extra words")
 }
