@@ -37,7 +37,6 @@ use std::io::{self, Write};
 
 use tearmesh::{Mesh, Positions, VertexId};
 
-use self::number::write_integer;
 use self::output::Output;
 pub use self::piece::{PieceNames, PieceWriter};
 pub(crate) use self::prepare::Prepared;
@@ -432,27 +431,17 @@ impl<W: Write> Writer<'_, W> {
 
     fn write_triangle(&mut self, half_edges: [u32; 3], polygon: usize) -> io::Result<()> {
         let prepared = self.prepared;
-        let out = &mut self.out.pending;
-        out.push(b'f');
+        self.out.pending.push(b'f');
         for h in half_edges {
             let vertex = prepared.separated.indices[h as usize];
             let vertex = prepared.orders[VERTICES].number(vertex);
             self.hash.add_corner(vertex);
             let [texture, normal] = self.torn.corner(h as usize, polygon);
-            out.push(b' ');
-            write_integer(out, u64::from(vertex) + 1);
-            if texture.is_some() || normal.is_some() {
-                out.push(b'/');
-            }
-            if let Some(texture) = texture {
-                write_integer(out, u64::from(prepared.orders[TEXTURE].number(texture)) + 1);
-            }
-            if let Some(normal) = normal {
-                out.push(b'/');
-                write_integer(out, u64::from(prepared.orders[NORMALS].number(normal)) + 1);
-            }
+            let texture = texture.map(|index| prepared.orders[TEXTURE].number(index));
+            let normal = normal.map(|index| prepared.orders[NORMALS].number(index));
+            self.out.corner(vertex, [texture, normal]);
         }
-        out.push(b'\n');
+        self.out.pending.push(b'\n');
         self.out.flush_if_full()
     }
 }

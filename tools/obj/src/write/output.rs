@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::number::write_number;
+use super::number::{write_integer, write_number};
 use crate::opening::Opening;
 
 /// How many bytes are handed to the output at once.
@@ -38,6 +38,23 @@ impl<'o, W: Write> Output<'o, W> {
         }
         self.pending.push(b'\n');
         self.flush_if_full()
+    }
+
+    /// Adds a corner of a face: a vertex, a texture coordinate and a normal, counted from 0.
+    pub(super) fn corner(&mut self, vertex: u32, [texture, normal]: [Option<u32>; 2]) {
+        let out = &mut self.pending;
+        out.push(b' ');
+        write_integer(out, u64::from(vertex) + 1);
+        if texture.is_some() || normal.is_some() {
+            out.push(b'/');
+        }
+        if let Some(texture) = texture {
+            write_integer(out, u64::from(texture) + 1);
+        }
+        if let Some(normal) = normal {
+            out.push(b'/');
+            write_integer(out, u64::from(normal) + 1);
+        }
     }
 
     pub(super) fn text(&mut self, bytes: &[u8]) -> io::Result<()> {

@@ -12,7 +12,6 @@ use std::io::{self, Write};
 use tearmesh::{DerivedMesh, FaceId, HalfEdgeId, Positions};
 
 use super::WriteSummary;
-use super::number::write_integer;
 use super::output::Output;
 use super::separate::Separated;
 use crate::document::Document;
@@ -149,26 +148,11 @@ impl<'t> PieceWriter<'t> {
             }
             out.pending.push(b'f');
             for (h, indices) in corners(f) {
-                out.pending.push(b' ');
-                write_integer(
-                    &mut out.pending,
-                    u64::from(separated.indices[h.index()]) + 1,
-                );
                 let numbers = [0, 1].map(|which| {
                     let at = used[which].binary_search(&indices[which]?);
-                    Some(at.expect("it is used") as u64 + 1)
+                    Some(at.expect("it is used") as u32)
                 });
-                if numbers != [None; 2] {
-                    for number in numbers
-                        .into_iter()
-                        .take(if numbers[1].is_some() { 2 } else { 1 })
-                    {
-                        out.pending.push(b'/');
-                        number
-                            .into_iter()
-                            .for_each(|n| write_integer(&mut out.pending, n));
-                    }
-                }
+                out.corner(separated.indices[h.index()], numbers);
             }
             out.pending.push(b'\n');
             out.flush_if_full()?;
