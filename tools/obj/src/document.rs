@@ -5,7 +5,7 @@ use tearmesh::Point;
 use crate::diagnostic::Diagnostic;
 use crate::polygons::{Corner, Polygons};
 use crate::record::Record;
-use crate::store::{Layout, Rows};
+use crate::store::{Kind, Layout, Rows, Run};
 use crate::triangulate::Triangulation;
 
 /// An OBJ file in memory: its numbers bit for bit, its faces as polygons and as triangles, and
@@ -225,6 +225,20 @@ impl Document {
     pub(crate) fn numbers(&self, vertex: usize) -> Vec<f64> {
         let place: [f64; 3] = self.positions[vertex].into();
         [&place, self.extras.row(vertex)].concat()
+    }
+
+    /// The runs of statements, each with its lines if it is one of text.
+    pub(crate) fn runs(&self) -> impl Iterator<Item = (Run, &[u8])> {
+        let mut text = &self.text[..];
+        self.layout.runs().iter().map(move |&run| {
+            let length = match run.kind {
+                Kind::Text => run.count as usize,
+                _ => 0,
+            };
+            let (lines, rest) = text.split_at(length);
+            text = rest;
+            (run, lines)
+        })
     }
 
     /// How many vertices, texture coordinates and normals there are.

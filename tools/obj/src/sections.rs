@@ -40,8 +40,8 @@ impl Sections {
         }
         // How many are written so far, some perhaps before their turn; and how many had theirs.
         let (mut written, mut had) = ([0; 3], [0; 3]);
-        let (mut polygons, mut text) = (0, &document.text[..]);
-        for run in document.layout.runs() {
+        let mut polygons = 0;
+        for (run, lines) in document.runs() {
             let count = run.count as usize;
             let which = match run.kind {
                 Kind::Polygon => {
@@ -53,8 +53,6 @@ impl Sections {
                     continue;
                 }
                 Kind::Text => {
-                    let (lines, rest) = text.split_at(count);
-                    text = rest;
                     if statements(lines).any(|(keyword, _)| keyword == b"o") {
                         sections.end_at(written);
                     }
@@ -90,14 +88,8 @@ impl Document {
     /// The keyword of the first statement that is kept as text and may name a vertex, a texture
     /// coordinate or a normal by its number.
     pub(crate) fn statement_with_indices(&self) -> Option<&[u8]> {
-        let runs = self.layout.runs().iter();
-        let mut text = &self.text[..];
-        let lines = runs.filter(|run| run.kind == Kind::Text).map(|run| {
-            let (lines, rest) = text.split_at(run.count as usize);
-            text = rest;
-            lines
-        });
-        let mut keywords = lines.flat_map(statements).map(|(keyword, _)| keyword);
+        let statements = self.runs().flat_map(|(_, lines)| statements(lines));
+        let mut keywords = statements.map(|(keyword, _)| keyword);
         keywords.find(|keyword| may_have_indices(keyword))
     }
 

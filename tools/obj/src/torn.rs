@@ -85,7 +85,7 @@ pub struct TornDocument<'d> {
     /// Whether anything was split or inserted since that number was given.
     cut_is_used: bool,
     ancestry: Ancestry,
-    extras: Extras<'d>,
+    extras: Extras,
     /// What was inserted, by class, ascending. `vertex` is the class, and those in `at` are.
     inserted: Vec<Inserted>,
     /// What became of faces, and of their corners; `None` until the first insertion.

@@ -43,25 +43,20 @@ impl Document {
     /// The vertex that each statement is about which is about the last one before it, and whether
     /// nothing but foreign statements stands between the two.
     pub(crate) fn statements_about_vertices(&self) -> Vec<(usize, bool)> {
-        let (mut vertices, mut text, mut is_behind) = (0, &self.text[..], false);
+        let (mut vertices, mut is_behind) = (0, false);
         let mut found = Vec::new();
-        for run in self.layout.runs() {
+        for (run, lines) in self.runs() {
             if run.kind == Kind::Vertex {
                 vertices += run.count as usize;
             }
-            if run.kind == Kind::Text {
-                let (lines, rest) = text.split_at(run.count as usize);
-                text = rest;
-                let attached = if is_behind { attached_length(lines) } else { 0 };
-                let mut at = 0;
-                for (keyword, statement) in statements(lines) {
-                    if let (true, Some(vertex)) =
-                        (is_said_of_vertex(keyword), vertices.checked_sub(1))
-                    {
-                        found.push((vertex, at < attached));
-                    }
-                    at += statement.len();
+            let attached = if is_behind { attached_length(lines) } else { 0 };
+            let mut at = 0;
+            for (keyword, statement) in statements(lines) {
+                if let (true, Some(vertex)) = (is_said_of_vertex(keyword), vertices.checked_sub(1))
+                {
+                    found.push((vertex, at < attached));
                 }
+                at += statement.len();
             }
             is_behind = run.kind == Kind::Vertex;
         }

@@ -36,6 +36,15 @@ impl Slots {
         Slots { faces, starts }
     }
 
+    /// Where each face stands among all.
+    pub(crate) fn ranks(&self) -> Vec<u32> {
+        let mut ranks = vec![0; self.faces.len()];
+        for (rank, &face) in self.faces.iter().enumerate() {
+            ranks[face as usize] = rank as u32;
+        }
+        ranks
+    }
+
     /// Where the faces of triangles are in `faces`.
     pub(crate) fn of(&self, triangles: Range<usize>) -> Range<usize> {
         self.starts[triangles.start] as usize..self.starts[triangles.end] as usize

@@ -51,8 +51,9 @@ use crate::torn::TornDocument;
 #[derive(Debug)]
 pub struct PieceWriter<'t> {
     torn: &'t TornDocument<'t>,
-    /// Where each face of the mesh stands among all, and the polygon where it does.
-    ranks: Vec<(u32, u32)>,
+    /// Where each face of the mesh stands among all, and which of the states of `said` it has.
+    ranks: Vec<u32>,
+    states: Vec<u32>,
     said: SaidOfFaces<'t>,
 }
 
@@ -74,18 +75,18 @@ impl<'t> PieceWriter<'t> {
     pub fn new(torn: &'t TornDocument<'t>) -> PieceWriter<'t> {
         let document = torn.document();
         let slots = torn.slots();
-        let mut ranks = vec![(0, 0); slots.faces.len()];
-        let mut rank = 0;
-        for polygon in 0..document.polygon_count() {
+        let said = SaidOfFaces::of(document);
+        let mut states = vec![0; slots.faces.len()];
+        for (polygon, &state) in said.of_polygon.iter().enumerate() {
             for &face in &slots.faces[slots.of(document.polygons.triangles(polygon))] {
-                ranks[face as usize] = (rank, polygon as u32);
-                rank += 1;
+                states[face as usize] = state;
             }
         }
         PieceWriter {
             torn,
-            ranks,
-            said: SaidOfFaces::of(document),
+            ranks: slots.ranks(),
+            states,
+            said,
         }
     }
 
@@ -201,13 +202,12 @@ impl<'t> PieceWriter<'t> {
     /// The faces of a piece in the order of the file.
     fn in_order(&self, piece: &DerivedMesh) -> Vec<FaceId> {
         let mut faces: Vec<FaceId> = piece.mesh().faces().collect();
-        faces.sort_unstable_by_key(|f| self.ranks[piece.faces()[f.index()].index()].0);
+        faces.sort_unstable_by_key(|f| self.ranks[piece.faces()[f.index()].index()]);
         faces
     }
 
     fn said_of(&self, piece: &DerivedMesh, f: FaceId) -> [Option<&'t [u8]>; KEYWORDS.len()] {
-        let (_, polygon) = self.ranks[piece.faces()[f.index()].index()];
-        self.said.states[self.said.of_polygon[polygon as usize] as usize]
+        self.said.states[self.states[piece.faces()[f.index()].index()] as usize]
     }
 
     /// The texture coordinate and the normal of a corner of a piece.
@@ -235,18 +235,15 @@ impl<'d> SaidOfFaces<'d> {
             states: vec![[None; KEYWORDS.len()]],
             of_polygon: Vec::with_capacity(document.polygon_count()),
         };
-        let mut text = &document.text[..];
-        for run in document.layout.runs() {
-            let count = run.count as usize;
+        for (run, lines) in document.runs() {
             match run.kind {
                 Kind::Text => {
-                    let (lines, rest) = text.split_at(count);
-                    text = rest;
                     statements(lines).for_each(|(keyword, line)| said.take(keyword, line));
                 }
                 Kind::Polygon => {
                     let state = said.states.len() as u32 - 1;
-                    said.of_polygon.resize(said.of_polygon.len() + count, state);
+                    let count = said.of_polygon.len() + run.count as usize;
+                    said.of_polygon.resize(count, state);
                 }
                 Kind::Vertex | Kind::Texture | Kind::Normal => {}
             }

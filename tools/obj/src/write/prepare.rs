@@ -30,7 +30,7 @@ impl<'m> Prepared<'m> {
     /// Linear, but for what is torn.
     pub(crate) fn new(torn: &TornDocument<'_>, mesh: &'m Mesh, apart: Vec<Apart>) -> Prepared<'m> {
         let slots = torn.slots();
-        let rank = (!torn.is_undivided()).then(|| ranks(&slots));
+        let rank = (!torn.is_undivided()).then(|| slots.ranks());
         let separated = Separated::new(mesh, rank.as_deref());
         let is_same = torn.is_untouched() && separated.copies.is_empty();
         let turns = (!is_same).then(|| Turns::in_sections(torn));
@@ -173,13 +173,4 @@ fn orders(torn: &TornDocument<'_>, turns: &Turns<'_>, separated: &Separated<'_>)
         Order::new(document.texture.len(), texture),
         Order::new(document.normals.len(), normal),
     ]
-}
-
-/// Where each face stands in the file.
-fn ranks(slots: &Slots) -> Vec<u32> {
-    let mut ranks = vec![0; slots.faces.len()];
-    for (rank, &face) in slots.faces.iter().enumerate() {
-        ranks[face as usize] = rank as u32;
-    }
-    ranks
 }
