@@ -66,76 +66,62 @@ impl Document {
         let lines = |faces: &Faces| self.lines(faces.len(), faces.iter());
         let lines_of_two = |faces: [FaceId; 2]| self.lines(2, faces.into_iter());
         let (code, face, message, help) = match *defect {
-            Defect::CrowdedEdge {
-                ends: [a, b],
-                ref faces,
-            } => (
-                "E-MESH-EDGE",
-                faces.iter().last(),
-                format!(
-                    "edge {}-{} has {} faces ({})",
-                    number(a),
-                    number(b),
-                    faces.len(),
-                    lines(faces)
-                ),
-                "an edge of a surface has at most two faces: delete the surplus ones",
-            ),
-            Defect::FlippedFace { from, to, faces } => (
-                "E-MESH-FLIP",
-                Some(faces[1]),
-                format!(
-                    "two faces run from vertex {} to vertex {} ({}): one of them is flipped",
-                    number(from),
-                    number(to),
-                    lines_of_two(faces)
-                ),
-                "make the orientation consistent: neighbours run along their common edge in \
-                 opposite directions",
-            ),
-            Defect::BowTie { vertex, ref fans } => (
-                "E-MESH-BOWTIE",
-                fans.iter().last().map(Faces::first),
-                format!(
-                    "vertex {} (line {}) joins {} fans of faces that share no edge ({})",
-                    number(vertex),
-                    self.line_of_vertex(vertex.index()),
-                    fans.len(),
-                    self.lines_of_fans(fans)
-                ),
-                "give each fan a vertex of its own at the same place",
-            ),
+            Defect::CrowdedEdge { ends, ref faces } => {
+                let ([a, b], count, lines) = (ends.map(number), faces.len(), lines(faces));
+                (
+                    "E-MESH-EDGE",
+                    faces.iter().last(),
+                    format!("edge {a}-{b} has {count} faces ({lines})"),
+                    "an edge of a surface has at most two faces: delete the surplus ones",
+                )
+            }
+            Defect::FlippedFace { from, to, faces } => {
+                let ([from, to], lines) = ([from, to].map(number), lines_of_two(faces));
+                (
+                    "E-MESH-FLIP",
+                    Some(faces[1]),
+                    format!(
+                        "two faces run from vertex {from} to vertex {to} ({lines}): \
+                         one of them is flipped"
+                    ),
+                    "make the orientation consistent: neighbours run along their common edge in \
+                     opposite directions",
+                )
+            }
+            Defect::BowTie { vertex, ref fans } => {
+                let (line, count) = (self.line_of_vertex(vertex.index()), fans.len());
+                let (vertex, lines) = (number(vertex), self.lines_of_fans(fans));
+                (
+                    "E-MESH-BOWTIE",
+                    fans.iter().last().map(Faces::first),
+                    format!(
+                        "vertex {vertex} (line {line}) joins {count} fans of faces \
+                         that share no edge ({lines})"
+                    ),
+                    "give each fan a vertex of its own at the same place",
+                )
+            }
             Defect::DuplicateFaces {
-                vertices: [a, b, c],
+                vertices,
                 ref faces,
-            } => (
-                "E-MESH-DUPLICATE",
-                faces.iter().last(),
-                format!(
-                    "{} faces have the same vertices {}, {}, {} ({})",
-                    faces.len(),
-                    number(a),
-                    number(b),
-                    number(c),
-                    lines(faces)
-                ),
-                "delete all of these faces but one",
-            ),
-            Defect::Pillow {
-                vertices: [a, b, c],
-                faces,
-            } => (
-                "E-MESH-PILLOW",
-                Some(faces[1]),
-                format!(
-                    "two faces lie back to back on the vertices {}, {}, {} ({})",
-                    number(a),
-                    number(b),
-                    number(c),
-                    lines_of_two(faces)
-                ),
-                "delete one of the two: cloth is drawn from both sides, but modelled once",
-            ),
+            } => {
+                let ([a, b, c], count, lines) = (vertices.map(number), faces.len(), lines(faces));
+                (
+                    "E-MESH-DUPLICATE",
+                    faces.iter().last(),
+                    format!("{count} faces have the same vertices {a}, {b}, {c} ({lines})"),
+                    "delete all of these faces but one",
+                )
+            }
+            Defect::Pillow { vertices, faces } => {
+                let ([a, b, c], lines) = (vertices.map(number), lines_of_two(faces));
+                (
+                    "E-MESH-PILLOW",
+                    Some(faces[1]),
+                    format!("two faces lie back to back on the vertices {a}, {b}, {c} ({lines})"),
+                    "delete one of the two: cloth is drawn from both sides, but modelled once",
+                )
+            }
             Defect::RepeatedVertex { face, vertex } => (
                 "E-MESH-REPEAT",
                 Some(face),
