@@ -177,7 +177,7 @@ fn are_same(some: &[f64], others: &[f64]) -> bool {
 /// Whether each number is, but for rounding, the weighted sum of those of the sources; a number that
 /// a row has not counts as 0, as it does for texture coordinates.
 fn is_between(is: &[f64], rows: [&[f64]; 3], weights: [f64; 3]) -> bool {
-    let between = numbers_between(rows, weights, is_on_edge(weights));
+    let between = numbers_between(rows, weights);
     (0..is.len().max(between.len())).all(|i| {
         let at = |row: &[f64]| row.get(i).copied().unwrap_or(0.0);
         let largest = rows.iter().map(|row| at(row).abs()).fold(0.0, f64::max);
@@ -188,7 +188,7 @@ fn is_between(is: &[f64], rows: [&[f64]; 3], weights: [f64; 3]) -> bool {
 /// Whether a normal is, but for rounding, in the direction between others, and as long as
 /// between them. Where these cancel each other it is one of them.
 fn is_normal_between(is: &[f64], normals: [&[f64]; 3], weights: [f64; 3]) -> bool {
-    let (sum, wanted) = normal_between(normals, weights, is_on_edge(weights));
+    let (sum, wanted) = normal_between(normals, weights);
     let scale = wanted / length(&sum);
     if !scale.is_finite() {
         return normals.contains(&is);
@@ -198,9 +198,4 @@ fn is_normal_between(is: &[f64], normals: [&[f64]; 3], weights: [f64; 3]) -> boo
     let allowed = ROUNDINGS * f64::EPSILON * largest * scale.max(1.0);
     let mut axes = is.iter().zip(&sum);
     allowed >= wanted || axes.all(|(is, sum)| (is - sum * scale).abs() <= allowed)
-}
-
-/// Whether a point is between the first two of its sources alone.
-fn is_on_edge(weights: [f64; 3]) -> bool {
-    weights[2] == 0.0
 }

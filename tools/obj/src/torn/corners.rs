@@ -137,7 +137,7 @@ impl<'d> Corners<'d> {
                     Some(&(.., index)) => index,
                     // Whoever gets it had the one at the start, and perhaps never that at the end.
                     None => {
-                        let new = self.new_between(which, &[from], between, weights, true);
+                        let new = self.new_between(which, &[from], between, weights);
                         let old = from;
                         exchanges.push(Exchange { which, new, old });
                         new
@@ -186,8 +186,7 @@ impl<'d> Corners<'d> {
         if let Some(&index) = made.get(&(class, between)) {
             return index;
         }
-        let on_edge = matches!(source, CornerSource::Edge { .. });
-        let index = self.new_between(which, &between, between, weights, on_edge);
+        let index = self.new_between(which, &between, between, weights);
         made.insert((class, between), index);
         index
     }
@@ -199,15 +198,14 @@ impl<'d> Corners<'d> {
         behind: &[u32],
         between: [u32; 3],
         weights: [f64; 3],
-        on_edge: bool,
     ) -> u32 {
         let anchors = behind.iter().map(|&index| self.anchor(which, index));
         let last = anchors.max().expect("it has sources");
         let sources = between.map(|index| self.value(which, index));
         let row = match which {
-            0 => numbers_between(sources, weights, on_edge),
+            0 => numbers_between(sources, weights),
             _ => {
-                let (sum, wanted) = normal_between(sources, weights, on_edge);
+                let (sum, wanted) = normal_between(sources, weights);
                 let scale = wanted / length(&sum);
                 match scale.is_finite() {
                     true => sum.iter().map(|x| x * scale).collect(),
@@ -232,27 +230,21 @@ impl<'d> Corners<'d> {
 }
 
 /// The numbers between those of three rows; one that a row does not have counts as 0.
-pub(crate) fn numbers_between(rows: [&[f64]; 3], weights: [f64; 3], on_edge: bool) -> Vec<f64> {
+pub(crate) fn numbers_between(rows: [&[f64]; 3], weights: [f64; 3]) -> Vec<f64> {
     let count = rows.map(<[f64]>::len).into_iter().max().unwrap_or(0);
     let values = |i: usize| rows.map(|row| row.get(i).copied().unwrap_or(0.0));
-    (0..count)
-        .map(|i| blend(values(i), weights, on_edge))
-        .collect()
+    (0..count).map(|i| blend(values(i), weights)).collect()
 }
 
 /// The sum of normals by weights, and how long the normal between them is.
-pub(crate) fn normal_between(
-    normals: [&[f64]; 3],
-    weights: [f64; 3],
-    on_edge: bool,
-) -> (Vec<f64>, f64) {
-    let wanted = blend(normals.map(length), weights, on_edge);
-    (numbers_between(normals, weights, on_edge), wanted)
+pub(crate) fn normal_between(normals: [&[f64]; 3], weights: [f64; 3]) -> (Vec<f64>, f64) {
+    let wanted = blend(normals.map(length), weights);
+    (numbers_between(normals, weights), wanted)
 }
 
-/// The value between three by these weights, or on an edge between the first two.
-fn blend([a, b, c]: [f64; 3], weights: [f64; 3], on_edge: bool) -> f64 {
-    if on_edge {
+/// The value between three by these weights; if the last of these is 0, on the edge of the first two.
+fn blend([a, b, c]: [f64; 3], weights: [f64; 3]) -> f64 {
+    if weights[2] == 0.0 {
         a.between(&b, weights[1])
     } else {
         f64::weighted([&a, &b, &c], weights)
