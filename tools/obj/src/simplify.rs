@@ -260,11 +260,8 @@ impl<'d> Rest<'d> {
             }
             simple.positions.push(at);
         }
-        for index in staying(1) {
-            simple
-                .texture
-                .set(simple.texture.len(), document.texture.row(index));
-        }
+        let texture = |index: usize| stays[1][index];
+        simple.texture = document.texture.staying(document.texture.len(), texture);
         simple.normals = staying(2).map(|index| document.normals[index]).collect();
         for corners in self.faces.iter().flatten() {
             simple.polygons.add(corners.iter().map(|&h| {

@@ -66,6 +66,17 @@ impl Rows {
         &self.values[start as usize..end as usize]
     }
 
+    /// The rows that stay of `count`, in their order.
+    pub(crate) fn staying(&self, count: usize, stays: impl Fn(usize) -> bool) -> Rows {
+        let mut rows = Rows::default();
+        for (new, old) in (0..count).filter(|&old| stays(old)).enumerate() {
+            if !self.row(old).is_empty() {
+                rows.set(new, self.row(old));
+            }
+        }
+        rows
+    }
+
     /// The number of rows, up to the last that was set.
     pub(crate) fn len(&self) -> usize {
         self.ends.len()

@@ -1,10 +1,12 @@
 //! Vertices that were written several times, once a fan, and are one again.
 
+use tearmesh::Point;
+
 use super::text::without_statements_of_vertex;
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::record::{Record, SplitOff};
-use crate::store::{Kind, Rows};
+use crate::store::Kind;
 
 /// Makes each vertex and its copies one, but for copies that were moved away: these become
 /// vertices that the last cut split off. From then on a record is in terms of the document.
@@ -75,23 +77,12 @@ impl Document {
     /// Drops these vertices, which are ascending and no face names any more, with what is said
     /// of them.
     fn drop_vertices(&mut self, dropped: &[u32]) {
-        let mut kept = 0;
-        let mut gone = dropped.iter().peekable();
-        let mut extras = Rows::default();
-        for v in 0..self.positions.len() {
-            if gone.next_if(|&&vertex| vertex as usize == v).is_some() {
-                continue;
-            }
-            self.positions[kept] = self.positions[v];
-            let row = self.extras.row(v);
-            if !row.is_empty() {
-                extras.set(kept, row);
-            }
-            kept += 1;
-        }
-        self.positions.truncate(kept);
-        self.extras = extras;
         let is_dropped = |vertex: usize| dropped.binary_search(&(vertex as u32)).is_ok();
+        let count = self.positions.len();
+        self.extras = self.extras.staying(count, |vertex| !is_dropped(vertex));
+        let mut vertices = 0..count;
+        let stays = |_: &Point| vertices.next().is_some_and(|vertex| !is_dropped(vertex));
+        self.positions.retain(stays);
         let count =
             |kind: Kind, number: usize| usize::from(kind != Kind::Vertex || !is_dropped(number));
         let passes = without_statements_of_vertex;
