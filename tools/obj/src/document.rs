@@ -99,13 +99,8 @@ impl Document {
     /// If there is no such triangle or corner.
     #[must_use]
     pub fn corner(&self, triangle: usize, corner: usize) -> Corner {
-        assert!(corner < 3, "a triangle has no corner {corner}");
-        assert!(
-            triangle < self.triangles().len(),
-            "triangle {triangle} is not in this document"
-        );
         self.polygons
-            .corner(self.corner_of_polygon(triangle, corner, self.polygon_of(triangle)))
+            .corner(self.number_of_corner(triangle, corner))
     }
 
     /// Returns the index of a triangle's corner (0, 1 or 2) among the corners of all polygons, in the

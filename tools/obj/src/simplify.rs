@@ -128,7 +128,7 @@ fn written(
     positions: &Positions,
 ) -> Result<Document, ReadError> {
     let mut bytes = Vec::new();
-    torn.write_in_place(mesh, positions, &mut bytes)?;
+    torn.write_to(mesh, positions, &mut bytes, false)?;
     Document::read(&bytes[..])
 }
 

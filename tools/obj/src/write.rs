@@ -117,22 +117,21 @@ impl TornDocument<'_> {
         positions: &Positions,
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
-        self.assert_in_step(mesh, positions);
-        let prepared = Prepared::new(self, mesh, self.apart(positions));
-        write(self, &prepared, positions, out, true)
+        self.write_to(mesh, positions, out, true)
     }
 
-    /// Writes the document for our own reader, which takes a face that comes before its vertices: no
-    /// statement leaves its place.
-    pub(crate) fn write_in_place(
+    /// Writes the document. `moves_up` is false for our own reader, which takes a face that comes before
+    /// its vertices: no statement leaves its place.
+    pub(crate) fn write_to(
         &self,
         mesh: &Mesh,
         positions: &Positions,
         out: &mut impl Write,
+        moves_up: bool,
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
         let prepared = Prepared::new(self, mesh, self.apart(positions));
-        write(self, &prepared, positions, out, false)
+        write(self, &prepared, positions, out, moves_up)
     }
 
     /// Returns the vertex of each `v` that [`TornDocument::write`] writes, in order. A vertex with several

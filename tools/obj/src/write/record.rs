@@ -36,32 +36,16 @@ pub(super) fn write_record<W: Write>(
         () if is_later => 2,
         () => 1,
     };
-    let counts = [
-        vertices,
-        prepared.face_count(),
-        texture - inserted(new_texture),
-        texture,
-        normals - inserted(new_normals),
-        normals,
-    ];
     let bytes = &mut out.pending;
     bytes.extend_from_slice(HEADER);
-    integer(bytes, version as usize);
-    for (word, counts) in [
-        ("v", &counts[..1]),
-        ("f", &counts[1..2]),
-        ("vt", &counts[2..4]),
-        ("vn", &counts[4..]),
-    ] {
-        bytes.push(b' ');
-        bytes.extend_from_slice(word.as_bytes());
-        for &count in counts {
-            integer(bytes, count);
-        }
-    }
-    bytes.extend_from_slice(b" faces");
-    hexadecimal(bytes, faces);
-    bytes.push(b'\n');
+    writeln!(
+        bytes,
+        " {version} v {vertices} f {} vt {} {texture} vn {} {normals} faces {:016x}",
+        prepared.face_count(),
+        texture - inserted(new_texture),
+        normals - inserted(new_normals),
+        faces.0
+    )?;
     let mut items = Items {
         out,
         count: 0,
@@ -85,9 +69,7 @@ pub(super) fn write_record<W: Write>(
     let Items { out, count, hash } = items;
     let bytes = &mut out.pending;
     bytes.extend_from_slice(END);
-    integer(bytes, count);
-    hexadecimal(bytes, hash);
-    bytes.push(b'\n');
+    writeln!(bytes, " {count} {:016x}", hash.0)?;
     out.flush_if_full()
 }
 
@@ -174,7 +156,8 @@ impl<W: Write> Items<'_, '_, W> {
         out.push(b' ');
         out.extend_from_slice(word.as_bytes());
         for &number in whole {
-            integer(out, number as usize);
+            out.push(b' ');
+            write_integer(out, u64::from(number));
         }
         for &number in numbers {
             out.push(b' ');
@@ -185,13 +168,4 @@ impl<W: Write> Items<'_, '_, W> {
         self.count += 1;
         self.out.flush_if_full()
     }
-}
-
-fn integer(out: &mut Vec<u8>, number: usize) {
-    out.push(b' ');
-    write_integer(out, number as u64);
-}
-
-fn hexadecimal(out: &mut Vec<u8>, hash: Hash) {
-    out.extend_from_slice(format!(" {:016x}", hash.0).as_bytes());
 }
