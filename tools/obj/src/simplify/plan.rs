@@ -60,30 +60,30 @@ impl<'d> Undo<'d> {
             .rev()
             .map(|face| face.parts_for_plan(inserted));
         let insertions = Insertions::from_parts(mesh, |v| past.roots[v.index()], families);
+        let may_go = may_go(record, &past, mesh);
+        let [is_open, is_back] = slides_to_undo(record, &past);
+        let plan = |past: &Past<'_>, may_go: &[bool], is_back: &[bool]| {
+            let may_go = |v: VertexId| may_go[past.roots[v.index()] as usize];
+            insertions.plan(mesh, may_go, |one, other| agree(past, is_back, one, other))
+        };
         let mut undo = Undo {
-            plan: insertions.plan(mesh, |_| false, |_, _| true),
-            is_back: Vec::new(),
-            is_open: Vec::new(),
-            may_go: may_go(record, &past, mesh),
+            plan: plan(&past, &may_go, &is_back),
+            is_back,
+            is_open,
+            may_go,
             since: inserted.iter().map(|one| one.cut + 1).collect(),
             inserted,
             past,
             divided,
             edited: 0,
         };
-        undo.look_at_slides(record);
-        let plan = |undo: &Undo<'_>| {
-            let may_go = |v: VertexId| undo.may_go[undo.past.roots[v.index()] as usize];
-            insertions.plan(mesh, may_go, |one, other| undo.agree(one, other))
-        };
-        undo.plan = plan(&undo);
         let divided = undo.divided.iter().enumerate();
         let restored = divided.filter(|&(number, _)| undo.restored(number).is_some());
         let unlike = restored.flat_map(|(_, divided)| undo.unlike_within(divided));
         let unlike = unlike.collect();
         undo.keep_edited(unlike);
         loop {
-            undo.plan = plan(&undo);
+            undo.plan = plan(&undo.past, &undo.may_go, &undo.is_back);
             let mut goes = vec![false; undo.may_go.len()];
             for v in mesh.vertices().filter(|&v| undo.plan.goes(v)) {
                 goes[undo.past.roots[v.index()] as usize] = true;
@@ -92,13 +92,6 @@ impl<'d> Undo<'d> {
                 return undo;
             }
         }
-    }
-
-    /// Whether two corners of a vertex have the same texture coordinate and normal, once slides are undone.
-    fn agree(&self, one: HalfEdgeId, other: HalfEdgeId) -> bool {
-        let is_back = |slide: usize| self.is_back[slide];
-        let index = |h: HalfEdgeId, which| self.past.index(h.index(), which, is_back);
-        [0, 1].map(|which| index(one, which)) == [0, 1].map(|which| index(other, which))
     }
 
     /// The roots within a divided face that might go, but are not as they were inserted: behind the
@@ -154,23 +147,6 @@ impl<'d> Undo<'d> {
         ends.flat_map(|&root| self.past.of_root(root))
     }
 
-    /// Finds the slides that may be undone.
-    fn look_at_slides(&mut self, record: &Record) {
-        let mut torn_by: BTreeMap<u32, u32> = BTreeMap::new();
-        for split in &record.splits {
-            for end in [split.vertex, split.from] {
-                let cut = torn_by.entry(end).or_default();
-                *cut = split.cut.max(*cut);
-            }
-        }
-        for (slid, is_intact) in record.slides.iter().zip(&self.past.is_intact) {
-            let torn_by = torn_by.get(&slid.vertex);
-            let is_open = torn_by.is_some_and(|&cut| cut >= slid.cut);
-            self.is_open.push(is_open);
-            self.is_back.push(*is_intact && !is_open);
-        }
-    }
-
     /// How many vertices stay only because they were edited since they slid.
     pub(super) fn slid_edited(&self) -> usize {
         let is_edited = |&slide: &usize| {
@@ -221,6 +197,32 @@ impl<'d> Undo<'d> {
         }
         more
     }
+}
+
+/// Whether two corners of a vertex have the same texture coordinate and normal, once slides are undone.
+fn agree(past: &Past<'_>, is_back: &[bool], one: HalfEdgeId, other: HalfEdgeId) -> bool {
+    let indices = |h: HalfEdgeId| [0, 1].map(|which| past.index(h.index(), which, |s| is_back[s]));
+    indices(one) == indices(other)
+}
+
+/// For each slide, whether what its cut or a later one tore there is open, and whether it may be undone.
+fn slides_to_undo(record: &Record, past: &Past<'_>) -> [Vec<bool>; 2] {
+    let mut torn_by: BTreeMap<u32, u32> = BTreeMap::new();
+    for split in &record.splits {
+        for end in [split.vertex, split.from] {
+            let cut = torn_by.entry(end).or_default();
+            *cut = split.cut.max(*cut);
+        }
+    }
+    let is_open = record.slides.iter().map(|slid| {
+        let torn_by = torn_by.get(&slid.vertex);
+        torn_by.is_some_and(|&cut| cut >= slid.cut)
+    });
+    let is_open: Vec<bool> = is_open.collect();
+    let may_go = is_open.iter().zip(&past.is_intact);
+    let is_back = may_go.map(|(is_open, is_intact)| *is_intact && !is_open);
+    let is_back = is_back.collect();
+    [is_open, is_back]
 }
 
 /// By root, whether it was inserted; and what no honest record has: a parent between inserted vertices,
