@@ -20,8 +20,9 @@ pub(crate) fn report(args: &[OsString], input: Option<&Input>, broken: &[String]
     let written = output::write(Path::new(NAME), |out| reproducer(out, args, input, broken));
     let help = match written {
         Ok(()) => format!("this is a bug in tearmesh: please report it, with the file `{NAME}`"),
-        Err(error) => {
-            format!("this is a bug in tearmesh: please report it (no `{NAME}` written: {error})")
+        Err(fault) => {
+            let why = fault.message;
+            format!("this is a bug in tearmesh: please report it ({why})")
         }
     };
     Fault {

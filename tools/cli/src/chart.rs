@@ -20,7 +20,6 @@ use tearmesh_lab::tear::{EnsembleScene, Tear};
 
 use crate::args::{Args, ChartArgs, DrawArgs, ParetoArgs, TearChartArgs, What};
 use crate::exit::{Exit, Stop};
-use crate::files::{unwritable, write_beside};
 use crate::input::cannot_read;
 use crate::interrupt::Guard;
 use crate::output;
@@ -133,14 +132,9 @@ fn command_line(line: &[OsString]) -> String {
 }
 
 /// The text of a file.
-fn read(path: &Path) -> Result<String, Stop> {
+fn read(path: &Path) -> Result<String, Fault> {
     let text = std::fs::read_to_string(path);
-    text.map_err(|error| {
-        Stop::new(
-            Exit::Input,
-            cannot_read(&path.display().to_string(), &error),
-        )
-    })
+    text.map_err(|error| cannot_read(&path.display().to_string(), &error))
 }
 
 /// Runs an experiment or reads its table, and writes chart, table and figures, as far as they are wanted.
@@ -159,12 +153,11 @@ fn work<E: Chart>(
             let refused = |why: &str| {
                 let message = format!("{} is not a table of this chart: {why}", path.display());
                 let help = "give one that --csv of the same chart wrote";
-                let fault = Fault::error("E-CHART-TABLE", message).help(help);
-                Stop::new(Exit::Input, fault)
+                Fault::error("E-CHART-TABLE", message).help(help)
             };
             let rows = read_table(&read(path)?).map_err(|error| refused(&error.to_string()))?;
             if rows.is_empty() {
-                return Err(refused("it has no rows"));
+                return Err(refused("it has no rows").into());
             }
             (rows, 0)
         }
@@ -172,11 +165,8 @@ fn work<E: Chart>(
     };
     let tabled = || table(&rows).map_err(|error| bug(&error.to_string()));
     if let Some(path) = &draw.output {
-        write(
-            path,
-            &plot::svg(&experiment.figure(&rows, &provenance)),
-            streams,
-        )?;
+        let chart = plot::svg(&experiment.figure(&rows, &provenance));
+        write(path, &chart, streams)?;
     }
     if let Some(path) = &draw.csv {
         write(path, &tabled()?, streams)?;
@@ -242,7 +232,7 @@ fn conducted<E: Experiment>(
     bar.finish_and_clear();
     let missing = runs - done;
     if done == 0 && missing > 0 {
-        let message = "interrupted before any run was done; nothing written".to_owned();
+        let message = "interrupted before any run was done; nothing written";
         let fault = Fault::warning("W-CHART-INTERRUPTED", message);
         return Err(Stop::new(Exit::Interrupted, fault));
     }
@@ -295,19 +285,13 @@ fn check(draw: &DrawArgs) -> Result<Vec<&PathBuf>, Stop> {
         }
     }
     for path in files.iter().filter(|path| **path != Path::new("-")) {
-        output::check(path).map_err(|error| unwritable(path, &error))?;
+        output::check(path)?;
     }
     Ok(files)
 }
 
-fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), Stop> {
-    if path == Path::new("-") {
-        let printed = output::print(streams.output, |out| out.write_all(text.as_bytes()));
-        return printed
-            .map(|_| ())
-            .map_err(|fault| Stop::new(Exit::Output, fault));
-    }
-    write_beside(path, |out| out.write_all(text.as_bytes()))
+fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), Fault> {
+    output::write_or_print(path, streams.output, |out| out.write_all(text.as_bytes()))
 }
 
 /// Prints a summary and the names of the files, unless the chart is on standard output.
@@ -316,7 +300,7 @@ fn print_summary(
     files: &[&PathBuf],
     is_quiet: bool,
     streams: &mut Streams<'_>,
-) -> Result<(), Stop> {
+) -> Result<(), Fault> {
     if is_quiet || files.first().is_some_and(|path| *path == Path::new("-")) {
         return Ok(());
     }
@@ -328,12 +312,10 @@ fn print_summary(
     let printed = output::print(streams.output, |out| {
         writeln!(out, "{summary}\nwrote {names}")
     });
-    let printed =
-        printed.map_err(|fault| Stop::new(Exit::Output, fault.help(format!("wrote {names}"))));
+    let printed = printed.map_err(|fault| fault.help(format!("wrote {names}")));
     printed.map(|_| ())
 }
 
-fn bug(message: &str) -> Stop {
-    let fault = Fault::error("E-BUG-INVARIANT", message.to_owned());
-    Stop::new(Exit::Bug, fault)
+fn bug(message: &str) -> Fault {
+    Fault::error("E-BUG-INVARIANT", message)
 }

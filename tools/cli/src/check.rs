@@ -234,7 +234,7 @@ fn measure(
     }
     // What no verb could weigh, none can cut.
     let masses = Masses::area(mesh, positions, 1.0);
-    faults.extend(masses.err().map(|error| session::no_masses(&error)));
+    faults.extend(masses.err().map(Fault::from));
     // For a mesh that was just built a violation would be a bug of ours.
     let violations = mesh.check().into_iter();
     faults.extend(violations.map(|broken| Fault::error(BROKEN, broken.to_string())));

@@ -27,9 +27,10 @@ use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
 use crate::measure::{Bounds, Edges};
 use crate::rays::{self, Pair};
+use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, report};
+use crate::{files, output, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -53,10 +54,11 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         mut positions,
     } = session.open(session::repair(args.repair, args.separate_fans), streams)?;
     let vertices_before = mesh.vertex_count();
-    let mut masses = session::masses(match args.mass {
+    let masses = match args.mass {
         Mass::Area => Masses::area(&mesh, &positions, 1.0),
         Mass::Half => Masses::half(&mesh, &positions, 1.0),
-    })?;
+    };
+    let mut masses = masses.map_err(Fault::from)?;
 
     let clock = Clock::start();
     let mut edits = Edits::new();
@@ -135,14 +137,14 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     session.show_mesh(&document, &mesh, shown, Vector::y())?;
     session.show_page(&mesh, shown, Vector::y())?;
     if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
-        files::write_beside(path, |out| seam::write(&seams, out))?;
+        output::write(path, |out| seam::write(&seams, out))?;
     }
     let asked = args.map.as_ref().zip(map);
     if let Some((path, map)) = asked.filter(|_| !args.files.dry_run) {
         let name = |file: &Option<report::File>| file.as_ref().and_then(|file| file.path.clone());
         let names = [&session.report.input, &session.report.output].map(name);
         let names = names.each_ref().map(Option::as_deref);
-        files::write_beside(path, |out| map.write(&torn, &mesh, names, out))?;
+        output::write(path, |out| map.write(&torn, &mesh, names, out))?;
     }
     if let Some(pieces) = pieces {
         let written = pieces.write(&torn, &mesh, &positions)?;
@@ -212,7 +214,7 @@ fn between(
         Some([_, last]) => Scissor::continued(last, pair[1], positions),
         None => Scissor::new(pair[0], pair[1]),
     };
-    scissor.map_err(|error| no_plane(pair, error))
+    Ok(scissor.map_err(|error| no_plane(pair, error))?)
 }
 
 /// The options that the report repeats.

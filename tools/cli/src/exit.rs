@@ -34,6 +34,23 @@ impl From<Exit> for ExitCode {
     }
 }
 
+impl Exit {
+    /// The exit status of a run that an error of this code ends.
+    fn of(code: &str) -> Exit {
+        let family = code.split('-').nth(1).unwrap_or_default();
+        match (code, family) {
+            ("E-RAY-ONE-LINE" | "E-RAY-ZERO" | "E-PLANE-ZERO", _) => Exit::NoPlane,
+            ("E-IO-WRITE", _) => Exit::Output,
+            ("E-SIM-MESH" | "E-MASS", _) => Exit::Input,
+            (_, "CHART" | "IO" | "MESH" | "OBJ" | "PLAY" | "VIEW") => Exit::Input,
+            (_, "MEND") => Exit::NothingCut,
+            (_, "SIM") => Exit::Simulation,
+            (_, "BUG") => Exit::Bug,
+            _ => Exit::Usage,
+        }
+    }
+}
+
 /// A run that ended early, and what has to be said about it.
 pub(crate) struct Stop {
     pub(crate) exit: Exit,
@@ -50,7 +67,20 @@ impl Stop {
 
     /// A run that was asked for what cannot be done.
     pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Stop {
-        let fault = Fault::error("E-USAGE", message.into());
-        Stop::new(Exit::Usage, fault.help(help))
+        Fault::error("E-USAGE", message).help(help).into()
+    }
+}
+
+impl From<Fault> for Stop {
+    fn from(fault: Fault) -> Stop {
+        Stop::from(vec![fault])
+    }
+}
+
+/// The first of several errors decides how the run ends.
+impl From<Vec<Fault>> for Stop {
+    fn from(faults: Vec<Fault>) -> Stop {
+        let exit = Exit::of(faults.first().map_or("", |fault| fault.code));
+        Stop { exit, faults }
     }
 }

@@ -1,12 +1,11 @@
 //! The paths that a verb reads and writes, and the files that it refuses to replace.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tearmesh::Mesh;
 
 use crate::args::{FileArgs, Format};
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::output;
 use crate::report;
 use crate::say::{Fault, short};
@@ -94,7 +93,7 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
             let message = format!("`{option}` takes the name of a file of its own");
             return usage(message, "name a file that is not used for anything else");
         }
-        output::check(path).map_err(|error| unwritable(path, &error))?;
+        output::check(path)?;
         taken.push(Some(path));
     }
     Ok(())
@@ -205,8 +204,19 @@ pub(crate) fn keep(args: &FileArgs, path: Option<&Path>, what: &str) -> Result<(
     }
 }
 
+/// Refuses a page or a picture, or standard output, that would replace an input or cannot be written.
+pub(crate) fn check_shown(path: &Path, inputs: &[PathBuf], what: &str) -> Result<(), Stop> {
+    if inputs.iter().any(|input| is_same(input, path)) {
+        return Err(replaced(path, what));
+    }
+    match path == Path::new("-") {
+        true => Ok(()),
+        false => Ok(output::check(path)?),
+    }
+}
+
 /// That a file would be written over that is `what`.
-pub(crate) fn replaced(path: &Path, what: &str) -> Stop {
+fn replaced(path: &Path, what: &str) -> Stop {
     let message = format!("`{}` is {what}, and would be replaced", path.display());
     Stop::usage(message, "write to another file")
 }
@@ -235,19 +245,6 @@ pub(crate) fn keep_from(
         }
     }
     Ok(())
-}
-
-/// Writes a file beside the mesh.
-pub(crate) fn write_beside(
-    path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), Stop> {
-    output::write(path, fill).map_err(|error| unwritable(path, &error))
-}
-
-/// That a file could not be written.
-pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Stop {
-    Stop::new(Exit::Output, output::cannot_write(path, error))
 }
 
 /// The last line of the summary.

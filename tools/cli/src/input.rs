@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tearmesh_obj::Document;
 
 use self::foreign::{Format, OPENING};
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::say::Fault;
 
 /// The input, and how it is called in messages and in the report.
@@ -32,7 +32,7 @@ impl Input {
         if path == Path::new("-") {
             let mut bytes = Vec::new();
             let read = stdin.read_to_end(&mut bytes);
-            read.map_err(|error| refused(cannot_read("standard input", &error)))?;
+            read.map_err(|error| cannot_read("standard input", &error))?;
             return Ok(Input {
                 name,
                 source: Source::Bytes(bytes),
@@ -53,7 +53,7 @@ impl Input {
             },
             Err(error) => cannot_read(&name, &error),
         };
-        Err(refused(fault))
+        Err(fault.into())
     }
 
     /// The bytes, from the beginning.
@@ -62,7 +62,7 @@ impl Input {
             Source::Bytes(bytes) => Ok(Box::new(&bytes[..])),
             Source::File(path) => match File::open(path) {
                 Ok(file) => Ok(Box::new(BufReader::new(file))),
-                Err(error) => Err(refused(cannot_read(&self.name, &error))),
+                Err(error) => Err(cannot_read(&self.name, &error).into()),
             },
         }
     }
@@ -71,7 +71,7 @@ impl Input {
     pub(crate) fn text(&self) -> Result<String, Stop> {
         let mut text = String::new();
         let read = self.open()?.read_to_string(&mut text);
-        read.map_err(|error| refused(cannot_read(&self.name, &error)))?;
+        read.map_err(|error| cannot_read(&self.name, &error))?;
         match text.strip_prefix('\u{feff}') {
             Some(rest) => Ok(rest.to_owned()),
             None => Ok(text),
@@ -82,7 +82,7 @@ impl Input {
     pub(crate) fn document(&self) -> Result<Document, Stop> {
         let name = &self.name;
         Document::read(self.open()?).map_err(|error| {
-            refused(match (error.diagnostic(), self.foreign_format()) {
+            Stop::from(match (error.diagnostic(), self.foreign_format()) {
                 (Some(_), Some(format)) => {
                     let message = format!("`{name}` is {} file, not OBJ", format.name());
                     Fault::error("E-IO-FORMAT", message).help(format.advice(name))
@@ -107,10 +107,6 @@ impl Input {
             .read_to_end(&mut opening);
         Format::of(&opening, length).filter(|_| read.is_ok())
     }
-}
-
-fn refused(fault: Fault) -> Stop {
-    Stop::new(Exit::Input, fault)
 }
 
 /// That something cannot be read.

@@ -32,7 +32,8 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         (document, mesh) = torn_at(document, &mesh)?;
     }
     let (vertices_before, pieces_before) = (mesh.vertex_count(), mesh.components().count());
-    let mut masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
+    let masses = Masses::area(&mesh, &positions, 1.0);
+    let mut masses = masses.map_err(Fault::from)?;
     let mut torn = TornDocument::new(&document);
 
     let clock = Clock::start();
@@ -104,7 +105,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     }
     if moves || slid_back > 0 {
         // What was moved spans another area: the mass is that of what is written.
-        let masses = session::masses(Masses::area(&mesh, &positions, 1.0))?;
+        let masses = Masses::area(&mesh, &positions, 1.0).map_err(Fault::from)?;
         ledger.after = masses.ledger().after;
         mass = session.say_mass(&ledger, report::MassUnit::Area);
     }
@@ -191,7 +192,7 @@ fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
             "pairs of boundary edges",
         );
         let message = format!("{edges} cannot be sewn: {error}");
-        Stop::new(Exit::NothingCut, Fault::error("E-MEND-COINCIDENT", message))
+        Fault::error("E-MEND-COINCIDENT", message).into()
     })
 }
 
@@ -272,10 +273,7 @@ fn too_far(error: &SewError, document: &Document) -> Stop {
         }
         last.help = Some("nothing was mended: allow more with --max-distance".to_owned());
     }
-    Stop {
-        exit: Exit::NothingCut,
-        faults,
-    }
+    faults.into()
 }
 
 /// How many pairs of vertices are named.

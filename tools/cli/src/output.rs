@@ -36,7 +36,11 @@ pub fn abandon() {
 pub(crate) fn write<T>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<T>,
-) -> io::Result<T> {
+) -> Result<T, Fault> {
+    replace(path, fill).map_err(|error| cannot_write(path, &error))
+}
+
+fn replace<T>(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<T>) -> io::Result<T> {
     let (path, existing) = place(path)?;
     if existing.as_ref().is_some_and(|found| !found.is_file()) {
         let mut out = BufWriter::new(File::options().write(true).open(&path)?);
@@ -61,11 +65,19 @@ pub(crate) fn write<T>(
 
 /// Whether a file could be written now: before work that takes long. Writes nothing, and does not
 /// open a pipe, which might wait for a reader.
-pub(crate) fn check(path: &Path) -> io::Result<()> {
-    let (path, existing) = place(path)?;
-    match existing {
+pub(crate) fn check(path: &Path) -> Result<(), Fault> {
+    let drafted = place(path).and_then(|(path, existing)| match existing {
         Some(found) if !found.is_file() => Ok(()),
         _ => draft(&path).map(drop),
+    });
+    drafted.map_err(|error| cannot_write(path, &error))
+}
+
+/// Makes a folder where there is none.
+pub(crate) fn make_folder(folder: &Path) -> Result<(), Fault> {
+    match folder.is_dir() {
+        true => Ok(()),
+        false => fs::create_dir(folder).map_err(|error| cannot_write(folder, &error)),
     }
 }
 
@@ -147,6 +159,18 @@ pub(crate) fn is_same_file(a: &Path, b: &Path) -> bool {
 pub(crate) fn is_same_place(a: &Path, b: &Path) -> bool {
     let folders = [a, b].map(folder);
     is_same_file(a, b) || (a.file_name() == b.file_name() && is_same_file(folders[0], folders[1]))
+}
+
+/// Writes a file, or prints on standard output where the path is `-`.
+pub(crate) fn write_or_print(
+    path: &Path,
+    out: &mut dyn Write,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Fault> {
+    match path == Path::new("-") {
+        true => print(out, fill).map(|_| ()),
+        false => write(path, fill),
+    }
 }
 
 /// Prints on standard output, to the end: what waits in a buffer could still be lost, and nobody

@@ -7,10 +7,9 @@ use std::path::{Path, PathBuf};
 use tearmesh::{Mesh, Place, Vector};
 use tearmesh_view::{CutLine, Moment, Page, PageError, is_page};
 
-use crate::exit::{Exit, Stop};
-use crate::say::Fault;
-use crate::say::quoted;
-use crate::{files, picture};
+use crate::exit::Stop;
+use crate::say::{Fault, quoted};
+use crate::{output, picture};
 
 /// Adds a mesh to a page.
 pub(crate) fn add(
@@ -20,11 +19,8 @@ pub(crate) fn add(
     moment: Moment,
 ) -> Result<(), Stop> {
     page.add(mesh, place, moment).map_err(|error| match error {
-        PageError::Camera(error) => Stop::new(Exit::Usage, picture::no_camera(error)),
-        error @ PageError::Empty => {
-            let fault = Fault::error("E-VIEW-EMPTY", error.to_string());
-            Stop::new(Exit::Input, fault)
-        }
+        PageError::Camera(error) => picture::no_camera(error).into(),
+        error @ PageError::Empty => Fault::error("E-VIEW-EMPTY", error.to_string()).into(),
     })
 }
 
@@ -38,7 +34,7 @@ pub(crate) fn write_beside(
 ) -> Result<(), Stop> {
     let mut page = Page::new(title(name), up);
     add(&mut page, mesh, place, moment(name))?;
-    write(path, &page)
+    Ok(output::write(path, |out| page.write(out))?)
 }
 
 /// What a page is called that shows a file.
@@ -77,11 +73,6 @@ pub(crate) fn cut_line(name: &str, options: &str) -> CutLine {
         options: options.to_owned(),
         output: quoted(&output.display().to_string()),
     }
-}
-
-/// Writes a page into a file.
-pub(crate) fn write(path: &Path, page: &Page) -> Result<(), Stop> {
-    files::write_beside(path, |out| page.write(out))
 }
 
 /// A page that nobody named: refused where another file has that name.

@@ -4,12 +4,9 @@ use std::path::Path;
 
 use tearmesh::{Mesh, Place, Vector};
 use tearmesh_obj::Document;
-use tearmesh_view::{
-    ANGLE_OF_VIEW, Camera, CameraError, Picture, PictureSize, RenderOptions, fit, render,
-};
+use tearmesh_view::{ANGLE_OF_VIEW, Camera, CameraError, PictureSize, RenderOptions, fit, render};
 
-use crate::exit::{Exit, Stop};
-use crate::files;
+use crate::output;
 use crate::say::Fault;
 
 /// The camera that sees all of a mesh.
@@ -19,13 +16,9 @@ pub(crate) fn camera(
     up: Vector,
     angle: f64,
     size: PictureSize,
-) -> Result<Camera, Stop> {
-    let fitted = fit(mesh, place, up, angle, size.as_f64());
-    let fitted = fitted.map_err(|error| Stop::new(Exit::Usage, no_camera(error)))?;
-    fitted.ok_or_else(|| {
-        let fault = Fault::error("E-VIEW-EMPTY", "the mesh has no visible face".to_owned());
-        Stop::new(Exit::Input, fault)
-    })
+) -> Result<Camera, Fault> {
+    let fitted = fit(mesh, place, up, angle, size.as_f64()).map_err(no_camera)?;
+    fitted.ok_or_else(|| Fault::error("E-VIEW-EMPTY", "the mesh has no visible face"))
 }
 
 /// Why there is no such camera.
@@ -46,7 +39,7 @@ pub(crate) fn write_beside(
     place: &(impl Place + ?Sized),
     up: Vector,
     crease_deg: Option<f64>,
-) -> Result<(), Stop> {
+) -> Result<(), Fault> {
     let size = PictureSize::default();
     let camera = camera(mesh, place, up, ANGLE_OF_VIEW, size)?;
     let options = RenderOptions {
@@ -55,7 +48,7 @@ pub(crate) fn write_beside(
         ..RenderOptions::default()
     };
     let picture = render(mesh, place, &camera, size, &options);
-    write(path, &picture)
+    output::write(path, |out| picture.write_png(out))
 }
 
 /// The texture coordinates of each corner of a document's triangles; empty if a corner has none.
@@ -87,8 +80,3 @@ pub(crate) fn crease(document: &Document) -> Option<f64> {
 
 /// In degrees.
 const CREASE: f64 = 40.0;
-
-/// Writes a picture into a file.
-pub(crate) fn write(path: &Path, picture: &Picture) -> Result<(), Stop> {
-    files::write_beside(path, |out| picture.write_png(out))
-}

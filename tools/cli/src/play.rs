@@ -53,12 +53,10 @@ fn work(
         ]
         .join(", ");
     }
-    let Some(path) = path else {
-        let printed = output::print(streams.output, |out| made.write(out));
-        printed.map_err(|fault| Stop::new(Exit::Output, fault))?;
+    output::write_or_print(&path, streams.output, |out| made.write(out))?;
+    if path == Path::new("-") {
         return Ok(String::new());
-    };
-    files::write_beside(&path, |out| made.write(out))?;
+    }
     let (scene, path) = (&args.scene, path.display());
     Ok(format!(
         "play: {cloth}, scene {scene} · wrote {path}: open it in a browser"
@@ -71,12 +69,10 @@ fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
     if vertices > most {
         let message =
             format!("the mesh has {vertices} vertices, and a page plays with at most {most}");
-        let fault = Fault::error("E-PLAY-VERTICES", message);
-        return Err(Stop::new(Exit::Input, fault));
+        return Err(Fault::error("E-PLAY-VERTICES", message).into());
     }
     if opened.mesh.face_count() == 0 {
-        let fault = Fault::error("E-VIEW-EMPTY", "there is no cloth to play with".to_owned());
-        return Err(Stop::new(Exit::Input, fault));
+        return Err(Fault::error("E-VIEW-EMPTY", "there is no cloth to play with").into());
     }
     let mut bytes = Vec::new();
     let written = opened
@@ -86,17 +82,13 @@ fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
     Ok(bytes)
 }
 
-/// Where the page goes; none is standard output.
-fn place(args: &PlayArgs) -> Result<Option<PathBuf>, Stop> {
+/// Where the page goes.
+fn place(args: &PlayArgs) -> Result<PathBuf, Stop> {
     let path = match &args.output {
-        Some(path) if path == Path::new("-") => return Ok(None),
         Some(path) => path.clone(),
         None => page::unless_foreign(PathBuf::from("play.html"))?,
     };
     files::check_page(&path)?;
-    if args.input.iter().any(|input| files::is_same(input, &path)) {
-        return Err(files::replaced(&path, "an input"));
-    }
-    output::check(&path).map_err(|error| files::unwritable(&path, &error))?;
-    Ok(Some(path))
+    files::check_shown(&path, args.input.as_slice(), "an input")?;
+    Ok(path)
 }

@@ -8,7 +8,6 @@ use std::ops::Range;
 
 use tearmesh::{Plane, PlaneError, Point, Ray, RayError, Vector};
 
-use crate::exit::{Exit, Stop};
 use crate::say::Fault;
 
 /// The two rays of a cut.
@@ -55,15 +54,6 @@ pub(crate) fn typed(pair: &Pair) -> String {
         format!("{},{},{}:{},{},{}", o.x, o.y, o.z, d.x, d.y, d.z)
     });
     format!("--rays {one} {other}")
-}
-
-/// How a run ends that was given rays or planes which cannot be read.
-pub(crate) fn refused(fault: Fault) -> Stop {
-    let exit = match fault.code {
-        "E-RAY-ZERO" | "E-PLANE-ZERO" => Exit::NoPlane,
-        _ => Exit::Usage,
-    };
-    Stop::new(exit, fault)
 }
 
 /// Reads two rays. `origin` names the place of the text in an error, and `line` its line.

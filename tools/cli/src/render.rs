@@ -33,20 +33,14 @@ fn work(
     streams: &mut Streams<'_>,
 ) -> Result<String, Stop> {
     // What was typed is refused before a large file is read.
-    let to_file = args.output != Path::new("-");
     files::check_picture(&args.output)?;
-    if files::is_same(&args.input, &args.output) {
-        return Err(files::replaced(&args.output, "the input"));
-    }
-    if to_file {
-        output::check(&args.output).map_err(|error| files::unwritable(&args.output, &error))?;
-    }
+    let inputs = std::slice::from_ref(&args.input);
+    files::check_shown(&args.output, inputs, "the input")?;
     let size = args.size.as_f64();
     let given = args
         .camera
         .map(|look| Camera::new(look, args.up.coords, args.fov, size));
-    let given = given.transpose();
-    let given = given.map_err(|error| Stop::new(Exit::Usage, picture::no_camera(error)))?;
+    let given = given.transpose().map_err(picture::no_camera)?;
     let mut options = options(args, faults)?;
 
     let input = Input::find(&args.input, streams.input)?;
@@ -72,12 +66,7 @@ fn work(
             tearmesh_view::render(mesh, positions, &camera, args.size, &options)
         }
     };
-    if to_file {
-        picture::write(&args.output, &drawn)?;
-    } else {
-        let printed = output::print(streams.output, |out| drawn.write_png(out));
-        printed.map_err(|fault| Stop::new(Exit::Output, fault))?;
-    }
+    output::write_or_print(&args.output, streams.output, |out| drawn.write_png(out))?;
     Ok(format!(
         "render: {}, {}, {} · {}x{} pixels · wrote {}",
         count(mesh.vertex_count(), "vertex", "vertices"),
@@ -100,14 +89,14 @@ fn options(args: &RenderArgs, faults: &mut Vec<Fault>) -> Result<RenderOptions, 
         ..RenderOptions::default()
     };
     for text in &args.rays {
-        let pair = rays::pair(text, "--rays", 1).map_err(rays::refused)?;
+        let pair = rays::pair(text, "--rays", 1)?;
         let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(&pair, error))?;
         warn_of_skew(&scissor, faults);
         options.cuts.push(scissor);
         options.rays.extend::<[Ray; 2]>(pair);
     }
     for text in &args.plane {
-        let plane = rays::plane(text, "--plane").map_err(rays::refused)?;
+        let plane = rays::plane(text, "--plane")?;
         options.cuts.push(Scissor::by_plane(plane));
     }
     Ok(options)

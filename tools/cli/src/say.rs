@@ -60,15 +60,15 @@ impl Excerpt {
 }
 
 impl Fault {
-    pub(crate) fn error(code: &'static str, message: String) -> Fault {
+    pub(crate) fn error(code: &'static str, message: impl Into<String>) -> Fault {
         Fault {
             code,
-            message,
+            message: message.into(),
             ..Fault::default()
         }
     }
 
-    pub(crate) fn warning(code: &'static str, message: String) -> Fault {
+    pub(crate) fn warning(code: &'static str, message: impl Into<String>) -> Fault {
         Fault {
             severity: Severity::Warning,
             ..Fault::error(code, message)

@@ -13,7 +13,7 @@ use std::path::Path;
 pub(crate) use self::read::SceneFile;
 pub(crate) use self::schema::schema;
 use crate::choice::{Choice as _, Preset};
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::input::{Input, cannot_read};
 use crate::say::Fault;
 use crate::streams::Streams;
@@ -22,29 +22,24 @@ impl SceneFile {
     /// Finds what `--scene` names: a scene that stands ready, which is that of a file with nothing but its name,
     /// or a file.
     pub(crate) fn find(name: &str, streams: &mut Streams<'_>) -> Result<SceneFile, Stop> {
-        let refused = |faults| Stop {
-            exit: Exit::Usage,
-            faults,
-        };
         if Preset::of(name).is_some() {
-            return SceneFile::read(name, &format!("base = \"{name}\"")).map_err(refused);
+            return Ok(SceneFile::read(name, &format!("base = \"{name}\""))?);
         }
         if !Path::new(name).exists() && !name.contains(['.', '/', '\\']) {
             let fault = Fault::error("E-SCENE-NAME", format!("there is no scene `{name}`"));
             let scenes = Preset::words();
             let help = format!("scenes are {scenes}, and files such as scene.toml");
-            return Err(Stop::new(Exit::Usage, fault.help(help)));
+            return Err(fault.help(help).into());
         }
         let file = Input::find(Path::new(name), streams.input)?;
         let mut bytes = Vec::new();
         let read = file.open()?.read_to_end(&mut bytes);
-        read.map_err(|error| Stop::new(Exit::Input, cannot_read(&file.name, &error)))?;
+        read.map_err(|error| cannot_read(&file.name, &error))?;
         let Ok(text) = String::from_utf8(bytes) else {
             let message = format!("`{name}` is not a text in UTF-8");
-            let fault = Fault::error("E-SCENE-SYNTAX", message);
-            return Err(Stop::new(Exit::Usage, fault));
+            return Err(Fault::error("E-SCENE-SYNTAX", message).into());
         };
-        SceneFile::read(&file.name, &text).map_err(refused)
+        Ok(SceneFile::read(&file.name, &text)?)
     }
 
     /// As it is called in the report.

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use tearmesh::{MassError, MassLedger, Masses, Mesh, Place, Point, Positions, Vector};
+use tearmesh::{MassError, MassLedger, Mesh, Place, Point, Positions, Vector};
 use tearmesh_obj::{Document, Repair, WriteSummary};
 
 use crate::args::{FileArgs, Format};
@@ -165,8 +165,7 @@ impl<'a> Session<'a> {
             _ => None,
         };
         for path in output.into_iter().chain(&self.files.report) {
-            output::check(path)
-                .map_err(|error| Stop::new(Exit::Output, output::cannot_write(path, &error)))?;
+            output::check(path)?;
         }
         Ok(())
     }
@@ -181,12 +180,9 @@ impl<'a> Session<'a> {
         let clock = Clock::start();
         let written = match &self.destination {
             Destination::Nowhere { .. } => Ok(None),
-            Destination::File(path) => output::write(path, fill)
-                .map(Some)
-                .map_err(|error| output::cannot_write(path, &error)),
+            Destination::File(path) => output::write(path, fill).map(Some),
             Destination::Output => output::print(streams.output, fill),
-        };
-        let written = written.map_err(|fault| Stop::new(Exit::Output, fault))?;
+        }?;
         self.report.timing_ms.get_or_insert_default().write = clock.milliseconds();
         self.report.output = Some(report::File::of(self.destination.name(), mesh));
         if let Some(unspoken) = written.map(|one| one.unspoken).filter(|&count| count > 0) {
@@ -221,7 +217,13 @@ impl<'a> Session<'a> {
         up: Vector,
     ) -> Result<(), Stop> {
         match self.files.picture.as_ref().filter(|_| !self.files.dry_run) {
-            Some(path) => picture::write_beside(path, mesh, place, up, picture::crease(document)),
+            Some(path) => Ok(picture::write_beside(
+                path,
+                mesh,
+                place,
+                up,
+                picture::crease(document),
+            )?),
             None => Ok(()),
         }
     }
@@ -301,8 +303,7 @@ impl<'a> Session<'a> {
             return Ok(());
         };
         let json = self.json(exit);
-        let written = output::write(path, |out| out.write_all(json.as_bytes()));
-        written.map_err(|error| output::cannot_write(path, &error))
+        output::write(path, |out| out.write_all(json.as_bytes()))
     }
 
     /// Shows what there is to say, or prints it as JSON.
@@ -356,12 +357,7 @@ pub(crate) fn open(
     let clock = Clock::start();
     let mesh = match document.mesh() {
         Ok(mesh) => mesh,
-        Err(error) => {
-            return Err(Stop {
-                exit: Exit::Input,
-                faults: defects::faults(input, document, &error, or),
-            });
-        }
+        Err(error) => return Err(defects::faults(input, document, &error, or).into()),
     };
     timing.build = clock.milliseconds();
     let positions = Positions::new(document.positions().iter().copied())
@@ -411,17 +407,14 @@ pub(crate) fn moved(document: &Document, mesh: &Mesh, positions: &Positions) -> 
     ((after - before).abs() > bound).then(|| format!("I20 (area): {before:e} became {after:e}"))
 }
 
-/// Masses, or why there are none.
-pub(crate) fn masses(made: Result<Masses, MassError>) -> Result<Masses, Stop> {
-    made.map_err(|error| Stop::new(Exit::Input, no_masses(&error)))
-}
-
 /// Why masses could not be computed.
-pub(crate) fn no_masses(error: &MassError) -> Fault {
-    let fault = Fault::error("E-MASS", error.to_string());
-    match error {
-        MassError::TooLight { .. } => fault.help("use --mass area"),
-        _ => fault,
+impl From<MassError> for Fault {
+    fn from(error: MassError) -> Fault {
+        let fault = Fault::error("E-MASS", error.to_string());
+        match error {
+            MassError::TooLight { .. } => fault.help("use --mass area"),
+            _ => fault,
+        }
     }
 }
 

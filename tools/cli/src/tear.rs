@@ -31,7 +31,7 @@ use crate::interrupt::Guard;
 use crate::scene::SceneFile;
 use crate::session::{Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, report};
+use crate::{files, output, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -272,7 +272,7 @@ impl Play<'_> {
         session.show_mesh(document, mesh, points, self.frame.up.vector())?;
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {
-            files::write_beside(path, |out| {
+            output::write(path, |out| {
                 summary::write_forces(&run, &records.tear_log, out)
             })?;
         }
@@ -318,7 +318,7 @@ impl Play<'_> {
                 ("vertices split", run.tally().splits.to_string()),
             ];
             let page = recorder.finish(run, &records.tear_log, name, &facts)?;
-            crate::page::write(path, &page)?;
+            output::write(path, |out| page.write(out))?;
         }
         let was_interrupted = session.exit == Exit::Interrupted;
         let is_enough = || !was_interrupted && self.guard.is_interrupted();

@@ -59,12 +59,10 @@ fn work(
         faces.push(mesh.face_count());
         pieces = mesh.components().count();
     }
-    let Some(path) = output else {
-        let printed = output::print(streams.output, |out| shown.write(out));
-        printed.map_err(|fault| Stop::new(Exit::Output, fault))?;
+    output::write_or_print(&output, streams.output, |out| shown.write(out))?;
+    if output == Path::new("-") {
         return Ok(String::new());
-    };
-    page::write(&path, &shown)?;
+    }
     let moments = match inputs.len() {
         1 => String::new(),
         many => format!("{many} meshes, "),
@@ -74,31 +72,27 @@ fn work(
         span(&vertices, "vertex", "vertices"),
         span(&faces, "face", "faces"),
         count(pieces, "piece", "pieces"),
-        path.display(),
+        output.display(),
     ))
 }
 
 /// The files that are shown.
 fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
     let files: Result<Vec<PathBuf>, _> = named(&args.inputs, true).into_iter().collect();
-    let files = files.map_err(|(_, fault)| Stop::new(Exit::Input, fault))?;
+    let files = files.map_err(|(_, fault)| fault)?;
     files::one_stream(&files)?;
     Ok(files)
 }
 
-/// Where the page goes; none is standard output.
-fn place(args: &ViewArgs, inputs: &[PathBuf]) -> Result<Option<PathBuf>, Stop> {
+/// Where the page goes.
+fn place(args: &ViewArgs, inputs: &[PathBuf]) -> Result<PathBuf, Stop> {
     let path = match &args.output {
-        Some(path) if path == Path::new("-") => return Ok(None),
         Some(path) => path.clone(),
         None => named_like(&args.inputs[0])?,
     };
     files::check_page(&path)?;
-    if inputs.iter().any(|input| files::is_same(input, &path)) {
-        return Err(files::replaced(&path, "an input"));
-    }
-    output::check(&path).map_err(|error| files::unwritable(&path, &error))?;
-    Ok(Some(path))
+    files::check_shown(&path, inputs, "an input")?;
+    Ok(path)
 }
 
 /// A page in the folder where we are, by the name of an input.

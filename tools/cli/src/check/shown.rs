@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use tearmesh::{Mesh, Positions, Vector};
 use tearmesh_view::Page;
 
-use crate::exit::{Exit, Stop};
-use crate::files::{check_page, is_same, unwritable};
+use crate::exit::Stop;
+use crate::files::{check_page, is_same};
 use crate::say::Fault;
 use crate::{output, page};
 
@@ -29,7 +29,7 @@ impl Shown {
             return Err(Stop::usage(message, help));
         }
         check_page(path)?;
-        output::check(path).map_err(|error| unwritable(path, &error))?;
+        output::check(path)?;
         Ok(Shown {
             page: Page::new("checked", Vector::y()),
             path: path.to_owned(),
@@ -46,10 +46,9 @@ impl Shown {
     /// Writes the page, if there is a mesh on it.
     pub(super) fn write(self) -> Result<(), Stop> {
         if self.page.is_empty() {
-            let message = "there is no mesh to be shown on a page".to_owned();
-            let fault = Fault::error("E-VIEW-EMPTY", message);
-            return Err(Stop::new(Exit::Input, fault));
+            let message = "there is no mesh to be shown on a page";
+            return Err(Fault::error("E-VIEW-EMPTY", message).into());
         }
-        page::write(&self.path, &self.page)
+        Ok(output::write(&self.path, |out| self.page.write(out))?)
     }
 }

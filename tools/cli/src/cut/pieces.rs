@@ -10,9 +10,8 @@ use tearmesh_obj::{PieceNames, PieceWriter, TornDocument};
 
 use crate::args::CutArgs;
 use crate::exit::Stop;
-use crate::files::unwritable;
 use crate::measure::area;
-use crate::say::count;
+use crate::say::{Fault, count};
 use crate::{files, output, report};
 
 /// Where pieces go.
@@ -91,11 +90,9 @@ impl Pieces {
         torn: &TornDocument<'_>,
         mesh: &Mesh,
         positions: &Positions,
-    ) -> Result<report::Pieces, Stop> {
+    ) -> Result<report::Pieces, Fault> {
         let folder = &self.folder;
-        if !folder.is_dir() {
-            fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
-        }
+        output::make_folder(folder)?;
         let mut pieces = mesh.pieces(&mesh.components());
         // Of equal ones the one with the lowest face comes first, as it does now.
         pieces.sort_by_key(|piece| Reverse(piece.faces().len()));
@@ -106,9 +103,8 @@ impl Pieces {
         };
         for (number, piece) in pieces.iter().enumerate() {
             let file = name(number);
-            let path = self.folder.join(&file);
-            let written = output::write(&path, |mut out| writer.write(piece, positions, &mut out));
-            let written = written.map_err(|error| unwritable(&path, &error))?;
+            let path = folder.join(&file);
+            let written = output::write(&path, |mut out| writer.write(piece, positions, &mut out))?;
             let PieceNames {
                 objects,
                 groups,
@@ -126,9 +122,7 @@ impl Pieces {
         }
         let json = serde_json::to_string_pretty(&list);
         let json = json.expect("a list of strings and finite numbers is JSON") + "\n";
-        let path = self.folder.join(LIST);
-        output::write(&path, |out| out.write_all(json.as_bytes()))
-            .map_err(|error| unwritable(&path, &error))?;
+        output::write(&folder.join(LIST), |out| out.write_all(json.as_bytes()))?;
         let is_new =
             |name: &str| name == LIST || list.pieces.iter().any(|piece| piece.file == name);
         for path in self
@@ -137,7 +131,7 @@ impl Pieces {
             .filter(|name| !is_new(name))
             .map(|name| folder.join(name))
         {
-            fs::remove_file(&path).map_err(|error| unwritable(&path, &error))?;
+            fs::remove_file(&path).map_err(|error| output::cannot_write(&path, &error))?;
         }
         let count = pieces.len();
         let folder = self.folder.display().to_string();

@@ -4,10 +4,10 @@ use tearmesh::{Plane, Point, Ray, Scissor, ScissorError};
 use tearmesh_view::Camera;
 
 use crate::args::{CameraArgs, CutArgs, numbers};
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::input::Input;
 use crate::picture;
-use crate::rays::{self, Pair, refused};
+use crate::rays::{self, Pair};
 use crate::say::{Fault, short};
 use crate::streams::Streams;
 
@@ -31,40 +31,34 @@ impl Along {
 pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Along>, Stop> {
     if !args.plane.is_empty() {
         let planes = args.plane.iter().map(|text| rays::plane(text, "--plane"));
-        let planes: Result<Vec<Plane>, Fault> = planes.collect();
         return Ok(planes
-            .map_err(refused)?
-            .into_iter()
-            .map(Along::Plane)
-            .collect());
+            .map(|plane| plane.map(Along::Plane))
+            .collect::<Result<_, _>>()?);
     }
     if let Some(look) = args.camera.camera {
-        let pairs = seen(&args.camera, look).map_err(|fault| Stop::new(Exit::Usage, fault))?;
+        let pairs = seen(&args.camera, look)?;
         return Ok(pairs.into_iter().map(Along::Rays).collect());
     }
     let mut pairs = Vec::new();
     for text in &args.rays {
-        pairs.push(rays::pair(text, "--rays", 1).map_err(refused)?);
+        pairs.push(rays::pair(text, "--rays", 1)?);
     }
     if let Some(path) = &args.rays_file {
         let file = Input::find(path, streams.input)?;
         let text = file.text()?;
-        pairs.extend(rays::file(&text, &file.name).map_err(refused)?);
+        pairs.extend(rays::file(&text, &file.name)?);
     }
     if pairs.is_empty() {
         let message = "nothing to cut with: give --rays A B, --plane P:N or --camera";
-        let fault = Fault::error("E-RAY-COUNT", message.to_owned());
-        return Err(refused(
-            fault.help("for example --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1"),
-        ));
+        let help = "for example --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
+        return Err(Fault::error("E-RAY-COUNT", message).help(help).into());
     }
     Ok(pairs.into_iter().map(Along::Rays).collect())
 }
 
 /// The rays through points of a picture.
 fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
-    let refused =
-        |message: &str, help: &str| Fault::error("E-CAMERA", message.to_owned()).help(help);
+    let refused = |message: &str, help: &str| Fault::error("E-CAMERA", message).help(help);
     let fov = args.fov.expect("a camera requires it");
     let viewport = args.viewport.expect("a camera requires it");
     let camera = Camera::new(look, args.up.coords, fov, viewport).map_err(picture::no_camera)?;
@@ -96,14 +90,13 @@ fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
 const POINTS_HELP: &str = "write both in pixels from the top left, as in --points 200,300 600,250";
 
 /// Says that two rays span no plane, and what would.
-pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Stop {
+pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
     let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
     let (left, right) = (x - 1.0, x + 1.0);
     let eye = format!("{x},{y},{z}");
     let help =
         format!("move one origin, or aim at two points: {eye}@{left},{y},0 {eye}@{right},{y},0");
-    let fault = Fault::error("E-RAY-ONE-LINE", error.to_string());
-    Stop::new(Exit::NoPlane, fault.help(help))
+    Fault::error("E-RAY-ONE-LINE", error.to_string()).help(help)
 }
 
 /// Says how far the second ray leaves the plane, if it does.

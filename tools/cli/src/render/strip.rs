@@ -2,7 +2,7 @@
 
 use tearmesh::{Blend, Cursor, Mesh, Point};
 use tearmesh_cloth::scene::{Frame, Run};
-use tearmesh_view::{Camera, CameraError, Picture, RenderOptions, fit_all, render};
+use tearmesh_view::{Camera, Picture, RenderOptions, fit_all, render};
 
 use crate::args::RenderArgs;
 use crate::exit::{Exit, Stop};
@@ -74,11 +74,10 @@ pub(super) fn draw(
     }
     let up = frame.up.vector();
     let seen = moments.iter().map(|moment| (&moment.mesh, &*moment.points));
-    let refused = |error: CameraError| Stop::new(Exit::Usage, no_camera(error));
     let camera = match given {
         Some(camera) => camera,
         None => fit_all(seen, up, args.fov, args.size.as_f64())
-            .map_err(refused)?
+            .map_err(no_camera)?
             .expect("a scene has faces"),
     };
     let pictures: Vec<Picture> = moments

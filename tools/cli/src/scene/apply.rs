@@ -10,7 +10,7 @@ use super::kinds::{Gravity, Word, set};
 use super::read::{Place, SceneFile, Table, sorted};
 use super::schema::{ColliderKeys, Cut, Tear, Vertices};
 use crate::choice::{Preset, Solver};
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::say::Fault;
 
 impl SceneFile {
@@ -56,10 +56,7 @@ impl SceneFile {
         }
         match faults.is_empty() {
             true => Ok(scene),
-            false => Err(Stop {
-                exit: Exit::Usage,
-                faults: sorted(std::mem::take(faults)),
-            }),
+            false => Err(sorted(std::mem::take(faults)).into()),
         }
     }
 

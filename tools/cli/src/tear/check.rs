@@ -61,7 +61,7 @@ pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
             return refuse(message, &format!("write {what} to another file"));
         }
         files::keep(&args.files, Some(path), what)?;
-        output::check(path).map_err(|error| files::unwritable(path, &error))?;
+        output::check(path)?;
         taken.push(path);
     }
     Ok(())
@@ -114,7 +114,7 @@ pub(super) fn known_forces(args: &TearArgs, scene: &Scene) -> Result<(), Stop> {
 pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Result<(), Stop> {
     let blame = |at, message: &str, help: &str| {
         let fault = source.blame(at, "E-SCENE-CLASH", message.to_owned());
-        Err(Stop::new(Exit::Usage, fault.help(help)))
+        Err(fault.help(help).into())
     };
     let Some(tearing) = &scene.tearing else {
         let help = "add --threshold, or a threshold in [tear] of a scene file";
@@ -150,7 +150,7 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
     let blame = |at, code, message, help: Option<&str>| {
         let mut fault = source.blame(at, code, message);
         fault.help = help.map(str::to_owned);
-        Stop::new(Exit::Usage, fault)
+        fault.into()
     };
     match *error {
         _ if opened.mesh.face_count() == 0 => {}
@@ -195,9 +195,8 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
         }
         _ => {}
     }
-    let (exit, code, help) = match error {
+    let (code, help) = match error {
         _ if opened.mesh.face_count() == 0 => (
-            Exit::Input,
             "E-SIM-MESH",
             Some("the mesh has no faces that a scene could be played with"),
         ),
@@ -205,19 +204,16 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
             let [a, b] = ends.map(|v| opened.document.number_of_vertex(v.index()));
             let message = format!("the vertices {a} and {b} of an edge are at one place");
             let help = "an edge without length has no strain: take the face out";
-            let fault = Fault::error("E-SIM-MESH", message).help(help);
-            return Stop::new(Exit::Input, fault);
+            return Fault::error("E-SIM-MESH", message).help(help).into();
         }
-        RunError::Simulation(SimulationError::Cloth(ClothError::Mass(_))) => {
-            (Exit::Input, "E-MASS", None)
-        }
-        RunError::Simulation(SimulationError::Cloth(_)) => (Exit::Input, "E-SIM-MESH", None),
-        RunError::Times { .. } => (Exit::Usage, "E-USAGE", Some("take a longer --dt")),
-        _ => (Exit::Usage, "E-SCENE-RANGE", None),
+        RunError::Simulation(SimulationError::Cloth(ClothError::Mass(_))) => ("E-MASS", None),
+        RunError::Simulation(SimulationError::Cloth(_)) => ("E-SIM-MESH", None),
+        RunError::Times { .. } => ("E-USAGE", Some("take a longer --dt")),
+        _ => ("E-SCENE-RANGE", None),
     };
     let mut fault = Fault::error(code, error.to_string());
     fault.help = help.map(str::to_owned);
-    Stop::new(exit, fault)
+    fault.into()
 }
 
 /// A face without area is a fault of the mesh, and one across the warp a fault of the warp.
@@ -229,12 +225,11 @@ fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneFile) -> Stop
     if (b - a).cross(&(c - a)) == Vector::zeros() {
         let message = format!("the face {name} has no area at rest");
         let help = "a triangle without area has no strain: take the face out";
-        let fault = Fault::error("E-SIM-MESH", message).help(help);
-        return Stop::new(Exit::Input, fault);
+        return Fault::error("E-SIM-MESH", message).help(help).into();
     }
     let [x, y, z] = <[f64; 3]>::from(warp);
     let message = format!("the warp ({x}, {y}, {z}) has no direction in the face {name}");
     let help = "name a `warp` in [fabric] that lies in no face's normal";
     let fault = source.blame(("fabric", 0, "warp"), "E-SCENE-RANGE", message);
-    Stop::new(Exit::Usage, fault.help(help))
+    fault.help(help).into()
 }

@@ -5,7 +5,6 @@
 //! yet is at the position of its source. A vertex that a cut will insert is on its edge or in its face,
 //! at the same fraction: the surface is the same although faces are divided.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -16,8 +15,7 @@ use tearmesh_obj::{TornDocument, WriteSummary};
 use tearmesh_view::{MOMENTS_PER_S, write_pc2};
 
 use crate::args::{TearArgs, Topology};
-use crate::exit::{Exit, Stop};
-use crate::files::unwritable;
+use crate::exit::Stop;
 use crate::say::Fault;
 use crate::{files, output, report};
 
@@ -25,15 +23,12 @@ use crate::{files, output, report};
 pub(super) const RATE_PER_S: f64 = MOMENTS_PER_S;
 
 /// Where the vertices of a run are; refused if one of them is nowhere.
-pub(super) fn places(run: &Run) -> Result<Positions, Stop> {
+pub(super) fn places(run: &Run) -> Result<Positions, Fault> {
     finite(run.cloth().positions().to_vec())
 }
 
-fn finite(points: Vec<Point>) -> Result<Positions, Stop> {
-    Positions::new(points).map_err(|error| {
-        let fault = Fault::error("E-SIM-BLOWUP", error.to_string());
-        Stop::new(Exit::Simulation, fault)
-    })
+fn finite(points: Vec<Point>) -> Result<Positions, Fault> {
+    Positions::new(points).map_err(|error| Fault::error("E-SIM-BLOWUP", error.to_string()))
 }
 
 /// The frames of a run, if any are wanted.
@@ -98,9 +93,7 @@ impl Frames {
                 (files.view.as_deref(), "the page"),
             ];
             files::keep_from(folder, ("a frame", "frames"), is_frame, &kept)?;
-            if !folder.is_dir() {
-                fs::create_dir(folder).map_err(|error| unwritable(folder, &error))?;
-            }
+            output::make_folder(folder)?;
         }
         Ok(frames)
     }
@@ -209,7 +202,7 @@ impl Frames {
         path: &Path,
         run: &Run,
         torn: &TornDocument<'_>,
-    ) -> Result<report::Cache, Stop> {
+    ) -> Result<report::Cache, Fault> {
         let statements = torn.statements_in_order(run.mesh());
         for (number, frame) in self.waiting.iter().enumerate() {
             self.checked(number, frame, run.mesh())?;
@@ -218,7 +211,7 @@ impl Frames {
             let points = self.grown(frame);
             statements.iter().map(move |v| points[v.index()])
         });
-        files::write_beside(path, |out| write_pc2(out, statements.len(), samples))?;
+        output::write(path, |out| write_pc2(out, statements.len(), samples))?;
         Ok(report::Cache {
             path: path.display().to_string(),
             samples: self.waiting.len(),
@@ -232,11 +225,11 @@ impl Frames {
         number: usize,
         frame: &Frame,
         mesh: &Mesh,
-    ) -> Result<(Vec<Point>, u64), Stop> {
+    ) -> Result<(Vec<Point>, u64), Fault> {
         let points = self.grown(frame);
         let checked = self.check(frame, &points, mesh).map_err(|broken| {
             let message = format!("frame {number} is not its own mesh: {broken}");
-            Stop::new(Exit::Bug, Fault::error("E-BUG-INVARIANT", message))
+            Fault::error("E-BUG-INVARIANT", message)
         })?;
         Ok((points, checked))
     }
@@ -282,15 +275,11 @@ impl Frames {
         &self,
         number: usize,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<WriteSummary>,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), Fault> {
         let Some(folder) = &self.folder else {
             return Ok(());
         };
-        let path = folder.join(name(number));
-        let written = output::write(&path, fill);
-        written
-            .map(|_| ())
-            .map_err(|error| unwritable(&path, &error))
+        output::write(&folder.join(name(number)), fill).map(|_| ())
     }
 
     /// Says that an earlier run left more frames than this one made.

@@ -6,7 +6,7 @@ use tearmesh::VertexId;
 use tearmesh_cloth::scene::Region;
 use tearmesh_obj::Document;
 
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::input::Input;
 use crate::say::Fault;
 use crate::streams::Streams;
@@ -28,12 +28,11 @@ pub(super) fn read(
         match entry(words, document) {
             Ok((vertex, strength)) => strengths.push((Region::Vertices(vec![vertex]), strength)),
             Err(label) => {
-                let message = "a line is not `vertex strength`".to_owned();
-                let fault = Fault::error("E-STRENGTH", message);
+                let fault = Fault::error("E-STRENGTH", "a line is not `vertex strength`");
                 let span = 0..words.trim_end().len();
                 let fault = fault.at((&file.name, i + 1), line, span, label);
                 let help = "as in `17 0.5`: vertex 17 bears half the threshold";
-                return Err(Stop::new(Exit::Usage, fault.help(help)));
+                return Err(fault.help(help).into());
             }
         }
     }
