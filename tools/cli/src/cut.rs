@@ -281,13 +281,6 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
             "use --mass area, or --method partition",
         );
     }
-    if !(0.0..=0.49).contains(&args.snap) {
-        let message = format!("`--snap {}` is not between 0 and 0.49", args.snap);
-        return usage(
-            &message,
-            "it is a part of the length of an edge, as in --snap 0.05",
-        );
-    }
     if args.snap_move && !is_exact {
         let message = format!(
             "`--snap-move` is for the method exact, not {}",

@@ -22,7 +22,6 @@ pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>
 }
 
 fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
-    check(args)?;
     let Opened {
         mut document,
         mut mesh,
@@ -236,20 +235,6 @@ fn kept_slid(edited: usize) -> Option<Fault> {
     let stays = if edited == 1 { "stays" } else { "stay" };
     let message = format!("{vertices} edited since and {stays} in place");
     (edited > 0).then(|| Fault::warning("W-MEND-EDITED", message))
-}
-
-/// Refuses numbers that make no sense.
-fn check(args: &MendArgs) -> Result<(), Stop> {
-    for (name, number) in [
-        ("--radius", args.radius),
-        ("--max-distance", args.max_distance),
-    ] {
-        if let Some(number) = number.filter(|number| number.is_nan() || *number < 0.0) {
-            let message = format!("`{name} {number}` is not a distance");
-            return Err(Stop::usage(message, "write a number from 0 on"));
-        }
-    }
-    Ok(())
 }
 
 /// Says which vertices are too far apart, by their numbers in the file.

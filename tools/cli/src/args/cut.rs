@@ -98,7 +98,8 @@ pub(crate) struct CutArgs {
     /// For the method exact; from 0 to 0.49. 0 makes the seam straight to the last digit, and may
     /// leave thin faces. With R, each new face keeps at least R(1-R) of the altitude of the face that
     /// it was part of; an end of the cut moves within its face to avoid a thinner one.
-    #[arg(long, value_name = "R", allow_negative_numbers = true, default_value_t = tearmesh::Scissor::SNAP)]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = super::read::snap,
+        default_value_t = tearmesh::Scissor::SNAP)]
     pub(crate) snap: f64,
 
     /// Move a vertex that a crossing snapped to onto the plane, along its edge.

@@ -38,14 +38,15 @@ pub(crate) struct MendArgs {
         long,
         value_name = "R",
         requires = "near",
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = super::read::distance
     )]
     pub(crate) radius: Option<f64>,
 
     /// Sew nothing if two vertices to be joined are farther apart than this.
     ///
     /// Without it, vertices that moved apart are joined at their mean, weighted by mass.
-    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = super::read::distance)]
     pub(crate) max_distance: Option<f64>,
 
     /// Remove inserted vertices that no longer separate anything.

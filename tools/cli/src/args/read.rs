@@ -29,18 +29,41 @@ pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
 
 /// Reads an angle between two faces, in degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse().ok();
-    number
-        .filter(|degrees| (0.0..=180.0).contains(degrees))
-        .ok_or_else(|| "expected degrees from 0 to 180".to_owned())
+    let is_in = |degrees| (0.0..=180.0).contains(&degrees);
+    number(text, is_in, "degrees from 0 to 180")
 }
 
 /// Reads a duration in seconds.
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    number(text, |seconds| seconds >= 0.0, "seconds, as in 2.5")
+}
+
+/// Reads a distance.
+pub(super) fn distance(text: &str) -> Result<f64, String> {
+    number(text, |length| length >= 0.0, "a number from 0 up")
+}
+
+/// Reads a number above 0.
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    number(text, |x| x > 0.0, "a number above 0")
+}
+
+/// Reads a length as a multiple of the length at rest, which it exceeds.
+pub(super) fn stretch(text: &str) -> Result<f64, String> {
+    number(text, |ratio| ratio > 1.0, "a number above 1, as in 1.5")
+}
+
+/// Reads the part of an edge within which a crossing snaps.
+pub(super) fn snap(text: &str) -> Result<f64, String> {
+    let is_in = |part| (0.0..=0.49).contains(&part);
+    number(text, is_in, "a number from 0 to 0.49, as in 0.05")
+}
+
+fn number(text: &str, is_in: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
     let number = text.trim().parse().ok();
     number
-        .filter(|seconds: &f64| *seconds >= 0.0 && seconds.is_finite())
-        .ok_or_else(|| "expected seconds, as in 2.5".to_owned())
+        .filter(|&x: &f64| x.is_finite() && is_in(x))
+        .ok_or_else(|| format!("expected {expected}"))
 }
 
 /// Reads the size of a picture that is drawn.

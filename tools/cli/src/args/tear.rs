@@ -39,7 +39,8 @@ pub(crate) struct TearArgs {
     /// Tear edges at this many times their rest length (default: 1.5).
     ///
     /// The paper's rule. Finer meshes tear more easily: to compare forces, use --toughness.
-    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, conflicts_with_all = ["toughness", "threshold_newton"])]
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true, value_parser = super::read::stretch,
+        conflicts_with_all = ["toughness", "threshold_newton"])]
     pub(crate) threshold: Option<f64>,
 
     /// Tear by energy, in joules per metre of tear.
@@ -49,12 +50,13 @@ pub(crate) struct TearArgs {
         long,
         value_name = "J_PER_M",
         allow_negative_numbers = true,
+        value_parser = super::read::positive,
         conflicts_with = "threshold_newton"
     )]
     pub(crate) toughness: Option<f64>,
 
     /// Tear edges that pull with more than this force, in newtons.
-    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = super::read::positive)]
     pub(crate) threshold_newton: Option<f64>,
 
     /// Read strengths from a file of lines `vertex strength`.
@@ -68,7 +70,7 @@ pub(crate) struct TearArgs {
     /// The duration in seconds (default: that of the scene).
     ///
     /// hang and fall: 2; flag and rip: 3; trouser: 4.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = super::read::seconds)]
     pub(crate) seconds: Option<f64>,
 
     /// The time step in seconds (default: chosen for the method).
@@ -77,7 +79,7 @@ pub(crate) struct TearArgs {
     /// stability limit; xpbd: h/c, the time that a pull takes along an edge; pbd: 3.2 h/c; implicit:
     /// 1/240; at most 1/120. A step that is not stable is refused: for verlet, one of more than twice
     /// the default.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = super::read::positive)]
     pub(crate) dt: Option<f64>,
 
     /// The direction that is up: x, y, z, -x, -y or -z (default: y).
@@ -95,7 +97,8 @@ pub(crate) struct TearArgs {
         long,
         value_name = "S",
         requires = "rays",
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = super::read::seconds
     )]
     pub(crate) cut_at: Option<f64>,
 

@@ -15,37 +15,9 @@ use crate::scene::SceneFile;
 use crate::session::Opened;
 use crate::{files, output};
 
-/// Refuses numbers out of range, streams that are wanted twice, and files that would replace what is
-/// read or what else is written.
+/// Refuses streams that are wanted twice, and files that would replace what is read or what else is
+/// written.
 pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
-    let from = |least: f64| move |x: f64| x >= least && x.is_finite();
-    let above = |least: f64| move |x: f64| x > least && x.is_finite();
-    range(
-        "--threshold",
-        args.threshold,
-        above(1.0),
-        "a length as a multiple of the length at rest, above 1, as in --threshold 1.5",
-    )?;
-    range(
-        "--toughness",
-        args.toughness,
-        above(0.0),
-        "joules for each metre of tear, as in --toughness 2",
-    )?;
-    range(
-        "--threshold-newton",
-        args.threshold_newton,
-        above(0.0),
-        "the pull of an edge in newtons, as in --threshold-newton 10",
-    )?;
-    range("--seconds", args.seconds, from(0.0), "as in --seconds 2")?;
-    range("--dt", args.dt, above(0.0), "as in --dt 0.001")?;
-    range(
-        "--cut-at",
-        args.cut_at,
-        from(0.0),
-        "seconds of the simulation, as in --cut-at 1.5",
-    )?;
     let dash = Path::new("-");
     let scene = PathBuf::from(&args.scene);
     let mut taken = vec![&args.files.input, &scene];
@@ -65,18 +37,6 @@ pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
         taken.push(path);
     }
     Ok(())
-}
-
-fn range(
-    option: &str,
-    value: Option<f64>,
-    is_in: impl Fn(f64) -> bool,
-    help: &str,
-) -> Result<(), Stop> {
-    match value.filter(|&value| !is_in(value)) {
-        Some(value) => refuse(format!("`{option} {value}` is out of range"), help),
-        None => Ok(()),
-    }
 }
 
 fn refuse(message: String, help: &str) -> Result<(), Stop> {
