@@ -38,11 +38,14 @@ fn strengths_and_holds_name_vertices_as_in_the_file() {
         (output.status.success(), seen(&output))
     };
     // The last vertex, and a copy, which is the vertex that it is of.
-    folder.write("good.txt", "20 2\n9 2\n");
-    let (is_done, answer) = run("--scene hang --strength good.txt");
+    let strong = |vertices: &str| {
+        format!("base = \"hang\"\n[tear]\n[[strength]]\nfactor = 2\nvertices = {vertices}\n")
+    };
+    folder.write("good.toml", strong("[20, 9]"));
+    let (is_done, answer) = run("--scene good.toml");
     assert!(is_done, "{answer}");
-    folder.write("bad.txt", "21 2\n");
-    let (is_done, answer) = run("--scene hang --strength bad.txt");
+    folder.write("bad.toml", strong("[21]"));
+    let (is_done, answer) = run("--scene bad.toml");
     assert!(
         !is_done && answer.contains("the mesh has the vertices 1 to 20"),
         "{answer}"

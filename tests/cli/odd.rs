@@ -19,7 +19,6 @@ fn a_file_that_cannot_be_opened_is_exit_3_for_every_verb() {
             format!("cut flag.obj --rays-file {file} -o x.obj"),
             format!("tear {file} --scene hang -o x.obj"),
             format!("tear flag.obj --scene ./{file} -o x.obj"),
-            format!("tear flag.obj --scene hang --strength {file} -o x.obj"),
             format!("mend {file} -o x.obj"),
             format!("check {file}"),
             format!("check -q {file}"),
@@ -36,8 +35,8 @@ fn a_file_that_cannot_be_opened_is_exit_3_for_every_verb() {
     assert!(said.ends_with("(exit 1)\n"), "{said}");
 }
 
-/// A byte order mark, line ends of two characters, blank lines and comments: the same rays, the same
-/// strengths, and the same scene.
+/// A byte order mark, line ends of two characters, blank lines and comments: the same rays, and the same
+/// scene.
 #[test]
 fn regression_texts_may_begin_with_a_byte_order_mark() {
     let folder = Folder::new();
@@ -46,11 +45,6 @@ fn regression_texts_may_begin_with_a_byte_order_mark() {
             "r.txt",
             "cut flag.obj --rays-file",
             "0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1\n",
-        ),
-        (
-            "w.txt",
-            "tear flag.obj --scene hang --seconds 0.1 --strength",
-            "33 0.5\n17 2\n",
         ),
         (
             "s.toml",

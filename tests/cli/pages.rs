@@ -58,11 +58,6 @@ fn every_verb_shows_its_mesh_and_how_to_cut_it() {
             ["t.obj", "", "t-cut.obj"],
         ),
         (
-            "tearmesh check torn.obj --view c.html".to_owned(),
-            "c.html",
-            ["torn.obj", "", "torn-cut.obj"],
-        ),
-        (
             "tearmesh view torn.obj --repair -o v.html".to_owned(),
             "v.html",
             ["torn.obj", " --repair", "torn-cut.obj"],
@@ -241,9 +236,6 @@ fn a_page_replaces_nothing_else_and_is_not_begun_where_it_cannot_be_written() {
                 .to_owned(),
             2,
         ),
-        ("tearmesh check sheet.obj --view sheet.obj".to_owned(), 2),
-        ("tearmesh check sheet.obj --view -".to_owned(), 2),
-        ("tearmesh check sheet.obj --view no/x.html".to_owned(), 7),
         ("tearmesh view sheet.obj".to_owned(), 2),
         ("tearmesh view sheet.obj -o x.obj".to_owned(), 2),
         (
@@ -283,17 +275,6 @@ fn a_page_replaces_nothing_else_and_is_not_begun_where_it_cannot_be_written() {
     // A page of ours is replaced, and another one if that is asked for.
     done(&folder, "tearmesh view sheet.obj -o sheet.html");
     done(&folder, "tearmesh view sheet.obj");
-    // What cannot be a mesh is not shown, and what can is.
-    let output = folder.run("tearmesh check bad.obj sheet.obj --view two.html");
-    assert_eq!(output.status.code(), Some(1), "{}", seen(&output));
-    assert_eq!(
-        text(&folder.read("two.html"))["moments"]
-            .as_array()
-            .map(Vec::len),
-        Some(1)
-    );
-    let output = folder.run("tearmesh check bad.obj --view none.html");
-    assert!(seen(&output).contains("E-VIEW-EMPTY"), "{}", seen(&output));
 }
 
 /// The page of a simulation and its summary speak of one length: that at rest.

@@ -482,15 +482,9 @@ fn what_gets_past_colliders_and_what_cannot_tear_is_said() {
 #[test]
 fn what_would_be_ignored_is_refused() {
     let folder = Folder::new();
-    folder.write("half.txt", "1 0.5\n");
     let woven = "warp_n_per_m = 300\nweft_n_per_m = 300\n";
     let woven = format!("[solver]\nmethod = \"implicit\"\n[fabric]\n{woven}");
     for (scene, options, words) in [
-        (
-            "base = \"flag\"\n",
-            "--strength half.txt",
-            "error[E-USAGE]: `--strength`",
-        ),
         (
             "base = \"flag\"\n[[strength]]\nnear = [0, 1]\nfactor = 2\n",
             "",

@@ -49,7 +49,6 @@ fn a_picture_is_png_and_a_page_is_html() {
         ("tearmesh view sheet.obj -o x.txt", "x.txt", "HTML"),
         ("tearmesh view sheet.obj -o x.obj", "x.obj", "HTML"),
         (&format!("{cut} --view x.pdf"), "x.pdf", "HTML"),
-        ("tearmesh check sheet.obj --view x.txt", "x.txt", "HTML"),
         (
             "tearmesh cut sheet.obj --plane 0.3,0,0:1,0,0 -o x.stl",
             "x.stl",

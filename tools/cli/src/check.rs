@@ -1,13 +1,10 @@
 //! The verb `check`: a line for each file.
 
-mod shown;
-
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use tearmesh::Masses;
 
-use self::shown::Shown;
 use crate::args::{CheckArgs, Format};
 use crate::exit::{Exit, Stop};
 use crate::files::one_stream;
@@ -31,25 +28,17 @@ const SHOWN: usize = 8;
 
 /// Checks every file, whatever is wrong with those before it.
 pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
-    let refuse = |stop, streams: &mut Streams<'_>| {
-        streams.conclude(Err(stop), Vec::new(), args.color, args.verbose)
-    };
     if let Err(stop) = one_stream(&args.inputs) {
-        return refuse(stop, streams);
+        return streams.conclude(Err(stop), Vec::new(), args.color, args.verbose);
     }
     let files = named(&args.inputs, args.recursive);
     let names = files.iter().map(|file| match file {
         Ok(path) | Err((path, _)) => name(path).chars().count(),
     });
     let width = names.max().unwrap_or(0);
-    let mut shown = match args.view.as_ref().map(|path| Shown::at(path, &files)) {
-        Some(Ok(shown)) => Some(shown),
-        Some(Err(stop)) => return refuse(stop, streams),
-        None => None,
-    };
     let mut exit = Exit::Done;
     for file in files {
-        let found = Found::of(file, shown.as_mut(), streams);
+        let found = Found::of(file, streams);
         exit = match (exit, found.exit()) {
             (Exit::Input, _) | (_, Exit::Input) => Exit::Input,
             (Exit::Bug, _) | (_, Exit::Bug) => Exit::Bug,
@@ -73,8 +62,7 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
             streams.show(&found.faults, args.color, true);
         }
     }
-    let written = shown.map_or(Ok(()), Shown::write);
-    written.map_or_else(|stop| refuse(stop, streams), |()| exit)
+    exit
 }
 
 fn name(path: &Path) -> String {
@@ -112,15 +100,11 @@ struct Line<'f> {
 
 impl Found {
     /// A file, or why there is none.
-    fn of(
-        file: Result<PathBuf, (PathBuf, Fault)>,
-        shown: Option<&mut Shown>,
-        streams: &mut Streams<'_>,
-    ) -> Found {
+    fn of(file: Result<PathBuf, (PathBuf, Fault)>, streams: &mut Streams<'_>) -> Found {
         let mut faults = Vec::new();
         let (path, measured) = match file {
             Ok(path) => {
-                let measured = measure(&path, shown, &mut faults, streams);
+                let measured = measure(&path, &mut faults, streams);
                 (path, measured.map_err(|stop| stop.faults))
             }
             Err((path, fault)) => (path, Err(vec![fault])),
@@ -221,7 +205,6 @@ impl Found {
 /// Measures a mesh. What there is to say of it goes to `faults`.
 fn measure(
     path: &Path,
-    shown: Option<&mut Shown>,
     faults: &mut Vec<Fault>,
     streams: &mut Streams<'_>,
 ) -> Result<Measured, Stop> {
@@ -229,9 +212,6 @@ fn measure(
     let timing = &mut Timing::default();
     let opened = session::open(&input, None, "or cut with", faults, timing)?;
     let (mesh, positions) = (&opened.mesh, &opened.positions);
-    if let Some(shown) = shown {
-        shown.add(mesh, positions, &input.name);
-    }
     // What no verb could weigh, none can cut.
     let masses = Masses::area(mesh, positions, 1.0);
     faults.extend(masses.err().map(Fault::from));

@@ -6,7 +6,6 @@ mod frames;
 mod recorder;
 mod step;
 mod still;
-mod strength;
 mod summary;
 
 use std::ffi::OsString;
@@ -46,7 +45,6 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let source = SceneFile::find(&args.scene, streams)?;
     let scene = (!source.is_ready()).then_some(Path::new(&args.scene));
     files::keep(&args.files, scene, "the scene")?;
-    files::keep(&args.files, args.strength.as_deref(), "the strengths")?;
     let cuts = check::cuts(args, &mut session.faults)?;
     let opened = session.open(None, streams)?;
     let up = args.up.unwrap_or_else(|| source.up());
@@ -56,9 +54,6 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
     check::known_forces(args, &scene)?;
-    if let Some(path) = &args.strength {
-        scene.strengths = strength::read(path, &opened.document, streams)?;
-    }
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
     let run = run.map_err(|error| check::refused(&error, &opened, &source))?;
     let number = |v| opened.document.number_of_vertex(v);

@@ -33,10 +33,6 @@ pub(crate) struct CheckArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 
-    /// Write a page for a browser that shows the meshes that can be cut, as HTML.
-    #[arg(long, value_name = "F.html")]
-    pub(crate) view: Option<PathBuf>,
-
     /// When to use colours.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) color: Color,

@@ -59,14 +59,6 @@ pub(crate) struct TearArgs {
     #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = super::read::positive)]
     pub(crate) threshold_newton: Option<f64>,
 
-    /// Read strengths from a file of lines `vertex strength`.
-    ///
-    /// A vertex tears at this multiple of the threshold. Vertices count from 1, as in OBJ; the
-    /// others have strength 1. `#` begins a comment. In a torn file, a duplicate of a vertex (named
-    /// first in a comment `#~ fan`) stands for that vertex.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) strength: Option<PathBuf>,
-
     /// The duration in seconds (default: that of the scene).
     ///
     /// hang and fall: 2; flag and rip: 3; trouser: 4.

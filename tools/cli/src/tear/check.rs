@@ -21,7 +21,6 @@ pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
     let dash = Path::new("-");
     let scene = PathBuf::from(&args.scene);
     let mut taken = vec![&args.files.input, &scene];
-    taken.extend(&args.strength);
     files::one_stream(&taken)?;
     for (option, what, path) in [
         ("--forces", "the table of forces", &args.forces),
@@ -78,10 +77,6 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
     };
     let Some(tearing) = &scene.tearing else {
         let help = "add --threshold, or a threshold in [tear] of a scene file";
-        if args.strength.is_some() {
-            let message = "`--strength` makes no difference: nothing tears in this scene";
-            return refuse(message.to_owned(), help);
-        }
         if source.has("strength", "") {
             let message = "nothing tears in this scene, however strong it is";
             return blame(("strength", 0, ""), message, help);

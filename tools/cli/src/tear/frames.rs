@@ -86,7 +86,6 @@ impl Frames {
                 (files.output.as_deref(), "the output"),
                 (files.report.as_deref(), "the report"),
                 (Some(Path::new(&args.scene)), "the scene"),
-                (args.strength.as_deref(), "the strengths"),
                 (args.forces.as_deref(), "the table of forces"),
                 (args.cache.as_deref(), "the point cache"),
                 (files.picture.as_deref(), "the picture"),
