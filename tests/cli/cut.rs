@@ -73,7 +73,7 @@ fn what_is_no_plane_is_told() {
             "--plane 0,0,0:1,0,0 --rays 0,0,1:0,0,1 1,0,1:0,0,1",
             "cannot be used with",
         ),
-        ("--plane 0,0,0:1,0,0 --seam flag.obj", "a file of its own"),
+        ("--plane 0,0,0:1,0,0 --seam flag.obj", "would be replaced"),
         ("--plane 0,0,0:1,0,0 --seam out.obj", "would be replaced"),
     ] {
         let output = folder.run(&format!("tearmesh cut flag.obj {plane} -o out.obj"));

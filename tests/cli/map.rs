@@ -210,14 +210,11 @@ fn a_map_names_the_polygons_of_the_file() {
 fn a_map_takes_a_file_of_its_own() {
     let folder = Folder::new();
     for (options, said) in [
-        ("--map -", "`--map` takes the name of a file of its own"),
-        (
-            "--map flag.obj",
-            "`--map` takes the name of a file of its own",
-        ),
+        ("--map -", "`--map` takes the name of a file"),
+        ("--map flag.obj", "is the input, and would be replaced"),
         (
             "--map s.obj --seam s.obj",
-            "`--map` takes the name of a file of its own",
+            "is the seam, and would be replaced",
         ),
         ("--map out.obj", "is the map, and would be replaced"),
         ("--map m.json --repair", "cannot be used with"),

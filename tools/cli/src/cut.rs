@@ -9,7 +9,6 @@ mod seam;
 pub(crate) mod summary;
 
 use std::ffi::OsString;
-use std::path::Path;
 
 use tearmesh::{
     Cursor, Cut, CutEnd, CutLayers, CutMethod, CutTips, Edit, Edits, Masses, Positions, Scissor,
@@ -25,6 +24,7 @@ use self::seam::Seam;
 use crate::args::{CutArgs, Gap, Mass};
 use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
+use crate::files::Names;
 use crate::measure::{Bounds, Edges};
 use crate::rays::{self, Pair};
 use crate::say::Fault;
@@ -34,10 +34,21 @@ use crate::{files, output, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
-    Session::run("cut", &args.files, typed, streams, |session, streams| {
+    let (files, names) = (&args.files, names(args));
+    Session::run("cut", files, &names, typed, streams, |session, streams| {
         check(args)?;
         work(args, session, streams)
     })
+}
+
+/// The files of a cut, but for its pieces.
+fn names(args: &CutArgs) -> Names<'_> {
+    let read = [(args.rays_file.as_deref(), "the rays")];
+    let written = [
+        ("--seam", &args.seam, "the seam"),
+        ("--map", &args.map, "the map"),
+    ];
+    Names::new(&args.files, &read, &written)
 }
 
 fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
@@ -47,7 +58,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
         warn_of_skew(&scissor, &mut session.faults);
     }
-    let pieces = Pieces::of(args)?;
+    let pieces = Pieces::of(args, &names(args))?;
     let Opened {
         document,
         mut mesh,
@@ -233,30 +244,6 @@ fn how(args: &CutArgs) -> report::How {
 fn check(args: &CutArgs) -> Result<(), Stop> {
     let usage = |message: &str, help: &str| Err(Stop::usage(message, help));
     let is_exact = args.method == CutMethod::Exact;
-    if args.files.input == Path::new("-") && args.rays_file.as_deref() == Some(Path::new("-")) {
-        return usage(
-            "the mesh and the rays both come from standard input",
-            "name a file for one of them",
-        );
-    }
-    files::keep(&args.files, args.rays_file.as_deref(), "the rays")?;
-    let beside = [
-        ("--seam", "the seam", &args.seam),
-        ("--map", "the map", &args.map),
-    ];
-    for (i, (option, what, path)) in beside.into_iter().enumerate() {
-        let Some(path) = path else { continue };
-        let before = beside[..i].iter().filter_map(|(.., other)| other.as_ref());
-        let taken = [Some(&args.files.input), args.rays_file.as_ref()];
-        let mut taken = taken.into_iter().flatten().chain(before);
-        if path == Path::new("-") || taken.any(|taken| files::is_same(taken, path)) {
-            return usage(
-                &format!("`{option}` takes the name of a file of its own"),
-                &format!("write {what} to another file"),
-            );
-        }
-        files::keep(&args.files, Some(path), what)?;
-    }
     if args.layers == CutLayers::First && !args.plane.is_empty() {
         return usage(
             "`--layers first` is for rays: with a plane, no ray hits a layer first",

@@ -44,59 +44,109 @@ impl Destination {
     }
 }
 
-/// Refuses streams and files that are wanted twice.
+/// Refuses streams that are wanted twice, and names that promise another format.
 pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
-    let usage = |message: String, help: &str| Err(Stop::usage(message, help));
-    let (input, output, report) = (
-        Some(&args.input),
-        args.output.as_ref(),
-        args.report.as_ref(),
-    );
     let is_stream = |path: &PathBuf| path == Path::new("-");
     if args.in_place && is_stream(&args.input) {
-        let message = "standard input cannot be replaced".to_owned();
-        return usage(message, "name the file to read, or leave out --in-place");
+        let help = "name the file to read, or leave out --in-place";
+        return Err(Stop::usage("standard input cannot be replaced", help));
     }
+    let output = args.output.as_ref();
     if let Some((path, help)) = output.and_then(|path| Some((path, foreign(path)?))) {
         return Err(only("OBJ", path, help));
     }
     args.picture.as_deref().map_or(Ok(()), check_picture)?;
     args.view.as_deref().map_or(Ok(()), check_page)?;
     if args.format == Format::Json && output.is_some_and(is_stream) {
-        let message = "`-o -` and `--format json` both use standard output".to_owned();
-        return usage(
-            message,
-            "write the mesh to a file, or the report with --report FILE",
-        );
-    }
-    if report.is_some_and(is_stream) {
-        let message = "`--report` takes the name of a file".to_owned();
-        return usage(message, "print the report with --format json");
-    }
-    let same =
-        |a: Option<&PathBuf>, b: Option<&PathBuf>| a.zip(b).is_some_and(|(a, b)| is_same(a, b));
-    if same(input, output) && !args.in_place {
-        let name = output
-            .map(|path| path.display().to_string())
-            .unwrap_or_default();
-        let message = format!("`{name}` is the input, and would be replaced");
-        return usage(message, "write to another file, or add --in-place");
-    }
-    if same(input, report) || same(output, report) {
-        let message = "the report would replace the mesh".to_owned();
-        return usage(message, "write the report to a file of its own");
-    }
-    let mut taken = vec![input, output, report];
-    for (option, path) in seen(args) {
-        let is_taken = taken.iter().any(|&other| same(other, Some(path)));
-        if is_taken || is_stream(path) {
-            let message = format!("`{option}` takes the name of a file of its own");
-            return usage(message, "name a file that is not used for anything else");
-        }
-        output::check(path)?;
-        taken.push(Some(path));
+        let message = "`-o -` and `--format json` both use standard output";
+        let help = "write the mesh to a file, or the report with --report FILE";
+        return Err(Stop::usage(message, help));
     }
     Ok(())
+}
+
+/// The files that a verb reads and writes, by what each is, and the options of those that are written.
+pub(crate) struct Names<'a> {
+    read: Vec<(&'a Path, &'static str)>,
+    written: Vec<(&'static str, &'a Path, &'static str)>,
+    in_place: bool,
+}
+
+impl<'a> Names<'a> {
+    /// Those of all verbs that change a mesh, and those of one of them.
+    pub(crate) fn new(
+        args: &'a FileArgs,
+        read: &[(Option<&'a Path>, &'static str)],
+        written: &[(&'static str, &'a Option<PathBuf>, &'static str)],
+    ) -> Names<'a> {
+        let read = read.iter().filter_map(|&(path, what)| Some((path?, what)));
+        let of_all = [
+            ("-o", &args.output, "the output"),
+            ("--report", &args.report, "the report"),
+            ("--picture", &args.picture, "the picture"),
+            ("--view", &args.view, "the page"),
+        ];
+        let written = written.iter().copied().chain(of_all);
+        let written =
+            written.filter_map(|(option, path, what)| Some((option, path.as_deref()?, what)));
+        Names {
+            read: [(&*args.input, "the input")]
+                .into_iter()
+                .chain(read)
+                .collect(),
+            written: written.collect(),
+            in_place: args.in_place,
+        }
+    }
+
+    /// Refuses files that would replace what is read or what else is written, and those beside the mesh
+    /// that cannot be written.
+    pub(crate) fn check(&self) -> Result<(), Stop> {
+        let read: Vec<&Path> = self.read.iter().map(|(path, _)| *path).collect();
+        one_stream(&read)?;
+        let mut taken = self.read.clone();
+        for &(option, path, what) in &self.written {
+            let is_output = option == "-o";
+            if path == Path::new("-") && !is_output {
+                let message = format!("`{option}` takes the name of a file");
+                return Err(Stop::usage(message, format!("write {what} to a file")));
+            }
+            let may_replace = |what| is_output && self.in_place && what == "the input";
+            let is_lost = |(other, what): &&(&Path, _)| is_same(other, path) && !may_replace(*what);
+            if let Some((_, lost)) = taken.iter().find(is_lost) {
+                let or = match is_output && *lost == "the input" {
+                    true => ", or add --in-place",
+                    false => "",
+                };
+                return Err(replaced(path, lost, or));
+            }
+            // The other two may be in a folder that is made for frames.
+            if !matches!(option, "-o" | "--report") {
+                output::check(path)?;
+            }
+            taken.push((path, what));
+        }
+        Ok(())
+    }
+
+    /// Refuses files that the numbered ones of a folder would replace: those whose names are like this.
+    pub(crate) fn keep_from(
+        &self,
+        folder: &Path,
+        (one, many): (&str, &str),
+        is_name: impl Fn(&str) -> bool,
+    ) -> Result<(), Stop> {
+        let written = self.written.iter().map(|&(_, path, what)| (path, what));
+        for (path, what) in self.read.iter().copied().chain(written) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if is_name(&name) && output::is_same_file(folder, output::folder(path)) {
+                let message = format!("{one} would replace {what}, `{}`", path.display());
+                let help = format!("write {many} into a folder of their own");
+                return Err(Stop::usage(message, help));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Refuses more than one input from standard input.
@@ -185,29 +235,10 @@ pub(crate) fn unwritten(args: &FileArgs, output_is_terminal: bool) -> Option<Fau
     })
 }
 
-/// The files that show the mesh, by their options, as far as they are wanted.
-fn seen(args: &FileArgs) -> impl Iterator<Item = (&'static str, &PathBuf)> {
-    let files = [("--picture", &args.picture), ("--view", &args.view)];
-    files
-        .into_iter()
-        .filter_map(|(option, path)| Some((option, path.as_ref()?)))
-}
-
-/// Refuses to write over a file that is read beside the mesh: `what`.
-pub(crate) fn keep(args: &FileArgs, path: Option<&Path>, what: &str) -> Result<(), Stop> {
-    let is_it = |written: &&PathBuf| path.is_some_and(|path| is_same(path, written));
-    let written = [&args.output, &args.report].into_iter().flatten();
-    let mut written = written.chain(seen(args).map(|(_, path)| path));
-    match written.find(is_it) {
-        Some(written) => Err(replaced(written, what)),
-        None => Ok(()),
-    }
-}
-
 /// Refuses a page or a picture, or standard output, that would replace an input or cannot be written.
 pub(crate) fn check_shown(path: &Path, inputs: &[PathBuf], what: &str) -> Result<(), Stop> {
     if inputs.iter().any(|input| is_same(input, path)) {
-        return Err(replaced(path, what));
+        return Err(replaced(path, what, ""));
     }
     match path == Path::new("-") {
         true => Ok(()),
@@ -216,35 +247,14 @@ pub(crate) fn check_shown(path: &Path, inputs: &[PathBuf], what: &str) -> Result
 }
 
 /// That a file would be written over that is `what`.
-fn replaced(path: &Path, what: &str) -> Stop {
+fn replaced(path: &Path, what: &str, or: &str) -> Stop {
     let message = format!("`{}` is {what}, and would be replaced", path.display());
-    Stop::usage(message, "write to another file")
+    Stop::usage(message, format!("write to another file{or}"))
 }
 
 /// Whether two names are of one file, which need not exist yet.
 pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
     a != Path::new("-") && b != Path::new("-") && (a == b || output::is_same_place(a, b))
-}
-
-/// Refuses files, each with what it is, that the numbered ones of a folder would replace: those whose names
-/// are like this. None need exist yet.
-pub(crate) fn keep_from(
-    folder: &Path,
-    (one, many): (&str, &str),
-    is_name: impl Fn(&str) -> bool,
-    files: &[(Option<&Path>, &str)],
-) -> Result<(), Stop> {
-    for &(path, what) in files {
-        let Some(path) = path else { continue };
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let parent = path.parent().filter(|parent| *parent != Path::new(""));
-        if is_name(&name) && output::is_same_file(folder, parent.unwrap_or(Path::new("."))) {
-            let message = format!("{one} would replace {what}, `{}`", path.display());
-            let help = format!("write {many} into a folder of their own");
-            return Err(Stop::usage(message, help));
-        }
-    }
-    Ok(())
 }
 
 /// The last line of the summary.

@@ -9,6 +9,7 @@ use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
 
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
+use crate::files::Names;
 use crate::say::{Fault, count};
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
@@ -16,7 +17,8 @@ use crate::{files, report};
 
 /// Mends, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
-    Session::run("mend", &args.files, typed, streams, |session, streams| {
+    let (files, names) = (&args.files, Names::new(&args.files, &[], &[]));
+    Session::run("mend", files, &names, typed, streams, |session, streams| {
         work(args, session, streams)
     })
 }

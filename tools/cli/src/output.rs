@@ -119,7 +119,7 @@ fn draft(path: &Path) -> io::Result<NamedTempFile> {
 }
 
 /// The folder that a path is in.
-fn folder(path: &Path) -> &Path {
+pub(crate) fn folder(path: &Path) -> &Path {
     let parent = path.parent().filter(|folder| *folder != Path::new(""));
     parent.unwrap_or(Path::new("."))
 }

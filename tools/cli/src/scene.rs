@@ -46,10 +46,6 @@ impl SceneFile {
     pub(crate) fn name(&self) -> &str {
         &self.text.path
     }
-
-    pub(crate) fn is_ready(&self) -> bool {
-        Preset::of(self.name()).is_some()
-    }
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use tearmesh_obj::{Document, Repair, WriteSummary};
 
 use crate::args::{FileArgs, Format};
 use crate::exit::{Exit, Stop};
-use crate::files::Destination;
+use crate::files::{Destination, Names};
 use crate::input::Input;
 use crate::report::{self, Entry, Report};
 use crate::say::{Fault, Severity, count};
@@ -45,6 +45,7 @@ impl<'a> Session<'a> {
     pub(crate) fn run(
         verb: &'static str,
         files: &'a FileArgs,
+        names: &Names<'_>,
         typed: &[OsString],
         streams: &mut Streams<'_>,
         work: impl FnOnce(&mut Session<'a>, &mut Streams<'_>) -> Result<(), Stop>,
@@ -62,6 +63,7 @@ impl<'a> Session<'a> {
         // A panic is a broken invariant too, and deserves a reproducer as much.
         let ended = catch_unwind(AssertUnwindSafe(|| {
             files::check(files)?;
+            names.check()?;
             if let Some(unwritten) = files::unwritten(files, streams.output_is_terminal) {
                 session.faults.push(unwritten);
                 session.warn_now(streams);

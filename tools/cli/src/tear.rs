@@ -10,7 +10,6 @@ mod summary;
 
 use std::ffi::OsString;
 use std::io::Write;
-use std::path::Path;
 
 use indicatif::ProgressBar;
 use tearmesh::{Cursor, Scissor, VertexId};
@@ -34,8 +33,8 @@ use crate::{files, output, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
-    Session::run("tear", &args.files, typed, streams, |session, streams| {
-        check::usage(args)?;
+    let (files, names) = (&args.files, check::names(args));
+    Session::run("tear", files, &names, typed, streams, |session, streams| {
         work(args, session, streams)
     })
 }
@@ -43,8 +42,6 @@ pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>
 fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
     let source = SceneFile::find(&args.scene, streams)?;
-    let scene = (!source.is_ready()).then_some(Path::new(&args.scene));
-    files::keep(&args.files, scene, "the scene")?;
     let cuts = check::cuts(args, &mut session.faults)?;
     let opened = session.open(None, streams)?;
     let up = args.up.unwrap_or_else(|| source.up());

@@ -10,9 +10,10 @@ use tearmesh_obj::{PieceNames, PieceWriter, TornDocument};
 
 use crate::args::CutArgs;
 use crate::exit::Stop;
+use crate::files::Names;
 use crate::measure::area;
 use crate::say::{Fault, count};
-use crate::{files, output, report};
+use crate::{output, report};
 
 /// Where pieces go.
 pub(super) struct Pieces {
@@ -48,7 +49,7 @@ struct Entry {
 
 impl Pieces {
     /// Refuses to replace files other than the pieces of an earlier run, if pieces are wanted.
-    pub(super) fn of(args: &CutArgs) -> Result<Option<Pieces>, Stop> {
+    pub(super) fn of(args: &CutArgs, names: &Names<'_>) -> Result<Option<Pieces>, Stop> {
         let Some(folder) = args.pieces.clone().filter(|_| !args.files.dry_run) else {
             return Ok(None);
         };
@@ -56,18 +57,9 @@ impl Pieces {
             let help = "name a folder that exists or can be created";
             return Err(Stop::usage("`--pieces` takes the name of a folder", help));
         }
-        let files = &args.files;
         let is_piece = |name: &str| name.starts_with("piece_") && name.ends_with(".obj");
         let is_ours = |name: &str| is_piece(name) || name == LIST;
-        let kept = [
-            (Some(&*files.input), "the input"),
-            (files.output.as_deref(), "the output"),
-            (files.report.as_deref(), "the report"),
-            (args.seam.as_deref(), "the seam"),
-            (args.map.as_deref(), "the map"),
-            (args.rays_file.as_deref(), "the rays"),
-        ];
-        files::keep_from(&folder, ("a piece", "pieces"), is_ours, &kept)?;
+        names.keep_from(&folder, ("a piece", "pieces"), is_ours)?;
         let entries = fs::read_dir(&folder).into_iter().flatten().flatten();
         let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
         let mut old: Vec<String> = names.filter(|name| is_ours(name)).collect();

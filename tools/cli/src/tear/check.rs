@@ -1,41 +1,30 @@
 //! Checks before a simulation.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{RunError, Scene, TimedCut};
 use tearmesh_cloth::{ClothError, Method, SimulationError, TearingError, Threshold};
 
 use crate::args::TearArgs;
+use crate::choice::{Choice as _, Preset};
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::exit::{Exit, Stop};
+use crate::files::Names;
 use crate::rays;
 use crate::say::Fault;
 use crate::scene::SceneFile;
 use crate::session::Opened;
-use crate::{files, output};
 
-/// Refuses streams that are wanted twice, and files that would replace what is read or what else is
-/// written.
-pub(super) fn usage(args: &TearArgs) -> Result<(), Stop> {
-    let dash = Path::new("-");
-    let scene = PathBuf::from(&args.scene);
-    let mut taken = vec![&args.files.input, &scene];
-    files::one_stream(&taken)?;
-    for (option, what, path) in [
-        ("--forces", "the table of forces", &args.forces),
-        ("--cache", "the point cache", &args.cache),
-    ] {
-        let Some(path) = path else { continue };
-        if path == dash || taken.iter().any(|other| files::is_same(path, other)) {
-            let message = format!("`{option}` takes the name of a file of its own");
-            return refuse(message, &format!("write {what} to another file"));
-        }
-        files::keep(&args.files, Some(path), what)?;
-        output::check(path)?;
-        taken.push(path);
-    }
-    Ok(())
+/// The files of a simulation, but for its frames.
+pub(super) fn names(args: &TearArgs) -> Names<'_> {
+    let is_file = Preset::of(&args.scene).is_none();
+    let read = [(is_file.then_some(Path::new(&args.scene)), "the scene")];
+    let written = [
+        ("--forces", &args.forces, "the table of forces"),
+        ("--cache", &args.cache, "the point cache"),
+    ];
+    Names::new(&args.files, &read, &written)
 }
 
 fn refuse(message: String, help: &str) -> Result<(), Stop> {

@@ -14,10 +14,11 @@ use tearmesh_cloth::scene::Run;
 use tearmesh_obj::{TornDocument, WriteSummary};
 use tearmesh_view::{MOMENTS_PER_S, write_pc2};
 
+use super::check;
 use crate::args::{TearArgs, Topology};
 use crate::exit::Stop;
 use crate::say::Fault;
-use crate::{files, output, report};
+use crate::{output, report};
 
 /// How many frames a second.
 pub(super) const RATE_PER_S: f64 = MOMENTS_PER_S;
@@ -79,19 +80,9 @@ impl Frames {
             first: run.mesh().vertex_count(),
         };
         if let Some(folder) = &frames.folder {
-            let files = &args.files;
             let is_frame = |name: &str| name.starts_with("frame_") && name.ends_with(".obj");
-            let kept = [
-                (Some(&*files.input), "the input"),
-                (files.output.as_deref(), "the output"),
-                (files.report.as_deref(), "the report"),
-                (Some(Path::new(&args.scene)), "the scene"),
-                (args.forces.as_deref(), "the table of forces"),
-                (args.cache.as_deref(), "the point cache"),
-                (files.picture.as_deref(), "the picture"),
-                (files.view.as_deref(), "the page"),
-            ];
-            files::keep_from(folder, ("a frame", "frames"), is_frame, &kept)?;
+            let names = check::names(args);
+            names.keep_from(folder, ("a frame", "frames"), is_frame)?;
             output::make_folder(folder)?;
         }
         Ok(frames)
