@@ -6,49 +6,43 @@ use std::io::{self, Write};
 use tearmesh::{Cursor, Edit, Follower, Mesh, Mix};
 use tearmesh_obj::{Document, TornDocument};
 
-/// What one or several elements of the input give, each with its weight.
-#[derive(Clone, Debug, PartialEq)]
-enum Sources {
-    One(u32),
-    /// Ascending, each once; the weights are of sum one up to rounding.
-    Several(Vec<(u32, f64)>),
+/// Elements of the input that an element is made of, ascending, each with its weight; the weights are of
+/// sum one up to rounding.
+type Sources = Vec<(u32, f64)>;
+
+fn one(source: u32) -> Sources {
+    vec![(source, 1.0)]
 }
 
-impl Sources {
-    fn list(&self) -> Vec<(u32, f64)> {
-        match self {
-            Sources::One(source) => vec![(*source, 1.0)],
-            Sources::Several(list) => list.clone(),
+fn mixed(mix: Mix<&Sources>) -> Sources {
+    match mix {
+        Mix::Copy(one) => one.clone(),
+        Mix::Between { ends: [a, b], t } => sum(&[(a, 1.0 - t), (b, t)]),
+        Mix::Weighted { of, weights } => {
+            let [a, b, c] = weights;
+            sum(&[(of[0], a), (of[1], b), (of[2], c)])
         }
     }
+}
 
-    fn mixed(mix: Mix<&Sources>) -> Sources {
-        match mix {
-            Mix::Copy(one) => one.clone(),
-            Mix::Between { ends: [a, b], t } => Sources::sum(&[(a, 1.0 - t), (b, t)]),
-            Mix::Weighted { of, weights } => {
-                let [a, b, c] = weights;
-                Sources::sum(&[(of[0], a), (of[1], b), (of[2], c)])
-            }
-        }
+fn sum(parts: &[(&Sources, f64)]) -> Sources {
+    let mut list = Sources::new();
+    for (sources, part) in parts {
+        list.extend(
+            sources
+                .iter()
+                .map(|(source, weight)| (*source, weight * part)),
+        );
     }
-
-    fn sum(parts: &[(&Sources, f64)]) -> Sources {
-        let weighed = |&(sources, part): &(&Sources, f64)| {
-            let list = sources.list().into_iter();
-            list.map(move |(source, weight)| (source, weight * part))
-        };
-        let mut list: Vec<(u32, f64)> = parts.iter().flat_map(weighed).collect();
-        list.sort_by_key(|&(source, _)| source);
-        list.dedup_by(|next, kept| {
-            let is_same = next.0 == kept.0;
-            kept.1 += if is_same { next.1 } else { 0.0 };
-            is_same
-        });
-        match list[..] {
-            [(source, _)] => Sources::One(source),
-            _ => Sources::Several(list),
-        }
+    list.sort_by_key(|&(source, _)| source);
+    list.dedup_by(|next, kept| {
+        let is_same = next.0 == kept.0;
+        kept.1 += if is_same { next.1 } else { 0.0 };
+        is_same
+    });
+    match list[..] {
+        [(source, _)] => one(source),
+        _ => list,
     }
 }
 
@@ -70,8 +64,8 @@ impl PartialEq for Corner {
 impl Corner {
     fn mixed(mix: Mix<&Corner>) -> Corner {
         Corner {
-            of: Sources::mixed(mix.map(|corner| &corner.of)),
-            texture: Sources::mixed(mix.map(|corner| &corner.texture)),
+            of: mixed(mix.map(|corner| &corner.of)),
+            texture: mixed(mix.map(|corner| &corner.texture)),
         }
     }
 }
@@ -93,17 +87,15 @@ impl Map {
         let triangles = 0..document.triangles().len();
         let corners = triangles.clone().flat_map(|t| [0, 1, 2].map(|c| (t, c)));
         let corners = corners.map(|(triangle, corner)| Corner {
-            of: Sources::One(document.number_of_corner(triangle, corner) as u32),
-            texture: Sources::One(
-                document
-                    .corner(triangle, corner)
-                    .texture
-                    .unwrap_or(u32::MAX),
-            ),
+            of: one(document.number_of_corner(triangle, corner) as u32),
+            texture: one(document
+                .corner(triangle, corner)
+                .texture
+                .unwrap_or(u32::MAX)),
         });
         Map {
             seen: Cursor::START,
-            vertices: vertices.map(|v| Sources::One(number(v))).collect(),
+            vertices: vertices.map(|v| one(number(v))).collect(),
             corners: corners.collect(),
             faces: triangles.map(|t| document.polygon_of(t) as u32).collect(),
         }
@@ -157,10 +149,10 @@ fn write_all<'s>(
     write!(out, "\"{name}\":[")?;
     for (i, sources) in all.enumerate() {
         write!(out, "{}", if i == 0 { "\n" } else { ",\n" })?;
-        let pairs = sources.list().into_iter();
-        let pairs: Vec<String> = pairs
-            .map(|(of, weight)| format!("[{of},{weight}]"))
-            .collect();
+        let pairs = sources
+            .iter()
+            .map(|(of, weight)| format!("[{of},{weight}]"));
+        let pairs: Vec<String> = pairs.collect();
         write!(out, "[{}]", pairs.join(","))?;
     }
     writeln!(out, "\n],")
@@ -173,7 +165,7 @@ impl Follower for Map {
 
     fn follow(&mut self, edit: &Edit<'_>) {
         for op in edit.vertex_ops() {
-            op.apply(&mut self.vertices, Sources::mixed);
+            op.apply(&mut self.vertices, mixed);
         }
         for op in edit.corner_ops() {
             op.apply(&mut self.corners, Corner::mixed);
