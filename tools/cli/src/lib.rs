@@ -59,9 +59,15 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Verb::Cut(cut)) => cut::run(&cut, &args, &mut streams),
         Ok(Verb::Tear(tear)) => tear::run(&tear, &args, &mut streams),
         Ok(Verb::Mend(mend)) => mend::run(&mend, &args, &mut streams),
-        Ok(Verb::Render(render)) => render::run(&render, &mut streams),
-        Ok(Verb::View(view)) => view::run(&view, &mut streams),
-        Ok(Verb::Play(play)) => play::run(&play, &mut streams),
+        Ok(Verb::Render(args)) => args.look.run(&mut streams, |faults, streams| {
+            render::run(&args, faults, streams)
+        }),
+        Ok(Verb::View(args)) => args.look.run(&mut streams, |faults, streams| {
+            view::run(&args, faults, streams)
+        }),
+        Ok(Verb::Play(args)) => args.look.run(&mut streams, |faults, streams| {
+            play::run(&args, faults, streams)
+        }),
         Ok(Verb::Check(check)) => check::run(&check, &mut streams),
         Ok(Verb::Chart(chart)) => chart::run(&chart, &args, &mut streams),
         Ok(Verb::Completions(shell)) => shell::complete(&shell, &mut streams),

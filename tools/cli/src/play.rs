@@ -5,25 +5,15 @@ use std::path::{Path, PathBuf};
 use tearmesh_view::PlayPage;
 
 use crate::args::PlayArgs;
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::input::Input;
 use crate::say::{Fault, count};
 use crate::session::{self, Opened};
 use crate::streams::Streams;
 use crate::{files, output, page, report};
 
-/// Makes a page to play on, and gives the exit status.
-pub(crate) fn run(args: &PlayArgs, streams: &mut Streams<'_>) -> Exit {
-    let mut faults = Vec::new();
-    let mut worked = work(args, &mut faults, streams);
-    if args.look.quiet {
-        worked = worked.map(|_| String::new());
-    }
-    streams.conclude(worked, faults, args.look.color, args.look.verbose)
-}
-
-/// Gives the summary; none if the page is on standard output.
-fn work(
+/// Makes what is shown, and gives the summary; none if the page is on standard output.
+pub(crate) fn run(
     args: &PlayArgs,
     faults: &mut Vec<Fault>,
     streams: &mut Streams<'_>,

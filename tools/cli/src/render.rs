@@ -9,25 +9,15 @@ use tearmesh_view::{Camera, RenderOptions};
 
 use crate::args::RenderArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::input::Input;
 use crate::say::{Fault, count};
 use crate::session::{self, Opened};
 use crate::streams::Streams;
 use crate::{files, output, picture, rays, report};
 
-/// Draws a picture, and gives the exit status.
-pub(crate) fn run(args: &RenderArgs, streams: &mut Streams<'_>) -> Exit {
-    let mut faults = Vec::new();
-    let mut worked = work(args, &mut faults, streams);
-    if args.look.quiet || args.output == Path::new("-") {
-        worked = worked.map(|_| String::new());
-    }
-    streams.conclude(worked, faults, args.look.color, args.look.verbose)
-}
-
-/// Gives the summary.
-fn work(
+/// Makes what is shown, and gives the summary.
+pub(crate) fn run(
     args: &RenderArgs,
     faults: &mut Vec<Fault>,
     streams: &mut Streams<'_>,
@@ -67,6 +57,9 @@ fn work(
         }
     };
     output::write_or_print(&args.output, streams.output, |out| drawn.write_png(out))?;
+    if args.output == Path::new("-") {
+        return Ok(String::new());
+    }
     Ok(format!(
         "render: {}, {}, {} · {}x{} pixels · wrote {}",
         count(mesh.vertex_count(), "vertex", "vertices"),

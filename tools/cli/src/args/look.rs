@@ -2,7 +2,9 @@
 
 use clap::Args;
 
-use crate::say::Color;
+use crate::exit::{Exit, Stop};
+use crate::say::{Color, Fault};
+use crate::streams::Streams;
 
 #[derive(Debug, Args)]
 pub(crate) struct LookArgs {
@@ -25,4 +27,20 @@ pub(crate) struct LookArgs {
     /// Show all errors and warnings, not only three of each kind.
     #[arg(short, long)]
     pub(crate) verbose: bool,
+}
+
+impl LookArgs {
+    /// Runs a verb that gives a summary, says what there is to say, and gives the exit status.
+    pub(crate) fn run(
+        &self,
+        streams: &mut Streams<'_>,
+        work: impl FnOnce(&mut Vec<Fault>, &mut Streams<'_>) -> Result<String, Stop>,
+    ) -> Exit {
+        let mut faults = Vec::new();
+        let mut worked = work(&mut faults, streams);
+        if self.quiet {
+            worked = worked.map(|_| String::new());
+        }
+        streams.conclude(worked, faults, self.color, self.verbose)
+    }
 }
