@@ -1,6 +1,6 @@
 //! The verb `cut`.
 
-mod gap;
+pub(crate) mod gap;
 mod map;
 pub(crate) mod no_op;
 mod pieces;
@@ -130,17 +130,12 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     }
     let mut shown = None;
     if let Some(gap) = gap {
-        let gapped = gap::gapped(&mesh, &positions, gap);
-        session.words.push(summary::gap(gap, &gapped));
+        let (gapped, points) = gap::gapped(&mesh, &positions, gap);
+        session.words.push(summary::gap(&gapped));
         session.faults.extend(summary::of_gap(&gapped));
-        session.report.gap = Some(report::Gap {
-            length: gap,
-            vertices_moved: gapped.moved,
-            vertices_clamped: gapped.clamped,
-            pieces_moved: gapped.pieces,
-        });
-        shown = Some(gapped.points.clone());
-        torn.set_apart(gapped.points);
+        session.report.gap = Some(gapped);
+        shown = Some(points.clone());
+        torn.set_apart(points);
     }
     let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;

@@ -4,9 +4,10 @@ use serde::Serialize;
 use tearmesh::{CutReport, Mesh, Point, Ray, Scissor, Vector};
 use tearmesh_cloth::Quality;
 use tearmesh_cloth::scene::TearEvent;
-use tearmesh_cloth::scene::ensemble::Ensemble;
+use tearmesh_cloth::scene::ensemble::{Ensemble, Quantity};
 use tearmesh_cloth::statistics::Comparison;
 
+use crate::cut::gap::Gapped;
 use crate::say::{Fault, Severity};
 
 #[derive(Debug, Default, Serialize)]
@@ -22,7 +23,7 @@ pub(crate) struct Report {
     pub(crate) output: Option<File>,
     pub(crate) cuts: Vec<Cut>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) gap: Option<Gap>,
+    pub(crate) gap: Option<Gapped>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mend: Option<Mend>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,16 +101,6 @@ pub(crate) struct How {
     pub(crate) snap: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) snap_move: Option<bool>,
-}
-
-/// How far apart the sides of cuts are written.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Gap {
-    pub(crate) length: f64,
-    pub(crate) vertices_moved: usize,
-    /// Those that moved by less than half of it, so that no face flips.
-    pub(crate) vertices_clamped: usize,
-    pub(crate) pieces_moved: usize,
 }
 
 /// The point cache of a simulation.
@@ -202,6 +193,8 @@ pub(crate) struct StepCheck {
 /// A number of both ensembles, compared.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct StepQuantity {
+    #[serde(skip)]
+    pub(crate) quantity: Quantity,
     pub(crate) name: &'static str,
     /// The 10, 50 and 90 % points at the step, and at half of it; `null` where nothing tore.
     pub(crate) spread: [[f64; 3]; 2],

@@ -3,19 +3,22 @@
 
 use std::collections::BTreeMap;
 
+use serde::Serialize;
 use tearmesh::{Components, FaceId, HalfEdgeId, Mesh, Point, Positions, Vector, VertexId};
 
 use crate::measure::Edges;
 
-/// A mesh with a gap.
+/// How far apart the sides of cuts are written.
+#[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Gapped {
-    pub(crate) points: Vec<Point>,
-    /// The vertices that moved, and those of them that moved less than half the gap.
-    pub(crate) moved: usize,
-    pub(crate) clamped: usize,
+    pub(crate) length: f64,
+    pub(crate) vertices_moved: usize,
+    /// Those that moved less than half the gap.
+    pub(crate) vertices_clamped: usize,
     /// The pieces that moved rigidly.
-    pub(crate) pieces: usize,
+    pub(crate) pieces_moved: usize,
     /// The vertices on cut sides that moved within their piece.
+    #[serde(skip)]
     pub(crate) side_vertices: usize,
 }
 
@@ -33,7 +36,7 @@ const STRAIGHTNESS_MIN: f64 = 0.5;
 /// meet, the shifts that any two of them need can differ.
 const GAP_MIN: f64 = 0.9;
 
-/// Moves everything that is torn `gap` apart.
+/// Moves everything that is torn `gap` apart, and gives the place of each vertex.
 ///
 /// Two pieces that a seam separates move rigidly, each by half the gap. Where both sides of a seam
 /// are of one piece (a slit), or the seam goes around a piece, the vertices of each side move by
@@ -42,7 +45,7 @@ const GAP_MIN: f64 = 0.9;
 /// flip or lose nearly all of its area, the ways of its vertices are halved until it does not.
 /// Takes linear time: only the faces around such vertices are tested again, and each vertex has at
 /// most [`HALVINGS`].
-pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
+pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> (Gapped, Vec<Point>) {
     let pieces = Pieces::new(mesh, positions);
     let away = directions(mesh, positions, &pieces);
     let wanted = gap / 2.0;
@@ -86,16 +89,17 @@ pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> Gapped {
     let points: Vec<Point> = mesh.vertices().map(with_piece).collect();
     let is_less = |v: &VertexId| moves(*v) && (halvings[v.index()] > 0 || far < wanted);
     let is_apart = |v: &VertexId| points[v.index()] != positions.at(*v);
-    Gapped {
-        moved: mesh.vertices().filter(is_apart).count(),
-        clamped: mesh.vertices().filter(is_less).count(),
-        pieces: match gap > 0.0 {
+    let gapped = Gapped {
+        length: gap,
+        vertices_moved: mesh.vertices().filter(is_apart).count(),
+        vertices_clamped: mesh.vertices().filter(is_less).count(),
+        pieces_moved: match gap > 0.0 {
             true => pieces.shifts.iter().flatten().count(),
             false => 0,
         },
         side_vertices: mesh.vertices().filter(|&v| moves(v)).count(),
-        points,
-    }
+    };
+    (gapped, points)
 }
 
 /// The pieces of a mesh, and how they move.

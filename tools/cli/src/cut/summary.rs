@@ -26,23 +26,27 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
 }
 
 /// The line of the summary on a gap.
-pub(crate) fn gap(gap: f64, gapped: &Gapped) -> String {
-    let pieces = count(gapped.pieces, "piece", "pieces");
+pub(crate) fn gap(gapped: &Gapped) -> String {
+    let pieces = count(gapped.pieces_moved, "piece", "pieces");
     let vertices = count(gapped.side_vertices, "vertex", "vertices") + " along the cut";
-    let what = match (gapped.pieces, gapped.side_vertices) {
+    let what = match (gapped.pieces_moved, gapped.side_vertices) {
         (0, _) => vertices,
         (_, 0) => pieces,
         _ => format!("{pieces} and {vertices}"),
     };
-    let up_to = if gapped.clamped > 0 { "up to " } else { "" };
-    format!("gap: {what} moved apart by {up_to}{}", short(gap))
+    let up_to = if gapped.vertices_clamped > 0 {
+        "up to "
+    } else {
+        ""
+    };
+    format!("gap: {what} moved apart by {up_to}{}", short(gapped.length))
 }
 
 /// A warning if the gap is narrower somewhere than it was to be.
 pub(crate) fn of_gap(gapped: &Gapped) -> Option<Fault> {
-    let vertices = count(gapped.clamped, "vertex", "vertices");
+    let vertices = count(gapped.vertices_clamped, "vertex", "vertices");
     let message = format!("{vertices} moved less than half the gap, to keep faces from flipping");
-    (gapped.clamped > 0).then(|| Fault::warning("W-CUT-GAP", message))
+    (gapped.vertices_clamped > 0).then(|| Fault::warning("W-CUT-GAP", message))
 }
 
 /// The table of warnings about a cut, with its number where there are several: each row has the

@@ -68,6 +68,7 @@ fn compared(ensembles: &[Ensemble], quantity: Quantity) -> Option<report::StepQu
         comparison.verdict = Verdict::CannotTell;
     }
     Some(report::StepQuantity {
+        quantity,
         name: quantity.key,
         spread: [statistics::spread(&whole), statistics::spread(&half)],
         comparison,
@@ -84,12 +85,8 @@ pub(super) fn summary(check: &report::StepCheck) -> Vec<String> {
         short(whole.step_s),
         short(half.step_s),
     )];
-    for quantity in Quantity::ALL {
-        let named = |one: &&report::StepQuantity| one.name == quantity.key;
-        let Some(told) = check.quantities.iter().find(named) else {
-            continue;
-        };
-        let [name, unit] = quantity.name;
+    for told in &check.quantities {
+        let [name, unit] = told.quantity.name;
         let [whole, half] = told.spread.map(|points| spread(points, unit));
         let verdict = told.comparison.verdict.name();
         lines.push(format!("  {name:<14} {whole:<30} {half:<30} {verdict}"));
@@ -117,18 +114,9 @@ fn spread([low, middle, high]: [f64; 3], unit: &str) -> String {
 /// Warns where the step decides, and where runs failed.
 pub(super) fn warnings(check: &report::StepCheck) -> Vec<Fault> {
     let mut faults = Vec::new();
-    let name = |one: &report::StepQuantity| {
-        let mut all = Quantity::ALL.into_iter();
-        let found = all.find(|quantity| quantity.key == one.name);
-        found.map(|quantity| quantity.name[0])
-    };
     let differs = |one: &&report::StepQuantity| one.comparison.verdict == Verdict::Differ;
-    let names: Vec<&str> = check
-        .quantities
-        .iter()
-        .filter(differs)
-        .filter_map(name)
-        .collect();
+    let differing = check.quantities.iter().filter(differs);
+    let names: Vec<&str> = differing.map(|one| one.quantity.name[0]).collect();
     let half_s = check.ensembles.last().map_or(0.0, |half| half.step_s);
     if !names.is_empty() {
         let message = format!(
