@@ -341,7 +341,7 @@ fn the_guide_has_the_keys_of_scene_files_and_no_others() {
         let title = section.lines().next().expect("a title");
         let table = quoted(title).next().unwrap_or_default();
         let table = table.replace(['[', ']'], "");
-        for row in rows(section, "| key | default | meaning |") {
+        for row in rows(section, "| key | value | default | meaning |") {
             told.extend(quoted(&row[0]).map(|key| (table.clone(), key.to_owned())));
         }
     }

@@ -3,7 +3,7 @@
 use tearmesh_cloth::Method;
 use tearmesh_cloth::scene::Scene;
 
-use super::kinds::{Count, Word, set};
+use super::kinds::set;
 use super::read::SceneFile;
 use crate::choice::Solver;
 use crate::say::Fault;
@@ -11,45 +11,44 @@ use crate::say::Fault;
 impl SceneFile {
     /// The method: its keys are those of the file's or of the one that was typed in its place.
     pub(super) fn solver(&self, scene: &mut Scene, typed: Option<Solver>, faults: &mut Vec<Fault>) {
-        let named = self.solver.as_ref().and_then(|table| table.method);
-        if let Some(Word(Solver(method))) = named {
+        let table = self.table("solver");
+        if let Some(Solver(method)) = table.and_then(|table| table.word("method")) {
             scene.solver = method();
         }
         let method = scene.solver.name();
         if let Some(Solver(typed)) = typed {
             scene.solver = typed();
         }
-        let Some(table) = &self.solver else {
+        let Some(table) = table else {
             return;
         };
-        scene.step_s = table.dt_s.map(f64::from).or(scene.step_s);
+        scene.step_s = table.get("dt_s").or(scene.step_s);
         for (key, readers) in OF_METHODS {
             let is_read = |reader: &&str| [method, scene.solver.name()].contains(reader);
-            if table.place.values.contains_key(key) && !readers.iter().any(is_read) {
+            if table.has(key) && !readers.iter().any(is_read) {
                 let readers = readers.join(" or ");
                 let message = format!("`{key}` goes with {readers}, and the method is {method}");
-                faults.push(*self.fault(&table.place, key, "E-SCENE-CLASH", message));
+                faults.push(*self.fault(table, key, "E-SCENE-CLASH", message));
             }
         }
-        let count = |count: Option<Count>| count.map(|count| count.0);
         match &mut scene.solver {
             Method::Provot(limiter) => {
-                set(&mut limiter.stretch_ratio_max, table.limit_ratio);
-                set(&mut limiter.passes_max, count(table.limit_passes));
+                set(&mut limiter.stretch_ratio_max, table.get("limit_ratio"));
+                set(&mut limiter.passes_max, table.get("limit_passes"));
             }
             Method::Pbd(pbd) => {
-                set(&mut pbd.sweeps, count(table.sweeps));
-                set(&mut pbd.stiffness, table.stiffness);
-                set(&mut pbd.bend_stiffness, table.bend_stiffness);
+                set(&mut pbd.sweeps, table.get("sweeps"));
+                set(&mut pbd.stiffness, table.get("stiffness"));
+                set(&mut pbd.bend_stiffness, table.get("bend_stiffness"));
             }
             Method::Verlet => {}
             Method::Xpbd(xpbd) => {
-                set(&mut xpbd.substeps, count(table.substeps));
-                set(&mut xpbd.sweeps, count(table.sweeps));
+                set(&mut xpbd.substeps, table.get("substeps"));
+                set(&mut xpbd.sweeps, table.get("sweeps"));
             }
             Method::Implicit(settings) => {
-                set(&mut settings.tolerance, table.tolerance);
-                set(&mut settings.method, table.order.map(|word| word.0));
+                set(&mut settings.tolerance, table.get("tolerance"));
+                set(&mut settings.method, table.word("order"));
             }
         }
     }

@@ -1,15 +1,14 @@
 //! A scene file as it is read: its tables, and the place of each key, for diagnostics.
 
 use std::collections::BTreeMap;
-use std::ops::{Deref, Range};
+use std::ops::Range;
 
-use serde::de::DeserializeOwned;
-use toml::Spanned;
+use serde::de::{Deserialize as _, DeserializeOwned};
 use toml::de::{DeTable, DeValue, ValueDeserializer};
+use toml::{Spanned, Value};
 
-use super::schema::{
-    ColliderKeys, Cut, Fabric, REMOVED, Section, Solver, Tear, Top, Vertices, Wind,
-};
+use super::schema::{Key, REMOVED, Section};
+use crate::choice::Choice;
 use crate::rays;
 use crate::say::Fault;
 
@@ -17,48 +16,55 @@ use crate::say::Fault;
 #[derive(Clone, Debug)]
 pub(crate) struct SceneFile {
     pub(super) text: Text,
-    /// Of each table, in the order of the file.
-    places: BTreeMap<&'static str, Vec<Place>>,
-    pub(super) top: Table<Top>,
-    pub(super) fabric: Option<Table<Fabric>>,
-    pub(super) solver: Option<Table<Solver>>,
-    pub(super) wind: Option<Table<Wind>>,
-    pub(super) colliders: Vec<Table<ColliderKeys>>,
-    pub(super) holds: Vec<Table<Vertices>>,
-    pub(super) cuts: Vec<Table<Cut>>,
-    pub(super) tear: Option<Table<Tear>>,
-    pub(super) strengths: Vec<Table<Vertices>>,
+    /// Those of each name in the order of the file. There is always one without a name, the top.
+    tables: Vec<Table>,
 }
 
-/// The keys of a table, and where they stand.
+/// A table, and where it and the values in it stand.
 #[derive(Clone, Debug)]
-pub(super) struct Table<T> {
-    keys: T,
-    pub(super) place: Place,
-}
-
-impl<T> Deref for Table<T> {
-    type Target = T;
-
-    fn deref(&self) -> &T {
-        &self.keys
-    }
-}
-
-/// Where a table and the values in it stand.
-#[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct Table {
     name: &'static str,
-    pub(super) span: Range<usize>,
-    pub(super) values: BTreeMap<String, Range<usize>>,
+    span: Range<usize>,
+    values: BTreeMap<&'static str, Entry>,
 }
 
-impl Place {
+/// A value, where it stands, and where each of its elements does.
+#[derive(Clone, Debug)]
+struct Entry {
+    value: Value,
+    span: Range<usize>,
+    parts: Vec<Range<usize>>,
+}
+
+impl Table {
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.values.contains_key(key)
+    }
+
+    /// The value of a key, of the type that its kind has.
+    pub(super) fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+        let value = self.values.get(key)?.value.clone();
+        Some(value.try_into().expect("its kind was checked"))
+    }
+
+    /// The value that a word stands for.
+    pub(super) fn word<T: Choice>(&self, key: &str) -> Option<T> {
+        let word: String = self.get(key)?;
+        Some(T::of(&word).expect("the guide lists the words"))
+    }
+
     /// Which of these keys stand in the table.
     pub(super) fn those_of<'n>(&self, names: &[&'n str]) -> Vec<&'n str> {
         let mut found = names.to_vec();
-        found.retain(|name| self.values.contains_key(*name));
+        found.retain(|name| self.has(name));
         found
+    }
+
+    /// The key that stands first, but for one.
+    pub(super) fn first_but(&self, key: &str) -> Option<&'static str> {
+        let others = self.values.iter().filter(|(other, _)| **other != key);
+        let first = others.min_by_key(|(_, entry)| entry.span.start);
+        first.map(|(key, _)| *key)
     }
 }
 
@@ -81,48 +87,60 @@ impl SceneFile {
             }
         };
         let mut reader = Reader {
-            parsed: &parsed,
-            sections: Section::all(),
+            sections: &Section::all(),
             text: &source,
-            places: BTreeMap::new(),
+            tables: Vec::new(),
             faults: Vec::new(),
         };
+        for section in reader.sections {
+            match parsed.get_key_value(section.table) {
+                _ if section.table.is_empty() => reader.table(section, &parsed, 0..0),
+                Some((key, value)) => reader.tables(section, key.span(), value),
+                None => {}
+            }
+        }
+        let Reader {
+            tables, mut faults, ..
+        } = reader;
         let file = SceneFile {
-            top: reader.table("", &parsed, 0..0),
-            fabric: reader.tables("fabric").pop(),
-            solver: reader.tables("solver").pop(),
-            wind: reader.tables("wind").pop(),
-            colliders: reader.tables("collider"),
-            holds: reader.tables("hold"),
-            cuts: reader.tables("cut"),
-            tear: reader.tables("tear").pop(),
-            strengths: reader.tables("strength"),
-            places: reader.places,
-            text: source.clone(),
+            text: source,
+            tables,
         };
-        let mut faults = reader.faults;
-        let cuts = file.cuts.iter().filter(|cut| cut.rays.is_some());
-        faults.extend(
-            cuts.filter_map(|cut| file.rays(cut).err())
-                .map(|fault| *fault),
-        );
+        let cuts = file.tables("cut").filter(|cut| cut.has("rays"));
+        let wrong = cuts.filter_map(|cut| file.rays(cut).err());
+        faults.extend(wrong.map(|fault| *fault));
         match faults.is_empty() {
             true => Ok(file),
             false => Err(sorted(faults)),
         }
     }
 
+    /// Whether the file has a table of this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.table(name).is_some()
+    }
+
+    /// The tables of this name.
+    pub(super) fn tables(&self, name: &str) -> impl Iterator<Item = &Table> {
+        self.tables.iter().filter(move |table| table.name == name)
+    }
+
+    /// The only table of this name, if the file has it.
+    pub(super) fn table(&self, name: &str) -> Option<&Table> {
+        self.tables(name).next()
+    }
+
     /// The two rays of a cut.
-    pub(super) fn rays(&self, cut: &Table<Cut>) -> Result<rays::Pair, Box<Fault>> {
-        let texts = cut.rays.as_ref();
-        let texts = &texts.ok_or_else(|| self.missing(&cut.place, "rays"))?.0;
+    pub(super) fn rays(&self, cut: &Table) -> Result<rays::Pair, Box<Fault>> {
+        let entry = cut.values.get("rays");
+        let entry = entry.ok_or_else(|| self.missing(cut, "rays"))?;
+        let texts: Vec<String> = cut.get("rays").unwrap_or_default();
         let mut found = Vec::new();
-        for text in texts {
-            let (span, text) = (text.span(), text.get_ref());
+        for (text, span) in texts.iter().zip(&entry.parts) {
             for part in rays::split_pair(text) {
                 let ray = rays::ray(&text[part.clone()]).map_err(|wrong| {
                     let part = part.start + wrong.part.start..part.start + wrong.part.end;
-                    let at = self.text.within(&span, text, part);
+                    let at = self.text.within(span, text, part);
                     let fault = self.text.fault(wrong.code, wrong.message, &at, wrong.label);
                     Box::new(fault.help(rays::RAY_HELP))
                 })?;
@@ -131,18 +149,9 @@ impl SceneFile {
         }
         rays::Pair::try_from(found).map_err(|found| {
             let (message, label) = rays::miscounted(found.len());
-            let all = &cut.place.values["rays"];
-            let fault = self.text.fault("E-RAY-COUNT", message, all, label);
+            let fault = self.text.fault("E-RAY-COUNT", message, &entry.span, label);
             Box::new(fault.help(rays::PAIR_HELP))
         })
-    }
-
-    /// Whether the file has such a key, or such a table where the key is empty.
-    pub(crate) fn has(&self, table: &str, key: &str) -> bool {
-        let has = |place: &Place| key.is_empty() || place.values.contains_key(key);
-        self.places
-            .get(table)
-            .is_some_and(|all| all.iter().any(has))
     }
 
     /// A fault with the place of a key in the table of this number, or of the table where it lacks the key.
@@ -152,27 +161,27 @@ impl SceneFile {
         code: &'static str,
         message: String,
     ) -> Fault {
-        let all = self.places.get(table);
-        match all.and_then(|all| all.get(number)) {
-            Some(place) => *self.fault(place, key, code, message),
+        match self.tables(table).nth(number) {
+            Some(table) => *self.fault(table, key, code, message),
             None => Fault::error(code, message),
         }
     }
 
-    pub(super) fn missing(&self, place: &Place, key: &str) -> Box<Fault> {
-        let message = format!("[{}] lacks `{key}`", place.name);
-        self.fault(place, "", "E-SCENE-MISSING", message)
+    pub(super) fn missing(&self, table: &Table, key: &str) -> Box<Fault> {
+        let message = format!("[{}] lacks `{key}`", table.name);
+        self.fault(table, "", "E-SCENE-MISSING", message)
     }
 
     pub(super) fn fault(
         &self,
-        place: &Place,
+        table: &Table,
         key: &str,
         code: &'static str,
-        message: String,
+        message: impl Into<String>,
     ) -> Box<Fault> {
-        let span = place.values.get(key).unwrap_or(&place.span);
-        Box::new(self.text.fault(code, message, span, ""))
+        let entry = table.values.get(key);
+        let span = entry.map_or(&table.span, |entry| &entry.span);
+        Box::new(self.text.fault(code, message.into(), span, ""))
     }
 }
 
@@ -183,38 +192,28 @@ pub(super) fn sorted(mut faults: Vec<Fault>) -> Vec<Fault> {
 }
 
 struct Reader<'s> {
-    parsed: &'s DeTable<'s>,
-    sections: Vec<Section>,
+    sections: &'s [Section],
     text: &'s Text,
-    places: BTreeMap<&'static str, Vec<Place>>,
+    tables: Vec<Table>,
     faults: Vec<Fault>,
 }
 
 impl Reader<'_> {
     /// The tables of a name: one, or any number of those in lists.
-    fn tables<T: DeserializeOwned>(&mut self, name: &'static str) -> Vec<Table<T>> {
-        let Some((key, value)) = self.parsed.get_key_value(name) else {
-            return Vec::new();
-        };
-        let mut sections = self.sections.iter();
-        let section = sections.find(|section| section.table == name);
-        let (title, is_list) = section.map_or(("", false), |one| (one.title, one.is_list()));
-        let mut tables = Vec::new();
+    fn tables(&mut self, section: &Section, key: Range<usize>, value: &Spanned<DeValue<'_>>) {
+        let (name, title) = (section.table, section.title);
         match value.get_ref() {
-            DeValue::Table(table) if !is_list => tables.push(self.table(name, table, key.span())),
-            DeValue::Array(array) if is_list => {
+            DeValue::Table(table) if !section.is_list() => self.table(section, table, key),
+            DeValue::Array(array) if section.is_list() => {
                 for element in array {
                     match element.get_ref() {
-                        DeValue::Table(table) => {
-                            tables.push(self.table(name, table, element.span()));
-                        }
+                        DeValue::Table(table) => self.table(section, table, element.span()),
                         _ => self.wrong_table(name, title, element.span()),
                     }
                 }
             }
-            _ => self.wrong_table(name, title, key.span()),
+            _ => self.wrong_table(name, title, key),
         }
-        tables
     }
 
     fn wrong_table(&mut self, name: &str, title: &str, at: Range<usize>) {
@@ -225,73 +224,68 @@ impl Reader<'_> {
     }
 
     /// A table, key by key, so that all faults are found; of the top, what is no table.
-    fn table<T: DeserializeOwned>(
-        &mut self,
-        name: &'static str,
-        table: &DeTable<'_>,
-        span: Range<usize>,
-    ) -> Table<T> {
-        let mut sections = self.sections.iter();
-        let section = sections.find(|section| section.table == name);
-        let names = section.map_or(&[][..], |section| &section.keys).iter();
-        let names: Vec<&str> = names.map(|[name, ..]| *name).collect();
-        let mut place = Place {
-            name,
-            span,
-            values: BTreeMap::new(),
-        };
-        let mut admitted = DeTable::new();
+    fn table(&mut self, section: &Section, table: &DeTable<'_>, span: Range<usize>) {
+        let mut values = BTreeMap::new();
         for (key, value) in table {
             let word = &**key.get_ref();
             let is_table = self.sections.iter().any(|section| section.table == word);
-            if name.is_empty() && is_table {
+            if section.table.is_empty() && is_table {
                 continue;
             }
-            if !names.contains(&word) {
-                self.unknown(name, word, names.clone(), key.span());
+            let Some(known) = section.keys.iter().find(|known| known.name == word) else {
+                self.unknown(section, word, key.span());
                 continue;
-            }
-            let one = DeTable::from_iter([(key.clone(), value.clone())]);
-            match keys::<T>(one) {
-                Ok(_) => {
-                    place.values.insert(word.to_owned(), value.span());
-                    admitted.insert(key.clone(), value.clone());
+            };
+            let read = Value::deserialize(ValueDeserializer::from(value.clone()));
+            let checked = read.map_err(|_| "E-SCENE-TYPE");
+            let checked = checked.and_then(|read| known.check(&read).map(|()| read));
+            match checked {
+                Ok(read) => {
+                    let parts = match value.get_ref() {
+                        DeValue::Array(array) => array.iter().map(Spanned::span).collect(),
+                        _ => Vec::new(),
+                    };
+                    let span = value.span();
+                    let entry = Entry {
+                        value: read,
+                        span,
+                        parts,
+                    };
+                    values.insert(known.name, entry);
                 }
-                Err(error) => self.refused(word, value, error.message()),
+                Err(code) => self.refused(known, value, code),
             }
         }
-        self.places.entry(name).or_default().push(place.clone());
-        let keys = keys(admitted).expect("each key alone was admitted");
-        Table { keys, place }
+        self.tables.push(Table {
+            name: section.table,
+            span,
+            values,
+        });
     }
 
-    /// A value that its kind does not admit. `error` is its code, and what is admitted.
-    fn refused(&mut self, key: &str, value: &Spanned<DeValue<'_>>, error: &str) {
-        // A boolean is serde's own, and its error has no code.
-        let (code, what) = match error.split_once(' ') {
-            Some((code, what)) if code.starts_with("E-") => (code, what),
-            _ => ("E-SCENE-TYPE", "true or false"),
+    /// A value that its kind does not admit.
+    fn refused(&mut self, key: &Key, value: &Spanned<DeValue<'_>>, code: &'static str) {
+        let label = match (code, value.get_ref()) {
+            ("E-SCENE-RANGE", _) => "out of range".to_owned(),
+            (_, DeValue::Array(_)) => "these are others".to_owned(),
+            (_, other) => format!("this is {}", kind_of(other)),
         };
-        let (code, label) = match (code, value.get_ref()) {
-            ("E-SCENE-RANGE", _) => ("E-SCENE-RANGE", "out of range".to_owned()),
-            (_, DeValue::Array(_)) => ("E-SCENE-TYPE", "these are others".to_owned()),
-            (_, other) => ("E-SCENE-TYPE", format!("this is {}", kind_of(other))),
-        };
-        let message = format!("`{key}` is {what}");
+        let message = format!("`{}` is {}", key.name, key.admits());
         let fault = self.text.fault(code, message, &value.span(), &label);
         self.faults.push(fault);
     }
 
-    fn unknown(&mut self, table: &str, word: &str, mut names: Vec<&str>, span: Range<usize>) {
-        let place = match table {
+    fn unknown(&mut self, section: &Section, word: &str, span: Range<usize>) {
+        let mut names: Vec<&str> = section.keys.iter().map(|key| key.name).collect();
+        let place = match section.table {
             "" => "a scene file".to_owned(),
             table => format!("[{table}]"),
         };
-        if table.is_empty() {
+        if section.table.is_empty() {
             let tables = self.sections.iter().map(|section| section.table);
             names.extend(tables.filter(|table| !table.is_empty()));
         }
-        let is_it = |(of, key, _): &&(&str, &str, &str)| *of == table && *key == word;
+        let is_it = |(of, key, _): &&(&str, &str, &str)| *of == section.table && *key == word;
         let (message, label, help) = match REMOVED.iter().find(is_it) {
             Some((_, _, instead)) => (
                 format!("`{word}` of {place} was removed"),
@@ -331,11 +325,6 @@ fn kind_of(value: &DeValue<'_>) -> &'static str {
         DeValue::Array(_) => "a list",
         DeValue::Table(_) => "a table",
     }
-}
-
-fn keys<T: DeserializeOwned>(table: DeTable<'_>) -> Result<T, toml::de::Error> {
-    let value = Spanned::new(0..0, DeValue::Table(table));
-    T::deserialize(ValueDeserializer::from(value))
 }
 
 /// The text, for those who find fault with it.

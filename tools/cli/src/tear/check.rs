@@ -66,7 +66,7 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
     };
     let Some(tearing) = &scene.tearing else {
         let help = "add --threshold, or a threshold in [tear] of a scene file";
-        if source.has("strength", "") {
+        if source.has("strength") {
             let message = "nothing tears in this scene, however strong it is";
             return blame(("strength", 0, ""), message, help);
         }
