@@ -23,6 +23,7 @@ pub(crate) use self::chart::{ChartArgs, DrawArgs, ParetoArgs, TearChartArgs, Wha
 pub(crate) use self::check::CheckArgs;
 pub(crate) use self::cut::{CameraArgs, CutArgs, Mass};
 pub(crate) use self::files::{FileArgs, Format};
+pub(crate) use self::look::LookArgs;
 pub(crate) use self::mend::MendArgs;
 pub(crate) use self::play::PlayArgs;
 pub(crate) use self::read::{Gap, numbers};

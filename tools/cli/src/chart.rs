@@ -291,7 +291,7 @@ fn check(draw: &DrawArgs) -> Result<Vec<&PathBuf>, Stop> {
 }
 
 fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), Fault> {
-    output::write_or_print(path, streams.output, |out| out.write_all(text.as_bytes()))
+    output::write_or_print(path, streams.output, |out| out.write_all(text.as_bytes())).map(|_| ())
 }
 
 /// Prints a summary and the names of the files, unless the chart is on standard output.

@@ -30,7 +30,7 @@ use crate::rays::{self, Pair};
 use crate::say::Fault;
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, output, report};
+use crate::{output, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -157,8 +157,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         session.words.push(pieces::words(&written));
         session.report.pieces = Some(written);
     }
-    let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
-    session.words.push(ending);
+    session.end(vertices_before, &mesh, mass);
     Ok(())
 }
 

@@ -2,45 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use tearmesh::Mesh;
-
 use crate::args::{FileArgs, Format};
 use crate::exit::Stop;
 use crate::output;
-use crate::report;
-use crate::say::{Fault, short};
+use crate::say::Fault;
 
-/// Where the mesh goes.
-pub(crate) enum Destination {
-    Nowhere { why: &'static str },
-    Output,
-    File(PathBuf),
-}
-
-impl Destination {
-    pub(crate) fn of(args: &FileArgs, output_is_terminal: bool) -> Destination {
-        match &args.output {
-            _ if args.dry_run => Destination::Nowhere {
-                why: "dry run, no mesh written",
-            },
-            Some(path) if path == Path::new("-") => Destination::Output,
-            Some(path) => Destination::File(path.clone()),
-            None if args.format == Format::Json => Destination::Nowhere {
-                why: "nothing written",
-            },
-            None if output_is_terminal => Destination::Nowhere {
-                why: "nothing written: name a file with -o OUT",
-            },
-            None => Destination::Output,
-        }
-    }
-
-    pub(crate) fn name(&self) -> Option<String> {
-        match self {
-            Destination::Nowhere { .. } => None,
-            Destination::Output => Some("-".to_owned()),
-            Destination::File(path) => Some(path.display().to_string()),
-        }
+/// The file that the mesh goes to, `-` being standard output; or why it goes nowhere.
+pub(crate) fn destination(
+    args: &FileArgs,
+    output_is_terminal: bool,
+) -> Result<PathBuf, &'static str> {
+    match &args.output {
+        _ if args.dry_run => Err("dry run, no mesh written"),
+        Some(path) => Ok(path.clone()),
+        None if args.format == Format::Json => Err("nothing written"),
+        None if output_is_terminal => Err("nothing written: name a file with -o OUT"),
+        None => Ok(PathBuf::from("-")),
     }
 }
 
@@ -255,33 +232,4 @@ fn replaced(path: &Path, what: &str, or: &str) -> Stop {
 /// Whether two names are of one file, which need not exist yet.
 pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
     a != Path::new("-") && b != Path::new("-") && (a == b || output::is_same_place(a, b))
-}
-
-/// The last line of the summary.
-pub(crate) fn ending(
-    vertices_before: usize,
-    mesh: &Mesh,
-    mass: report::Mass,
-    destination: &Destination,
-) -> String {
-    let ending = match destination {
-        Destination::Nowhere { why } => (*why).to_owned(),
-        Destination::Output => "wrote standard output".to_owned(),
-        Destination::File(path) => format!("wrote {}", path.display()),
-    };
-    format!(
-        "{} · vertices {vertices_before} -> {} · faces {} · invariants hold · {ending}",
-        summed(mass),
-        mesh.vertex_count(),
-        mesh.face_count(),
-    )
-}
-
-/// What there was before and after, by the word for what it is.
-fn summed(mass: report::Mass) -> String {
-    let [before, after] = [mass.before, mass.after].map(short);
-    match mass.unit {
-        report::MassUnit::Area => format!("area {before} -> {after}"),
-        report::MassUnit::Kilogram => format!("mass {before} -> {after} kg"),
-    }
 }

@@ -10,10 +10,10 @@ use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
+use crate::report;
 use crate::say::{Fault, count};
 use crate::session::{self, Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, report};
 
 /// Mends, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -147,8 +147,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         words += &format!(", {} left", count(cuts_left, "cut", "cuts"));
     }
     session.words.push(words);
-    let ending = files::ending(vertices_before, &mesh, mass, &session.destination);
-    session.words.push(ending);
+    session.end(vertices_before, &mesh, mass);
     Ok(())
 }
 

@@ -161,15 +161,15 @@ pub(crate) fn is_same_place(a: &Path, b: &Path) -> bool {
     is_same_file(a, b) || (a.file_name() == b.file_name() && is_same_file(folders[0], folders[1]))
 }
 
-/// Writes a file, or prints on standard output where the path is `-`.
-pub(crate) fn write_or_print(
+/// Writes a file, or prints on standard output where the path is `-`: nothing once nobody reads on.
+pub(crate) fn write_or_print<T>(
     path: &Path,
     out: &mut dyn Write,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), Fault> {
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<T>,
+) -> Result<Option<T>, Fault> {
     match path == Path::new("-") {
-        true => print(out, fill).map(|_| ()),
-        false => write(path, fill),
+        true => print(out, fill),
+        false => write(path, fill).map(Some),
     }
 }
 

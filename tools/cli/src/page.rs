@@ -9,7 +9,7 @@ use tearmesh_view::{CutLine, Moment, Page, PageError, is_page};
 
 use crate::exit::Stop;
 use crate::say::{Fault, quoted};
-use crate::{output, picture};
+use crate::{files, output, picture};
 
 /// Adds a mesh to a page.
 pub(crate) fn add(
@@ -33,7 +33,13 @@ pub(crate) fn write_beside(
     name: Option<&str>,
 ) -> Result<(), Stop> {
     let mut page = Page::new(title(name), up);
-    add(&mut page, mesh, place, moment(name))?;
+    let moment = Moment {
+        label: title(name),
+        time_s: None,
+        cut: name.map(|name| cut_line(name, "")),
+        torn_at_rest_m: None,
+    };
+    add(&mut page, mesh, place, moment)?;
     Ok(output::write(path, |out| page.write(out))?)
 }
 
@@ -51,16 +57,6 @@ pub(crate) fn title(name: Option<&str>) -> String {
     }
 }
 
-/// The moment of a mesh in a file, which can be cut there.
-pub(crate) fn moment(name: Option<&str>) -> Moment {
-    Moment {
-        label: title(name),
-        time_s: None,
-        cut: name.map(|name| cut_line(name, "")),
-        torn_at_rest_m: None,
-    }
-}
-
 /// How a file is cut, with these options.
 pub(crate) fn cut_line(name: &str, options: &str) -> CutLine {
     // Whoever read it from a stream knows where it is.
@@ -75,9 +71,15 @@ pub(crate) fn cut_line(name: &str, options: &str) -> CutLine {
     }
 }
 
-/// A page that nobody named: refused where another file has that name.
-pub(crate) fn unless_foreign(path: PathBuf) -> Result<PathBuf, Stop> {
-    if path.is_file() && !is_page_there(&path) {
+/// Where a page goes: where it was told to, or into the folder where we are, by a name that no file has but a
+/// page of ours.
+pub(crate) fn place(
+    named: Option<&PathBuf>,
+    unnamed: impl FnOnce() -> Result<PathBuf, Stop>,
+    inputs: &[PathBuf],
+) -> Result<PathBuf, Stop> {
+    let path = named.map_or_else(unnamed, |path| Ok(path.clone()))?;
+    if named.is_none() && path.is_file() && !is_page_there(&path) {
         let name = path.display();
         let message = format!("`{name}` is there already, and is no page of tearmesh");
         return Err(Stop::usage(
@@ -85,6 +87,8 @@ pub(crate) fn unless_foreign(path: PathBuf) -> Result<PathBuf, Stop> {
             format!("to replace it, add -o {name}"),
         ));
     }
+    files::check_page(&path)?;
+    files::check_shown(&path, inputs, "an input")?;
     Ok(path)
 }
 

@@ -6,11 +6,10 @@ use tearmesh_view::PlayPage;
 
 use crate::args::PlayArgs;
 use crate::exit::Stop;
-use crate::input::Input;
 use crate::say::{Fault, count};
 use crate::session::{self, Opened};
 use crate::streams::Streams;
-use crate::{files, output, page, report};
+use crate::{output, page};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -18,7 +17,8 @@ pub(crate) fn run(
     faults: &mut Vec<Fault>,
     streams: &mut Streams<'_>,
 ) -> Result<String, Stop> {
-    let path = place(args)?;
+    let unnamed = || Ok(PathBuf::from("play.html"));
+    let path = page::place(args.output.as_ref(), unnamed, args.input.as_slice())?;
     let mut made = PlayPage {
         scene: args.scene.clone(),
         up: args.up.clone(),
@@ -26,15 +26,7 @@ pub(crate) fn run(
     };
     let mut cloth = "a sheet of 1 m".to_owned();
     if let Some(input) = &args.input {
-        let input = Input::find(input, streams.input)?;
-        let repair = session::repair(args.look.repair, args.look.separate_fans);
-        let opened = session::open(
-            &input,
-            repair,
-            "or add",
-            faults,
-            &mut report::Timing::default(),
-        )?;
+        let (input, opened) = session::look(input, &args.look, faults, streams)?;
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
         cloth = [
@@ -70,15 +62,4 @@ fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
         .write(&opened.mesh, &opened.positions, &mut bytes);
     written.expect("memory takes all that is written");
     Ok(bytes)
-}
-
-/// Where the page goes.
-fn place(args: &PlayArgs) -> Result<PathBuf, Stop> {
-    let path = match &args.output {
-        Some(path) => path.clone(),
-        None => page::unless_foreign(PathBuf::from("play.html"))?,
-    };
-    files::check_page(&path)?;
-    files::check_shown(&path, args.input.as_slice(), "an input")?;
-    Ok(path)
 }

@@ -10,11 +10,10 @@ use tearmesh_view::{Camera, RenderOptions};
 use crate::args::RenderArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::exit::Stop;
-use crate::input::Input;
 use crate::say::{Fault, count};
 use crate::session::{self, Opened};
 use crate::streams::Streams;
-use crate::{files, output, picture, rays, report};
+use crate::{files, output, picture, rays};
 
 /// Makes what is shown, and gives the summary.
 pub(crate) fn run(
@@ -33,10 +32,7 @@ pub(crate) fn run(
     let given = given.transpose().map_err(picture::no_camera)?;
     let mut options = options(args, faults)?;
 
-    let input = Input::find(&args.input, streams.input)?;
-    let mut timing = report::Timing::default();
-    let repair = session::repair(args.look.repair, args.look.separate_fans);
-    let opened = session::open(&input, repair, "or add", faults, &mut timing)?;
+    let (_, opened) = session::look(&args.input, &args.look, faults, streams)?;
     let Opened {
         document,
         mesh,

@@ -283,26 +283,27 @@ impl Cut {
         cut: Option<&tearmesh::Cut>,
     ) -> Cut {
         let plane = scissor.plane();
+        // Adding zero turns −0 into 0.
+        let zero = Vector::zeros();
         Cut {
             rays: rays.map(|rays| {
                 rays.map(|ray| RayEntry {
-                    origin: numbers(ray.origin().coords),
-                    direction: numbers(ray.direction()),
+                    origin: ray.origin() + zero,
+                    direction: ray.direction() + zero,
                 })
             }),
             equivalent: None,
             how,
             plane: PlaneEntry {
-                point: point(plane.point()),
-                normal: numbers(plane.normal()),
+                point: plane.point() + zero,
+                normal: plane.normal() + zero,
             },
             layers: cut.map(|cut| {
-                cut.layers().map(|hit| {
-                    hit.map(|hit| LayerEntry {
-                        at: point(hit.at),
-                        chain: hit.chain.index(),
-                    })
-                })
+                let entry = |hit: tearmesh::LayerHit| LayerEntry {
+                    at: hit.at + zero,
+                    chain: hit.chain.index(),
+                };
+                cut.layers().map(|hit| hit.map(entry))
             }),
             report: report.clone(),
         }
@@ -311,30 +312,21 @@ impl Cut {
 
 #[derive(Debug, Serialize)]
 struct RayEntry {
-    origin: [f64; 3],
-    direction: [f64; 3],
+    origin: Point,
+    direction: Vector,
 }
 
 /// The place of a hit, and the smallest triangle of what hangs together there, from 0.
 #[derive(Debug, Serialize)]
 struct LayerEntry {
-    at: [f64; 3],
+    at: Point,
     chain: usize,
 }
 
 #[derive(Debug, Serialize)]
 struct PlaneEntry {
-    point: [f64; 3],
-    normal: [f64; 3],
-}
-
-fn point(p: Point) -> [f64; 3] {
-    numbers(p.coords)
-}
-
-fn numbers(v: Vector) -> [f64; 3] {
-    // Adding zero turns −0 into 0.
-    [v.x + 0.0, v.y + 0.0, v.z + 0.0]
+    point: Point,
+    normal: Vector,
 }
 
 /// The sum over all vertices.

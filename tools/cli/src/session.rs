@@ -4,24 +4,26 @@
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use tearmesh::{MassError, MassLedger, Mesh, Place, Point, Positions, Vector};
 use tearmesh_obj::{Document, Repair, WriteSummary};
 
-use crate::args::{FileArgs, Format};
+use crate::args::{FileArgs, Format, LookArgs};
 use crate::exit::{Exit, Stop};
-use crate::files::{Destination, Names};
+use crate::files::Names;
 use crate::input::Input;
-use crate::report::{self, Entry, Report};
-use crate::say::{Fault, Severity, count};
+use crate::report::{self, Entry, Report, Timing};
+use crate::say::{Fault, Severity, count, short};
 use crate::streams::Streams;
 use crate::{bug, defects, files, output, page, picture};
 
 /// A run in progress, and all that will be said about it.
 pub(crate) struct Session<'a> {
     files: &'a FileArgs,
-    pub(crate) destination: Destination,
+    /// The file that the mesh goes to, or why it goes nowhere.
+    destination: Result<PathBuf, &'static str>,
     pub(crate) report: Report,
     pub(crate) faults: Vec<Fault>,
     input: Option<Input>,
@@ -52,7 +54,7 @@ impl<'a> Session<'a> {
     ) -> Exit {
         let mut session = Session {
             files,
-            destination: Destination::of(files, streams.output_is_terminal),
+            destination: files::destination(files, streams.output_is_terminal),
             report: Report::new(verb),
             faults: Vec::new(),
             input: None,
@@ -146,11 +148,40 @@ impl<'a> Session<'a> {
         mass
     }
 
+    /// The name of the file that the mesh goes to, if it goes anywhere.
+    fn name(&self) -> Option<String> {
+        let path = self.destination.as_ref().ok()?;
+        Some(path.display().to_string())
+    }
+
+    /// The file that the mesh goes to, if it is one.
+    fn file(&self) -> Option<&Path> {
+        let path = self.destination.as_deref().ok()?;
+        (path != Path::new("-")).then_some(path)
+    }
+
+    /// Ends the summary of a mesh that had so many vertices before.
+    pub(crate) fn end(&mut self, vertices_before: usize, mesh: &Mesh, mass: report::Mass) {
+        let [before, after] = [mass.before, mass.after].map(short);
+        let summed = match mass.unit {
+            report::MassUnit::Area => format!("area {before} -> {after}"),
+            report::MassUnit::Kilogram => format!("mass {before} -> {after} kg"),
+        };
+        let (vertices, faces) = (mesh.vertex_count(), mesh.face_count());
+        let ending = match (&self.destination, self.file()) {
+            (Err(why), _) => (*why).to_owned(),
+            (_, None) => "wrote standard output".to_owned(),
+            (_, Some(path)) => format!("wrote {}", path.display()),
+        };
+        self.words.push(format!(
+            "{summed} · vertices {vertices_before} -> {vertices} · faces {faces} · invariants hold · {ending}"
+        ));
+    }
+
     /// Says that there was nothing to do, and so nothing was written; warnings have said why.
     pub(crate) fn nothing_done(&mut self) -> Stop {
-        if let (Some(name), Some(last)) = (self.destination.name(), self.faults.last_mut())
-            && name != "-"
-        {
+        let unwritten = self.file().map(|path| path.display().to_string());
+        if let (Some(name), Some(last)) = (unwritten, self.faults.last_mut()) {
             last.message.push_str(&format!(". {name} not written"));
         }
         self.words.clear();
@@ -162,14 +193,9 @@ impl<'a> Session<'a> {
 
     /// Refuses places that could not be written: before work that takes long.
     pub(crate) fn check_places(&self) -> Result<(), Stop> {
-        let output = match &self.destination {
-            Destination::File(path) => Some(path),
-            _ => None,
-        };
-        for path in output.into_iter().chain(&self.files.report) {
-            output::check(path)?;
-        }
-        Ok(())
+        let report = self.files.report.as_deref();
+        let mut files = self.file().into_iter().chain(report);
+        Ok(files.try_for_each(output::check)?)
     }
 
     /// Writes the mesh, as a whole or not at all.
@@ -181,12 +207,11 @@ impl<'a> Session<'a> {
     ) -> Result<(), Stop> {
         let clock = Clock::start();
         let written = match &self.destination {
-            Destination::Nowhere { .. } => Ok(None),
-            Destination::File(path) => output::write(path, fill).map(Some),
-            Destination::Output => output::print(streams.output, fill),
-        }?;
+            Ok(path) => output::write_or_print(path, streams.output, fill)?,
+            Err(_) => None,
+        };
         self.report.timing_ms.get_or_insert_default().write = clock.milliseconds();
-        self.report.output = Some(report::File::of(self.destination.name(), mesh));
+        self.report.output = Some(report::File::of(self.name(), mesh));
         if let Some(unspoken) = written.map(|one| one.unspoken).filter(|&count| count > 0) {
             let statements = count(unspoken, "statement", "statements");
             let message = format!(
@@ -219,13 +244,10 @@ impl<'a> Session<'a> {
         up: Vector,
     ) -> Result<(), Stop> {
         match self.files.picture.as_ref().filter(|_| !self.files.dry_run) {
-            Some(path) => Ok(picture::write_beside(
-                path,
-                mesh,
-                place,
-                up,
-                picture::crease(document),
-            )?),
+            Some(path) => {
+                let crease_deg = picture::crease(document);
+                Ok(picture::write_beside(path, mesh, place, up, crease_deg)?)
+            }
             None => Ok(()),
         }
     }
@@ -237,7 +259,7 @@ impl<'a> Session<'a> {
         place: &(impl Place + ?Sized),
         up: Vector,
     ) -> Result<(), Stop> {
-        let name = self.destination.name();
+        let name = self.name();
         match self.files.view.as_ref().filter(|_| !self.files.dry_run) {
             Some(path) => page::write_beside(path, mesh, place, up, name.as_deref()),
             None => Ok(()),
@@ -273,10 +295,8 @@ impl<'a> Session<'a> {
         let Err(fault) = self.print(exit, streams) else {
             return exit;
         };
-        let written = match (&self.destination, &self.report.output) {
-            (Destination::File(path), Some(_)) => Some(format!("`{}` was written", path.display())),
-            _ => None,
-        };
+        let written = self.file().filter(|_| self.report.output.is_some());
+        let written = written.map(|path| format!("`{}` was written", path.display()));
         let help = written.or(fault.help);
         self.faults.push(Fault { help, ..fault });
         self.show(streams);
@@ -321,7 +341,7 @@ impl<'a> Session<'a> {
             return Ok(());
         }
         let words = self.words.join("\n") + "\n";
-        if let Destination::Output = self.destination {
+        if self.name().as_deref() == Some("-") {
             // Nowhere is left to complain if standard error is closed.
             let _ = streams.error.write_all(words.as_bytes());
             return Ok(());
@@ -329,6 +349,19 @@ impl<'a> Session<'a> {
         let said = output::print(streams.output, |out| out.write_all(words.as_bytes()));
         said.map(|_| ())
     }
+}
+
+/// Finds a mesh to look at, and opens it.
+pub(crate) fn look(
+    path: &Path,
+    args: &LookArgs,
+    faults: &mut Vec<Fault>,
+    streams: &mut Streams<'_>,
+) -> Result<(Input, Opened), Stop> {
+    let input = Input::find(path, streams.input)?;
+    let repair = repair(args.repair, args.separate_fans);
+    let opened = open(&input, repair, "or add", faults, &mut Timing::default())?;
+    Ok((input, opened))
 }
 
 /// What may be done to an input: all there is, or only giving each fan its own vertex.
@@ -346,7 +379,7 @@ pub(crate) fn open(
     repair: Option<Repair>,
     or: &str,
     faults: &mut Vec<Fault>,
-    timing: &mut report::Timing,
+    timing: &mut Timing,
 ) -> Result<Opened, Stop> {
     let clock = Clock::start();
     let mut document = input.document()?;

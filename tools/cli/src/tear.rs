@@ -29,7 +29,7 @@ use crate::interrupt::Guard;
 use crate::scene::SceneFile;
 use crate::session::{Clock, Opened, Session};
 use crate::streams::Streams;
-use crate::{files, output, report};
+use crate::{output, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -269,8 +269,7 @@ impl Play<'_> {
             })?;
         }
         let mesh = run.mesh();
-        let ending = files::ending(vertices_before, mesh, mass, &session.destination);
-        session.words.push(ending);
+        session.end(vertices_before, mesh, mass);
         self.finish(records, &run, session)
     }
 

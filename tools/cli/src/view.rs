@@ -6,12 +6,11 @@ use tearmesh_view::{Moment, Page};
 
 use crate::args::ViewArgs;
 use crate::exit::Stop;
-use crate::input::Input;
 use crate::input::named::named;
 use crate::say::{Fault, count};
-use crate::session::{self, Opened};
+use crate::session;
 use crate::streams::Streams;
-use crate::{files, output, page, report};
+use crate::{files, output, page};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -21,8 +20,8 @@ pub(crate) fn run(
 ) -> Result<String, Stop> {
     // What was typed is refused before large files are read.
     let inputs = inputs(args)?;
-    let output = place(args, &inputs)?;
-    let repair = session::repair(args.look.repair, args.look.separate_fans);
+    let unnamed = || named_like(&args.inputs[0]);
+    let output = page::place(args.output.as_ref(), unnamed, &inputs)?;
     let options = match (args.look.repair, args.look.separate_fans) {
         (true, _) => " --repair",
         (false, true) => " --separate-fans",
@@ -33,18 +32,15 @@ pub(crate) fn run(
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());
     let mut pieces = 0;
     for path in &inputs {
-        let input = Input::find(path, streams.input)?;
-        let mut timing = report::Timing::default();
-        let Opened {
-            mesh, positions, ..
-        } = session::open(&input, repair, "or add", faults, &mut timing)?;
+        let (input, opened) = session::look(path, &args.look, faults, streams)?;
+        let mesh = &opened.mesh;
         let moment = Moment {
             label: page::title(Some(&input.name)),
             time_s: None,
             cut: Some(page::cut_line(&input.name, options)),
             torn_at_rest_m: None,
         };
-        page::add(&mut shown, &mesh, &positions, moment)?;
+        page::add(&mut shown, mesh, &opened.positions, moment)?;
         vertices.push(mesh.vertex_count());
         faces.push(mesh.face_count());
         pieces = mesh.components().count();
@@ -74,17 +70,6 @@ fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
     Ok(files)
 }
 
-/// Where the page goes.
-fn place(args: &ViewArgs, inputs: &[PathBuf]) -> Result<PathBuf, Stop> {
-    let path = match &args.output {
-        Some(path) => path.clone(),
-        None => named_like(&args.inputs[0])?,
-    };
-    files::check_page(&path)?;
-    files::check_shown(&path, inputs, "an input")?;
-    Ok(path)
-}
-
 /// A page in the folder where we are, by the name of an input.
 fn named_like(input: &Path) -> Result<PathBuf, Stop> {
     let whole = input.canonicalize();
@@ -97,7 +82,7 @@ fn named_like(input: &Path) -> Result<PathBuf, Stop> {
     };
     let mut name = stem.to_owned();
     name.push(".html");
-    page::unless_foreign(PathBuf::from(name))
+    Ok(PathBuf::from(name))
 }
 
 /// The fewest and the most of something.
