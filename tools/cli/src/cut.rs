@@ -234,40 +234,39 @@ fn how(args: &CutArgs) -> report::How {
     }
 }
 
-/// Refuses options that do not go together.
+/// Refuses options that do not go together: when, what is said, and what helps.
 fn check(args: &CutArgs) -> Result<(), Stop> {
-    let usage = |message: &str, help: &str| Err(Stop::usage(message, help));
+    let method = args.method.word();
     let is_exact = args.method == CutMethod::Exact;
-    if args.layers == CutLayers::First && !args.plane.is_empty() {
-        return usage(
-            "`--layers first` is for rays: with a plane, no ray hits a layer first",
-            "cut with --rays or --camera, or leave out --layers",
-        );
-    }
-    if args.tips == CutTips::Midpoint && args.method != CutMethod::Partition {
-        let message = format!(
-            "`--tips midpoint` is for the method partition, not {}",
-            args.method.word()
-        );
-        let help = if is_exact {
+    let midpoint_help = match is_exact {
+        true => {
             "leave it out, because exact ends at the rays themselves, or add --method partition"
-        } else {
-            "leave it out: the paper's methods split vertices between the rays"
-        };
-        return usage(&message, help);
-    }
-    if args.mass == Mass::Half && is_exact {
-        return usage(
-            "`--mass half` cannot follow inserted vertices, and the method exact inserts some",
+        }
+        false => "leave it out: the paper's methods split vertices between the rays",
+    };
+    let clashes = [
+        (
+            args.layers == CutLayers::First && !args.plane.is_empty(),
+            "`--layers first` is for rays: with a plane, no ray hits a layer first".to_owned(),
+            "cut with --rays or --camera, or leave out --layers",
+        ),
+        (
+            args.tips == CutTips::Midpoint && args.method != CutMethod::Partition,
+            format!("`--tips midpoint` is for the method partition, not {method}"),
+            midpoint_help,
+        ),
+        (
+            args.mass == Mass::Half && is_exact,
+            "`--mass half` cannot follow inserted vertices, and the method exact inserts some"
+                .to_owned(),
             "use --mass area, or --method partition",
-        );
-    }
-    if args.snap_move && !is_exact {
-        let message = format!(
-            "`--snap-move` is for the method exact, not {}",
-            args.method.word()
-        );
-        return usage(&message, "leave it out: the other methods move no vertex");
-    }
-    Ok(())
+        ),
+        (
+            args.snap_move && !is_exact,
+            format!("`--snap-move` is for the method exact, not {method}"),
+            "leave it out: the other methods move no vertex",
+        ),
+    ];
+    let clash = clashes.into_iter().find(|(is_clash, ..)| *is_clash);
+    clash.map_or(Ok(()), |(_, message, help)| Err(Stop::usage(message, help)))
 }

@@ -73,8 +73,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     } else {
         Simplified::default()
     };
-    session.faults.extend(kept(edited));
-    session.faults.extend(kept_slid(slid_edited));
+    session.faults.extend(kept(edited, slid_edited));
     if merged == 0 && simplified.is_none() {
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
@@ -212,30 +211,22 @@ fn stitches(
     }
 }
 
-/// Says that vertices stay that were to be taken out.
-fn kept(edited: usize) -> Option<Fault> {
-    let vertices = count(edited, "inserted vertex was", "inserted vertices were");
-    let (stays, them) = if edited == 1 {
-        ("stays", "it")
-    } else {
-        ("stay", "them")
-    };
-    let message = format!(
-        "{vertices} edited since the cut and {stays}, as do the divided faces that depend on {them}"
-    );
-    (edited > 0).then(|| Fault::warning("W-MEND-EDITED", message))
-}
-
-/// Says that vertices stay where a cut moved them.
-fn kept_slid(edited: usize) -> Option<Fault> {
-    let vertices = count(
-        edited,
-        "vertex that a cut moved was",
-        "vertices that cuts moved were",
-    );
-    let stays = if edited == 1 { "stays" } else { "stay" };
-    let message = format!("{vertices} edited since and {stays} in place");
-    (edited > 0).then(|| Fault::warning("W-MEND-EDITED", message))
+/// Warns of vertices that stay where they are, because they were edited since.
+fn kept(inserted: usize, slid: usize) -> impl Iterator<Item = Fault> {
+    let all = [
+        (
+            inserted,
+            "inserted vertex was edited since the cut and stays, as do the divided faces that depend on it",
+            "inserted vertices were edited since the cut and stay, as do the divided faces that depend on them",
+        ),
+        (
+            slid,
+            "vertex that a cut moved was edited since and stays in place",
+            "vertices that cuts moved were edited since and stay in place",
+        ),
+    ];
+    let some = all.into_iter().filter(|&(number, ..)| number > 0);
+    some.map(|(number, one, many)| Fault::warning("W-MEND-EDITED", count(number, one, many)))
 }
 
 /// Says which vertices are too far apart, by their numbers in the file.

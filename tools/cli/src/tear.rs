@@ -313,12 +313,8 @@ impl Play<'_> {
         }
         let was_interrupted = session.exit == Exit::Interrupted;
         let is_enough = || !was_interrupted && self.guard.is_interrupted();
-        let shown = records.frames.finish(run, &records.torn, is_enough)?;
-        session.faults.extend(shown.warnings);
-        if let Some(tear) = &mut session.report.tear {
-            tear.frames = shown.report;
-            tear.cache = shown.cache;
-        }
+        let Records { frames, torn, .. } = records;
+        frames.finish(run, &torn, is_enough, session)?;
         if session.exit == Exit::Done && self.guard.is_interrupted() {
             session.exit = Exit::Interrupted;
         }

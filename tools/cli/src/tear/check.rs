@@ -27,10 +27,6 @@ pub(super) fn names(args: &TearArgs) -> Names<'_> {
     Names::new(&args.files, &read, &written)
 }
 
-fn refuse(message: String, help: &str) -> Result<(), Stop> {
-    Err(Stop::usage(message, help))
-}
-
 /// The cuts that were typed.
 pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<TimedCut>, Stop> {
     let mut cuts = Vec::new();
@@ -53,7 +49,7 @@ pub(super) fn known_forces(args: &TearArgs, scene: &Scene) -> Result<(), Stop> {
     if args.forces.is_some() && matches!(scene.solver, Method::Provot(_)) {
         let message =
             "`--forces` has nothing to write: Provot's limiter moves vertices without a force";
-        return refuse(message.to_owned(), "--solver verlet or implicit");
+        return Err(Stop::usage(message, "--solver verlet or implicit"));
     }
     Ok(())
 }
@@ -79,7 +75,10 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
     }
     let lack = "is the pull of springs, and this fabric is of triangles";
     if args.threshold_newton.is_some() {
-        return refuse(format!("`--threshold-newton` {lack}"), "take --toughness");
+        return Err(Stop::usage(
+            format!("`--threshold-newton` {lack}"),
+            "take --toughness",
+        ));
     }
     let help = "take toughness_j_per_m or principal_stretch, or add stretch_n_per_m to [fabric]";
     blame(
@@ -91,21 +90,16 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
 
 /// Why a scene cannot be played with this mesh.
 pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
-    let blame = |at, code, message, help: Option<&str>| {
-        let mut fault = source.blame(at, code, message);
-        fault.help = help.map(str::to_owned);
-        fault.into()
-    };
-    match *error {
-        _ if opened.mesh.face_count() == 0 => {}
+    let said = error.to_string();
+    let of_mesh = |message: String, help: &str| Fault::error("E-SIM-MESH", message).help(help);
+    let fault = match *error {
+        _ if opened.mesh.face_count() == 0 => of_mesh(
+            said,
+            "the mesh has no faces that a scene could be played with",
+        ),
         RunError::NoVertices { named_by, number } => {
-            let help = "give it a larger region, or `near` with a place";
-            return blame(
-                (named_by, number, ""),
-                "E-SCENE-EMPTY",
-                error.to_string(),
-                Some(help),
-            );
+            let fault = source.blame((named_by, number, ""), "E-SCENE-EMPTY", said);
+            fault.help("give it a larger region, or `near` with a place")
         }
         RunError::NoVertex {
             named_by,
@@ -119,49 +113,32 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
                 vertex.index() + 1,
                 opened.document.vertex_statement_count()
             );
-            return blame(
-                (named_by, number, "vertices"),
-                "E-SCENE-RANGE",
-                message,
-                None,
-            );
+            source.blame((named_by, number, "vertices"), "E-SCENE-RANGE", message)
         }
         RunError::Simulation(SimulationError::Tearing(TearingError::Axis { .. })) => {
-            return blame(
-                ("tear", 0, "warp"),
-                "E-SCENE-RANGE",
-                error.to_string(),
-                None,
-            );
+            source.blame(("tear", 0, "warp"), "E-SCENE-RANGE", said)
         }
-        RunError::Simulation(SimulationError::Cloth(ClothError::Face { face, warp })) => {
-            return flat(face, warp, opened, source);
-        }
-        _ => {}
-    }
-    let (code, help) = match error {
-        _ if opened.mesh.face_count() == 0 => (
-            "E-SIM-MESH",
-            Some("the mesh has no faces that a scene could be played with"),
-        ),
-        RunError::Simulation(SimulationError::Cloth(ClothError::Length { ends, .. })) => {
-            let [a, b] = ends.map(|v| opened.document.number_of_vertex(v.index()));
-            let message = format!("the vertices {a} and {b} of an edge are at one place");
-            let help = "an edge without length has no strain: take the face out";
-            return Fault::error("E-SIM-MESH", message).help(help).into();
-        }
-        RunError::Simulation(SimulationError::Cloth(ClothError::Mass(_))) => ("E-MASS", None),
-        RunError::Simulation(SimulationError::Cloth(_)) => ("E-SIM-MESH", None),
-        RunError::Times { .. } => ("E-USAGE", Some("take a longer --dt")),
-        _ => ("E-SCENE-RANGE", None),
+        RunError::Simulation(SimulationError::Cloth(ref error)) => match *error {
+            ClothError::Face { face, warp } => flat(face, warp, opened, source),
+            ClothError::Length { ends, .. } => {
+                let [a, b] = ends.map(|v| opened.document.number_of_vertex(v.index()));
+                let message = format!("the vertices {a} and {b} of an edge are at one place");
+                of_mesh(
+                    message,
+                    "an edge without length has no strain: take the face out",
+                )
+            }
+            ClothError::Mass(_) => Fault::error("E-MASS", said),
+            _ => Fault::error("E-SIM-MESH", said),
+        },
+        RunError::Times { .. } => Fault::error("E-USAGE", said).help("take a longer --dt"),
+        _ => Fault::error("E-SCENE-RANGE", said),
     };
-    let mut fault = Fault::error(code, error.to_string());
-    fault.help = help.map(str::to_owned);
     fault.into()
 }
 
 /// A face without area is a fault of the mesh, and one across the warp a fault of the warp.
-fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneFile) -> Stop {
+fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneFile) -> Fault {
     let corners = opened.mesh.face_vertices(face);
     let [a, b, c] = corners.map(|v| opened.positions.as_slice()[v.index()]);
     let number = |v: VertexId| opened.document.number_of_vertex(v.index());
@@ -169,11 +146,11 @@ fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneFile) -> Stop
     if (b - a).cross(&(c - a)) == Vector::zeros() {
         let message = format!("the face {name} has no area at rest");
         let help = "a triangle without area has no strain: take the face out";
-        return Fault::error("E-SIM-MESH", message).help(help).into();
+        return Fault::error("E-SIM-MESH", message).help(help);
     }
     let [x, y, z] = <[f64; 3]>::from(warp);
     let message = format!("the warp ({x}, {y}, {z}) has no direction in the face {name}");
     let help = "name a `warp` in [fabric] that lies in no face's normal";
     let fault = source.blame(("fabric", 0, "warp"), "E-SCENE-RANGE", message);
-    fault.help(help).into()
+    fault.help(help)
 }

@@ -18,6 +18,7 @@ use super::check;
 use crate::args::{TearArgs, Topology};
 use crate::exit::Stop;
 use crate::say::Fault;
+use crate::session::Session;
 use crate::{output, report};
 
 /// How many frames a second.
@@ -56,14 +57,6 @@ struct Frame {
     indices: Rc<Vec<u32>>,
     /// How many vertices had been added.
     sources: usize,
-}
-
-/// What there is to say of the frames.
-#[derive(Default)]
-pub(super) struct Shown {
-    pub(super) report: Option<report::Frames>,
-    pub(super) cache: Option<report::Cache>,
-    pub(super) warnings: Vec<Fault>,
 }
 
 impl Frames {
@@ -140,50 +133,50 @@ impl Frames {
     }
 
     /// Writes the point cache, and then the frames that waited until it is enough; each sample and frame
-    /// is checked against its own mesh.
+    /// is checked against its own mesh. Notes both in the report.
     pub(super) fn finish(
         mut self,
         run: &Run,
         torn: &TornDocument<'_>,
         is_enough: impl Fn() -> bool,
-    ) -> Result<Shown, Stop> {
-        let cache = match &self.cache {
-            Some(path) => Some(self.write_cache(path, run, torn)?),
-            None => None,
-        };
-        let Some(folder) = self.folder.clone() else {
-            return Ok(Shown {
-                cache,
-                ..Shown::default()
-            });
-        };
-        let is_final = self.topology == Topology::Final;
-        let waiting = if is_final { &self.waiting[..] } else { &[] };
-        let (mut checked, mut warnings) = (0, Vec::new());
-        for (number, frame) in waiting.iter().enumerate() {
-            if is_enough() {
-                warnings.push(interrupted(&folder, number, self.count));
-                self.count = number;
-                break;
+        session: &mut Session<'_>,
+    ) -> Result<(), Stop> {
+        let cache = self.cache.as_ref();
+        let cache = cache
+            .map(|path| self.write_cache(path, run, torn))
+            .transpose()?;
+        let mut report = None;
+        if let Some(folder) = self.folder.clone() {
+            let is_final = self.topology == Topology::Final;
+            let waiting = if is_final { &self.waiting[..] } else { &[] };
+            let mut checked = 0;
+            for (number, frame) in waiting.iter().enumerate() {
+                if is_enough() {
+                    session
+                        .faults
+                        .push(interrupted(&folder, number, self.count));
+                    self.count = number;
+                    break;
+                }
+                let (points, corners) = self.checked(number, frame, run.mesh())?;
+                checked += corners;
+                let positions = finite(points)?;
+                self.write(number, |mut out| {
+                    torn.write(run.mesh(), &positions, &mut out)
+                })?;
             }
-            let (points, corners) = self.checked(number, frame, run.mesh())?;
-            checked += corners;
-            let positions = finite(points)?;
-            self.write(number, |mut out| {
-                torn.write(run.mesh(), &positions, &mut out)
-            })?;
-        }
-        warnings.extend(self.left_over(&folder));
-        Ok(Shown {
-            warnings,
-            cache,
-            report: Some(report::Frames {
+            session.faults.extend(self.left_over(&folder));
+            report = Some(report::Frames {
                 folder: folder.display().to_string(),
                 count: self.count,
                 topology: if is_final { "final" } else { "own" },
                 corners_checked: is_final.then_some(checked),
-            }),
-        })
+            });
+        }
+        if let Some(tear) = &mut session.report.tear {
+            (tear.frames, tear.cache) = (report, cache);
+        }
+        Ok(())
     }
 
     /// Writes where every `v` of the last mesh's file is in every frame.
