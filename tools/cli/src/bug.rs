@@ -21,16 +21,11 @@ pub(crate) fn report(args: &[OsString], input: Option<&Input>, broken: &[String]
     let help = match written {
         Ok(()) => format!("this is a bug in tearmesh: please report it, with the file `{NAME}`"),
         Err(fault) => {
-            let why = fault.message;
+            let why = &fault.message;
             format!("this is a bug in tearmesh: please report it ({why})")
         }
     };
-    Fault {
-        code: "E-BUG-INVARIANT",
-        message: broken.join("; "),
-        help: Some(help),
-        ..Fault::default()
-    }
+    Fault::error("E-BUG-INVARIANT", broken.join("; ")).help(help)
 }
 
 fn reproducer(

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use tearmesh::Masses;
+use tearmesh_obj::Level;
 
 use crate::args::{CheckArgs, Format};
 use crate::exit::{Exit, Stop};
@@ -13,7 +14,7 @@ use crate::input::named::named;
 use crate::measure::{Bounds, Edges, Piece};
 use crate::output;
 use crate::report::{Entry, File, Timing};
-use crate::say::{Fault, Severity, count, place, short};
+use crate::say::{Fault, count, place, short};
 use crate::session;
 use crate::streams::Streams;
 
@@ -124,7 +125,7 @@ impl Found {
     fn errors(&self) -> impl Iterator<Item = &Fault> {
         self.faults
             .iter()
-            .filter(|fault| fault.severity == Severity::Error)
+            .filter(|fault| fault.level == Level::Error)
     }
 
     fn exit(&self) -> Exit {

@@ -10,7 +10,7 @@ use tearmesh::{Defect, FaceId, Faces};
 use tearmesh_obj::{Document, MeshError, Repair};
 
 use crate::input::Input;
-use crate::say::{Excerpt, Fault, count};
+use crate::say::{Fault, count, excerpt};
 
 /// How many faces of a defect are shown; its message has the lines of all.
 const SHOWN: usize = 4;
@@ -29,26 +29,22 @@ pub(crate) fn faults(input: &Input, document: Document, error: &MeshError, or: &
     let texts = read(input, wanted.collect());
     let mut faults: Vec<Fault> = shown()
         .map(|(defect, diagnostic)| {
-            let excerpt = |line: usize| {
+            let excerpt_of = |line: usize| {
                 let text = texts.get(&line).filter(|text| !text.is_empty())?;
                 let start = text.len() - text.trim_start().len();
-                Some(Excerpt {
-                    path: input.name.clone(),
-                    line,
-                    text: text.clone(),
-                    first_column: 1,
-                    span: start..text.trim_end().len(),
-                    label: String::new(),
-                })
+                let span = start..text.trim_end().len();
+                Some(excerpt(line, text, span, String::new()))
             };
             // The last face is where a reader noticed.
             let mut lines = lines_of(defect);
             let last = lines.pop();
-            Fault {
-                excerpt: last.and_then(excerpt).map(Box::new),
-                related: lines.into_iter().filter_map(excerpt).collect(),
-                ..Fault::of_file(&input.name, diagnostic)
+            let mut fault = Fault::of_file(&input.name, diagnostic);
+            if let Some((location, excerpt)) = last.and_then(excerpt_of) {
+                fault.location = Some(location);
+                fault.excerpt = Some(excerpt);
             }
+            fault.related = lines.into_iter().filter_map(excerpt_of).collect();
+            fault
         })
         .collect();
     let more = error.error().count() - faults.len();

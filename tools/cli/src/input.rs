@@ -47,10 +47,13 @@ impl Input {
                 let source = Source::File(path.to_owned());
                 return Ok(Input { name, source });
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Fault {
-                help: similar(path).map(|near| format!("did you mean `{}`?", near.display())),
-                ..Fault::error("E-IO-MISSING", format!("there is no file `{name}`"))
-            },
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let fault = Fault::error("E-IO-MISSING", format!("there is no file `{name}`"));
+                match similar(path) {
+                    Some(near) => fault.help(format!("did you mean `{}`?", near.display())),
+                    None => fault,
+                }
+            }
             Err(error) => cannot_read(&name, &error),
         };
         Err(fault.into())

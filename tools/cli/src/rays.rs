@@ -230,6 +230,12 @@ impl Halves {
 mod tests {
     use super::*;
 
+    /// Where a fault is in one line of ASCII.
+    fn span(fault: &Fault) -> Range<usize> {
+        let start = fault.location.expect("a location").column - 1;
+        start..start + fault.excerpt.as_ref().expect("an excerpt").length
+    }
+
     fn read(text: &str) -> Result<[[f64; 3]; 4], (&'static str, usize, usize)> {
         match pair(text, "--rays", 1) {
             Ok([a, b]) => Ok([
@@ -239,7 +245,7 @@ mod tests {
                 b.direction().into(),
             ]),
             Err(fault) => {
-                let span = fault.excerpt.expect("an excerpt").span;
+                let span = span(&fault);
                 Err((fault.code, span.start, span.end))
             }
         }
@@ -301,7 +307,7 @@ mod tests {
     fn planes_are_read_and_what_cannot_be_is_pointed_at() {
         let read = |text: &str| match plane(text, "--plane") {
             Ok(plane) => Ok((plane.point().into(), plane.normal().into())),
-            Err(fault) => Err((fault.code, fault.excerpt.expect("an excerpt").span)),
+            Err(fault) => Err((fault.code, span(&fault))),
         };
         let expected: ([f64; 3], [f64; 3]) = ([-1.0, 0.5, 2.0], [0.0, -1.0, 0.0]);
         assert_eq!(read("-1,.5,2:0,-3,0"), Ok(expected));
@@ -320,6 +326,6 @@ mod tests {
             Some(2)
         );
         let fault = file("\n0,1,5:0,0,-1 # one\n", "rays.txt").expect_err("one ray");
-        assert_eq!(fault.excerpt.map(|excerpt| excerpt.line), Some(2));
+        assert_eq!(fault.location.map(|at| at.line), Some(2));
     }
 }

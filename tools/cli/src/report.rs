@@ -6,9 +6,10 @@ use tearmesh_cloth::Quality;
 use tearmesh_cloth::scene::TearEvent;
 use tearmesh_cloth::scene::ensemble::{Ensemble, Quantity};
 use tearmesh_cloth::statistics::Comparison;
+use tearmesh_obj::Location;
 
 use crate::cut::gap::Gapped;
-use crate::say::{Fault, Severity};
+use crate::say::Fault;
 
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Report {
@@ -368,7 +369,7 @@ pub(crate) struct Timing {
 
 #[derive(Debug, Serialize)]
 pub(crate) struct Entry {
-    level: &'static str,
+    level: String,
     code: &'static str,
     path: Option<String>,
     line: Option<usize>,
@@ -389,26 +390,19 @@ struct Place {
 
 impl Entry {
     pub(crate) fn new(fault: &Fault) -> Entry {
-        let (path, line, column) = match (&fault.excerpt, fault.place.as_deref()) {
-            (Some(at), _) => (Some(at.path.clone()), Some(at.line), Some(at.column())),
-            (None, Some((path, line))) => (Some(path.clone()), Some(*line), None),
-            (None, None) => (None, None, None),
+        let column = fault.location.zip(fault.excerpt.as_ref());
+        let place = |(at, _): &(Location, _)| Place {
+            line: at.line,
+            column: at.column,
         };
         Entry {
-            level: Severity::name(fault.severity),
+            level: fault.level.to_string(),
             code: fault.code,
-            path,
-            line,
-            column,
+            path: fault.location.map(|_| fault.path.clone()),
+            line: fault.location.map(|at| at.line),
+            column: column.map(|(at, _)| at.column),
             message: fault.message.clone(),
-            related: fault
-                .related
-                .iter()
-                .map(|other| Place {
-                    line: other.line,
-                    column: other.column(),
-                })
-                .collect(),
+            related: fault.related.iter().map(place).collect(),
             help: fault.help.clone(),
         }
     }

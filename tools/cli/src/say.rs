@@ -1,194 +1,130 @@
 //! Diagnostics, on a screen and in the report.
 
-use std::ops::Range;
+use std::ops::{Deref, DerefMut, Range};
 
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Group, Level as Title, Origin, Renderer, Snippet};
 use clap::ValueEnum;
-use tearmesh_obj::{Diagnostic, Level as ObjLevel};
+use tearmesh_obj::{Diagnostic, Excerpt, Level, Location};
 
 /// Something that has to be said: an error, a warning or a note.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Fault {
-    pub(crate) severity: Severity,
-    pub(crate) code: &'static str,
-    pub(crate) message: String,
-    /// The file and line concerned, where there is no text to show.
-    pub(crate) place: Option<Box<(String, usize)>>,
-    /// The text concerned.
-    pub(crate) excerpt: Option<Box<Excerpt>>,
+    diagnostic: Box<Diagnostic>,
+    /// The file that it is about, or the option, where it has a location.
+    pub(crate) path: String,
     /// Other lines that have to do with it.
-    pub(crate) related: Vec<Excerpt>,
-    pub(crate) help: Option<String>,
+    pub(crate) related: Vec<(Location, Excerpt)>,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Severity {
-    #[default]
-    Error,
-    Warning,
-    Note,
-}
+impl Deref for Fault {
+    type Target = Diagnostic;
 
-impl Severity {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        }
+    fn deref(&self) -> &Diagnostic {
+        &self.diagnostic
     }
 }
 
-/// A line of text, and the part of it that is meant.
-#[derive(Clone, Debug)]
-pub(crate) struct Excerpt {
-    pub(crate) path: String,
-    pub(crate) line: usize,
-    pub(crate) text: String,
-    /// The column of the first character of `text`, where it is a part of a long line.
-    pub(crate) first_column: usize,
-    /// Bytes of `text`.
-    pub(crate) span: Range<usize>,
-    pub(crate) label: String,
-}
-
-impl Excerpt {
-    /// The column, from 1, at which the part that is meant begins.
-    pub(crate) fn column(&self) -> usize {
-        self.first_column + self.text[..self.span.start].chars().count()
+impl DerefMut for Fault {
+    fn deref_mut(&mut self) -> &mut Diagnostic {
+        &mut self.diagnostic
     }
 }
 
 impl Fault {
-    pub(crate) fn error(code: &'static str, message: impl Into<String>) -> Fault {
-        Fault {
+    fn new(level: Level, code: &'static str, message: String) -> Fault {
+        let diagnostic = Diagnostic {
+            level,
             code,
-            message: message.into(),
-            ..Fault::default()
-        }
+            location: None,
+            message,
+            excerpt: None,
+            help: None,
+        };
+        Fault::of_file("", &diagnostic)
+    }
+
+    pub(crate) fn error(code: &'static str, message: impl Into<String>) -> Fault {
+        Fault::new(Level::Error, code, message.into())
     }
 
     pub(crate) fn warning(code: &'static str, message: impl Into<String>) -> Fault {
-        Fault {
-            severity: Severity::Warning,
-            ..Fault::error(code, message)
-        }
+        Fault::new(Level::Warning, code, message.into())
     }
 
-    pub(crate) fn help(self, help: impl Into<String>) -> Fault {
-        Fault {
-            help: Some(help.into()),
-            ..self
-        }
+    pub(crate) fn note(code: &'static str, message: impl Into<String>) -> Fault {
+        Fault::new(Level::Note, code, message.into())
+    }
+
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Fault {
+        self.help = Some(help.into());
+        self
     }
 
     /// With the place in a text that it is about: bytes of a whole line of a file, or of what was typed.
     pub(crate) fn at(
-        self,
+        mut self,
         (path, line): (&str, usize),
         text: &str,
         span: Range<usize>,
         label: impl Into<String>,
     ) -> Fault {
-        Fault {
-            excerpt: Some(Box::new(Excerpt {
-                path: path.to_owned(),
-                line,
-                text: text.to_owned(),
-                first_column: 1,
-                span,
-                label: label.into(),
-            })),
-            ..self
-        }
+        let (location, excerpt) = excerpt(line, text, span, label.into());
+        self.path = path.to_owned();
+        (self.location, self.excerpt) = (Some(location), Some(excerpt));
+        self
     }
 
     /// What the OBJ library says of a file, with the name of the file.
     pub(crate) fn of_file(path: &str, diagnostic: &Diagnostic) -> Fault {
-        let excerpt = match (&diagnostic.location, &diagnostic.excerpt) {
-            (Some(location), Some(excerpt)) => {
-                let from = location.column.saturating_sub(excerpt.first_column);
-                let byte = |n: usize| {
-                    excerpt
-                        .text
-                        .char_indices()
-                        .nth(n)
-                        .map_or(excerpt.text.len(), |(at, _)| at)
-                };
-                Some(Box::new(Excerpt {
-                    path: path.to_owned(),
-                    line: location.line,
-                    text: excerpt.text.clone(),
-                    first_column: excerpt.first_column,
-                    span: byte(from)..byte(from + excerpt.length),
-                    label: excerpt.label.clone(),
-                }))
-            }
-            _ => None,
-        };
         Fault {
-            severity: match diagnostic.level {
-                ObjLevel::Error => Severity::Error,
-                ObjLevel::Warning => Severity::Warning,
-                ObjLevel::Note => Severity::Note,
-            },
-            code: diagnostic.code,
-            message: diagnostic.message.clone(),
-            place: diagnostic
-                .location
-                .map(|at| Box::new((path.to_owned(), at.line))),
-            excerpt,
+            diagnostic: Box::new(diagnostic.clone()),
+            path: path.to_owned(),
             related: Vec::new(),
-            help: diagnostic.help.clone(),
         }
     }
 
     /// All in one line, without the name of the file.
     pub(crate) fn line(&self) -> String {
-        let place = match (&self.excerpt, &self.place) {
-            (Some(at), _) if self.related.is_empty() => {
-                format!("line {}, column {}: ", at.line, at.column())
+        let (message, code) = (&self.message, self.code);
+        match self.location {
+            Some(at) if !self.related.is_empty() => {
+                format!("line {}: {message}  [{code}]", at.line)
             }
-            (Some(at), _) => format!("line {}: ", at.line),
-            (None, Some(place)) => format!("line {}: ", place.1),
-            (None, None) => String::new(),
-        };
-        format!("{place}{}  [{}]", self.message, self.code)
+            _ => format!("{}  [{code}]", **self),
+        }
     }
 
     pub(crate) fn render(&self, colored: bool) -> String {
-        let level = match self.severity {
-            Severity::Error => Level::ERROR,
-            Severity::Warning => Level::WARNING,
-            Severity::Note => Level::NOTE,
+        let level = match self.level {
+            Level::Error => Title::ERROR,
+            Level::Warning => Title::WARNING,
+            Level::Note => Title::NOTE,
         };
         let mut group = Group::with_title(level.primary_title(&*self.message).id(self.code));
-        if let Some(excerpt) = &self.excerpt {
+        if let Some((at, excerpt)) = self.location.zip(self.excerpt.as_ref()) {
             let label = Some(&*excerpt.label).filter(|label| !label.is_empty());
-            let annotation = AnnotationKind::Primary
-                .span(excerpt.span.clone())
-                .label(label);
-            let mut snippet = Snippet::source(&*excerpt.text)
-                .line_start(excerpt.line)
-                .annotation(annotation);
+            let span = bytes(at, excerpt);
+            let annotation = AnnotationKind::Primary.span(span).label(label);
+            let snippet = Snippet::source(&*excerpt.text).line_start(at.line);
+            let mut snippet = snippet.annotation(annotation);
             if excerpt.first_column == 1 {
-                snippet = snippet.path(&*excerpt.path);
+                snippet = snippet.path(&*self.path);
             } else {
                 // The column counts from the beginning of the line, not of the excerpt.
-                let origin = Origin::path(&*excerpt.path);
-                group = group.element(origin.line(excerpt.line).char_column(excerpt.column()));
+                let origin = Origin::path(&*self.path);
+                group = group.element(origin.line(at.line).char_column(at.column));
             }
             group = group.element(snippet);
-            for other in &self.related {
-                let annotation = AnnotationKind::Context.span(other.span.clone());
-                let snippet = Snippet::source(&*other.text).line_start(other.line);
-                group = group.element(snippet.path(&*other.path).annotation(annotation));
+            for (at, excerpt) in &self.related {
+                let annotation = AnnotationKind::Context.span(bytes(*at, excerpt));
+                let snippet = Snippet::source(&*excerpt.text).line_start(at.line);
+                group = group.element(snippet.path(&*self.path).annotation(annotation));
             }
-        } else if let Some((path, line)) = self.place.as_deref() {
-            group = group.element(Origin::path(&**path).line(*line));
+        } else if let Some(at) = self.location {
+            group = group.element(Origin::path(&*self.path).line(at.line));
         }
         if let Some(help) = &self.help {
-            group = group.element(Level::HELP.message(&**help));
+            group = group.element(Title::HELP.message(&**help));
         }
         let renderer = if colored {
             Renderer::styled()
@@ -197,6 +133,31 @@ impl Fault {
         };
         renderer.render(&[group])
     }
+}
+
+/// The place of bytes of a line, and the line.
+pub(crate) fn excerpt(
+    line: usize,
+    text: &str,
+    span: Range<usize>,
+    label: String,
+) -> (Location, Excerpt) {
+    let column = text[..span.start].chars().count() + 1;
+    let excerpt = Excerpt {
+        text: text.to_owned(),
+        first_column: 1,
+        length: text[span].chars().count(),
+        label,
+    };
+    (Location { line, column }, excerpt)
+}
+
+/// The bytes of an excerpt that are meant.
+fn bytes(at: Location, excerpt: &Excerpt) -> Range<usize> {
+    let text = &excerpt.text;
+    let byte = |n| text.char_indices().nth(n).map_or(text.len(), |(at, _)| at);
+    let from = at.column.saturating_sub(excerpt.first_column);
+    byte(from)..byte(from + excerpt.length)
 }
 
 /// When to use colours.

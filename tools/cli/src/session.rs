@@ -15,7 +15,7 @@ use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::input::Input;
 use crate::report::{self, Entry, Report, Timing};
-use crate::say::{Fault, Severity, count, short};
+use crate::say::{Fault, count, short};
 use crate::streams::Streams;
 use crate::{bug, defects, files, output, page, picture};
 
@@ -227,10 +227,7 @@ impl<'a> Session<'a> {
                 "duplicates of vertices were written, because their",
             );
             let message = format!("{copies} faces no longer share an edge");
-            self.faults.push(Fault {
-                severity: Severity::Note,
-                ..Fault::error("W-OBJ-FANS", message)
-            });
+            self.faults.push(Fault::note("W-OBJ-FANS", message));
         }
         Ok(())
     }
@@ -292,13 +289,13 @@ impl<'a> Session<'a> {
             }
             exit = Exit::Output;
         }
-        let Err(fault) = self.print(exit, streams) else {
+        let Err(mut fault) = self.print(exit, streams) else {
             return exit;
         };
         let written = self.file().filter(|_| self.report.output.is_some());
         let written = written.map(|path| format!("`{}` was written", path.display()));
-        let help = written.or(fault.help);
-        self.faults.push(Fault { help, ..fault });
+        fault.help = written.or(fault.help.take());
+        self.faults.push(fault);
         self.show(streams);
         if keeps_report {
             // So that it tells what the exit status does. If it cannot be written, that was said.

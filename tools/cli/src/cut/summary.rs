@@ -123,9 +123,10 @@ pub(crate) fn warnings(
     ]);
     let due = rows.filter(|(_, is_due, _)| *is_due);
     let extent = extent.filter(|_| cut.missed);
-    let warned = due.map(|(code, _, message)| Fault {
-        help: extent.and_then(|extent| help(reason, extent)),
-        ..warning(code, number, &message)
+    let warned = due.map(|(code, _, message)| {
+        let mut fault = warning(code, number, &message);
+        fault.help = extent.and_then(|extent| help(reason, extent));
+        fault
     });
     warned.collect()
 }

@@ -187,7 +187,7 @@ impl SceneFile {
 
 /// In the order of the text.
 pub(super) fn sorted(mut faults: Vec<Fault>) -> Vec<Fault> {
-    faults.sort_by_key(|fault| fault.excerpt.as_ref().map(|at| (at.line, at.span.start)));
+    faults.sort_by_key(|fault| fault.location);
     faults
 }
 

@@ -8,7 +8,7 @@ use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError};
 use super::frames::RATE_PER_S;
 use super::summary::has_limited;
 use crate::args::TearArgs;
-use crate::say::{Fault, Severity, count, short, three_digits, two_digits};
+use crate::say::{Fault, count, short, three_digits, two_digits};
 
 /// What is known before the first step. `number` is that of a vertex in its file.
 pub(crate) fn before(run: &Run, frame: &Frame, number: &dyn Fn(usize) -> usize) -> Vec<Fault> {
@@ -222,19 +222,14 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             )
         }
     };
-    let severity = match warning {
-        _ if has_failed => Severity::Error,
-        Warning::Rigid | Warning::Strong { .. } | Warning::Damped { .. } => Severity::Note,
-        _ => Severity::Warning,
+    let (code, say): (_, fn(&'static str, String) -> Fault) = match warning {
+        _ if has_failed => ("E-SIM-ENERGY", Fault::error),
+        Warning::Rigid | Warning::Strong { .. } | Warning::Damped { .. } => {
+            (warning.code(), Fault::note)
+        }
+        _ => (warning.code(), Fault::warning),
     };
-    let code = match has_failed {
-        true => "E-SIM-ENERGY",
-        false => warning.code(),
-    };
-    Fault {
-        severity,
-        ..Fault::error(code, message).help(help)
-    }
+    say(code, message).help(help)
 }
 
 /// Whether the method has made so much energy that the run shows nothing of the cloth: more than three times what
@@ -443,7 +438,7 @@ mod tests {
             let endless = faults
                 .into_iter()
                 .find(|fault| fault.code == "W-SIM-ENDLESS");
-            endless.map(|fault| fault.message)
+            endless.map(|fault| fault.message.clone())
         };
         let message = warned(Method::Verlet).expect("a warning");
         assert!(message.contains("the edge 4-3 may swing at "), "{message}");
