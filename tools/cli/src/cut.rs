@@ -119,12 +119,10 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     }
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
-    let clock = Clock::start();
     let ledger = masses.ledger();
     let moved = || session::moved(&document, &mesh, &positions);
-    let broken = if slid { None } else { moved() };
+    let broken = (!slid).then(moved).flatten();
     let mass = session.verify(&mesh, &ledger, report::MassUnit::Area, broken)?;
-    session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
     if edits.cursor() == Cursor::START && !args.allow_miss {
         return Err(session.nothing_done());
     }
@@ -224,14 +222,9 @@ fn between(
 
 /// The options that the report repeats.
 fn how(args: &CutArgs) -> report::How {
-    let is_exact = args.method == CutMethod::Exact;
-    report::How {
-        method: args.method.word(),
-        through: args.through || !args.plane.is_empty(),
-        tips: args.tips.word(),
-        snap: is_exact.then_some(args.snap),
-        snap_move: is_exact.then_some(args.snap_move),
-    }
+    let through = args.through || !args.plane.is_empty();
+    let snap = (args.snap, args.snap_move);
+    report::How::new(args.method, through, args.tips.word(), snap)
 }
 
 /// Refuses options that do not go together: when, what is said, and what helps.

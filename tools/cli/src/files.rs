@@ -30,7 +30,7 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
     }
     let output = args.output.as_ref();
     if let Some((path, help)) = output.and_then(|path| Some((path, foreign(path)?))) {
-        return Err(only("OBJ", path, help));
+        return Err(only("OBJ", path, &help));
     }
     args.picture.as_deref().map_or(Ok(()), check_picture)?;
     args.view.as_deref().map_or(Ok(()), check_page)?;
@@ -169,36 +169,25 @@ fn has_ending(path: &Path, endings: &[&str]) -> bool {
 }
 
 /// What to do instead, if a file's name promises a format that is not OBJ.
-fn foreign(path: &Path) -> Option<&'static str> {
+fn foreign(path: &Path) -> Option<String> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();
     let of = |(endings, _): &&(&[&str], _)| endings.contains(&&*ending);
-    FOREIGN.iter().find(of).map(|&(_, help)| help)
+    let found = FOREIGN.iter().find(of);
+    found.map(|(_, help)| format!("name it x.obj, and {help}"))
 }
 
 const FOREIGN: [(&[&str], &str); 5] = [
-    (
-        &["png"],
-        "name it x.obj, and draw a picture with --picture F.png",
-    ),
-    (
-        &["htm", "html"],
-        "name it x.obj, and show it on a page with --view F.html",
-    ),
-    (
-        &["pc2"],
-        "name it x.obj, and write the cache of `tear` with --cache F.pc2",
-    ),
-    (
-        &["json"],
-        "name it x.obj, and write the report with --report F.json",
-    ),
+    (&["png"], "draw a picture with --picture F.png"),
+    (&["htm", "html"], "show it on a page with --view F.html"),
+    (&["pc2"], "write the cache of `tear` with --cache F.pc2"),
+    (&["json"], "write the report with --report F.json"),
     (
         &[
             "3ds", "3mf", "abc", "blend", "bmp", "dae", "dxf", "fbx", "glb", "gltf", "jpeg", "jpg",
             "mdd", "mtl", "off", "ply", "step", "stl", "stp", "svg", "usd", "usda", "usdc", "usdz",
             "vtk", "vtp", "vtu", "wrl", "x3d",
         ],
-        "name it x.obj, and convert that, as with `assimp export x.obj x.ply`",
+        "convert that, as with `assimp export x.obj x.ply`",
     ),
 ];
 

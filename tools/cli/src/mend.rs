@@ -51,15 +51,10 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     close_gaps(&mut torn, &mesh, &edits, vertices_before);
     session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
 
-    let clock = Clock::start();
     let mut ledger = masses.ledger();
-    let broken = if moves {
-        None
-    } else {
-        session::moved(&document, &mesh, &positions)
-    };
+    let moved = || session::moved(&document, &mesh, &positions);
+    let broken = (!moves).then(moved).flatten();
     let mut mass = session.verify(&mesh, &ledger, report::MassUnit::Area, broken)?;
-    session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
 
     let Simplified {
         document: simplified,

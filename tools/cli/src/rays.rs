@@ -66,14 +66,10 @@ pub(crate) fn pair(text: &str, origin: &str, line: usize) -> Result<Pair, Fault>
         let fault = Fault::error("E-RAY-COUNT", message).at(at, text, last, label);
         return Err(fault.help(PAIR_HELP));
     };
-    let read = |span: Range<usize>| {
-        ray(&text[span.clone()]).map_err(|wrong| {
-            let part = span.start + wrong.part.start..span.start + wrong.part.end;
-            let fault = Fault::error(wrong.code, wrong.message);
-            fault.at(at, text, part, wrong.label).help(RAY_HELP)
-        })
+    let read = |span: &Range<usize>| {
+        ray(&text[span.clone()]).map_err(|wrong| wrong.at(at, text, span.start, RAY_HELP))
     };
-    Ok([read(a.clone())?, read(b.clone())?])
+    Ok([read(a)?, read(b)?])
 }
 
 /// How to write two rays.
@@ -104,13 +100,22 @@ pub(crate) fn file(text: &str, path: &str) -> Result<Vec<Pair>, Fault> {
     Ok(pairs)
 }
 
-/// What is wrong with the text of a ray, and where.
+/// What is wrong with a text, and where.
 #[derive(Debug)]
 pub(crate) struct Unreadable {
     pub(crate) code: &'static str,
     pub(crate) message: String,
     pub(crate) part: Range<usize>,
     pub(crate) label: &'static str,
+}
+
+impl Unreadable {
+    /// The fault, where the text begins at a byte of a line.
+    fn at(self, place: (&str, usize), line: &str, begin: usize, help: &str) -> Fault {
+        let part = begin + self.part.start..begin + self.part.end;
+        let fault = Fault::error(self.code, self.message);
+        fault.at(place, line, part, self.label).help(help)
+    }
 }
 
 /// Reads one ray.
@@ -124,13 +129,17 @@ pub(crate) fn ray(text: &str) -> Result<Ray, Unreadable> {
         false => Vector::from(second),
     };
     Ray::new(origin, direction).map_err(|error| {
-        let message = error.to_string();
         let (half, label) = match error {
             RayError::Origin { .. } => (0, "expected an origin that is less far away"),
             RayError::Direction { .. } if is_aimed => (1, "expected a point other than the origin"),
             RayError::Direction { .. } => (1, "expected a direction"),
         };
-        halves.refused(half, "E-RAY-ZERO", message, label)
+        Unreadable {
+            code: "E-RAY-ZERO",
+            message: error.to_string(),
+            part: halves.parts[half].clone(),
+            label,
+        }
     })
 }
 
@@ -140,19 +149,20 @@ pub(crate) fn plane(text: &str, origin: &str) -> Result<Plane, Fault> {
         let halves = Halves::read(text, "plane", &[":"], "expected `:` and a normal")?;
         let [point, normal] = halves.numbers;
         Plane::new(point.into(), normal.into()).map_err(|error| {
-            let message = error.to_string();
             let (half, label) = match error {
                 PlaneError::Point { .. } => (0, "expected a point that is less far away"),
                 PlaneError::Normal { .. } => (1, "expected a normal"),
             };
-            halves.refused(half, "E-PLANE-ZERO", message, label)
+            Unreadable {
+                code: "E-PLANE-ZERO",
+                message: error.to_string(),
+                part: halves.parts[half].clone(),
+                label,
+            }
         })
     };
-    read().map_err(|wrong: Unreadable| {
-        let fault = Fault::error(wrong.code, wrong.message);
-        let fault = fault.at((origin, 1), text, wrong.part, wrong.label);
-        fault.help("write point:normal, as in --plane 0,0.5,0:0,1,0")
-    })
+    let help = "write point:normal, as in --plane 0,0.5,0:0,1,0";
+    read().map_err(|wrong: Unreadable| wrong.at((origin, 1), text, 0, help))
 }
 
 /// Two triples of numbers, and the mark between them.
@@ -206,23 +216,6 @@ impl Halves {
             parts,
             mark,
         })
-    }
-
-    /// Numbers that make no ray or plane, because of one half.
-    fn refused(
-        &self,
-        half: usize,
-        code: &'static str,
-        message: String,
-        label: &'static str,
-    ) -> Unreadable {
-        let part = self.parts[half].clone();
-        Unreadable {
-            code,
-            message,
-            part,
-            label,
-        }
     }
 }
 

@@ -1,13 +1,14 @@
 //! The JSON report. Others rely on these names: add more, rename none.
 
 use serde::Serialize;
-use tearmesh::{CutReport, Mesh, Point, Ray, Scissor, Vector};
+use tearmesh::{CutMethod, CutReport, Mesh, Point, Ray, Scissor, Vector};
 use tearmesh_cloth::Quality;
 use tearmesh_cloth::scene::TearEvent;
 use tearmesh_cloth::scene::ensemble::{Ensemble, Quantity};
 use tearmesh_cloth::statistics::Comparison;
 use tearmesh_obj::Location;
 
+use crate::choice::Choice as _;
 use crate::cut::gap::Gapped;
 use crate::say::Fault;
 
@@ -102,6 +103,25 @@ pub(crate) struct How {
     pub(crate) snap: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) snap_move: Option<bool>,
+}
+
+impl How {
+    /// The part of an edge within which crossings snap, and whether vertices move then, are of one method.
+    pub(crate) fn new(
+        method: CutMethod,
+        through: bool,
+        tips: &'static str,
+        (snap, snap_move): (f64, bool),
+    ) -> How {
+        let is_exact = method == CutMethod::Exact;
+        How {
+            method: method.word(),
+            through,
+            tips,
+            snap: is_exact.then_some(snap),
+            snap_move: is_exact.then_some(snap_move),
+        }
+    }
 }
 
 /// The point cache of a simulation.

@@ -72,6 +72,7 @@ impl<'a> Session<'a> {
             }
             work(&mut session, streams)
         }));
+        let mut broken = Vec::new();
         let exit = match ended {
             Ok(Ok(())) => session.exit,
             Ok(Err(Stop { exit, faults })) => {
@@ -81,15 +82,13 @@ impl<'a> Session<'a> {
             Err(panic) => {
                 let text = panic.downcast_ref::<String>().map(String::as_str);
                 let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-                let broken = [text.unwrap_or("a panic without words").to_owned()];
-                let fault = bug::report(typed, session.input.as_ref(), &broken);
-                session.faults.push(fault);
+                broken.push(text.unwrap_or("a panic without words").to_owned());
                 Exit::Bug
             }
         };
-        if exit == Exit::Bug && !session.report.invariants.violations.is_empty() {
-            let broken = &session.report.invariants.violations;
-            let fault = bug::report(typed, session.input.as_ref(), broken);
+        broken.extend_from_slice(&session.report.invariants.violations);
+        if exit == Exit::Bug && !broken.is_empty() {
+            let fault = bug::report(typed, session.input.as_ref(), &broken);
             session.faults.push(fault);
         }
         session.tell(exit, streams)
@@ -117,6 +116,7 @@ impl<'a> Session<'a> {
         unit: report::MassUnit,
         broken: Option<String>,
     ) -> Result<report::Mass, Stop> {
+        let clock = Clock::start();
         let mass = self.say_mass(ledger, unit);
         self.report.invariants.checked = true;
         let violations = &mut self.report.invariants.violations;
@@ -126,14 +126,12 @@ impl<'a> Session<'a> {
             let report::Mass { before, after, .. } = mass;
             violations.push(format!("I20 (mass): {before:e} became {after:e}"));
         }
-        if violations.is_empty() {
-            Ok(mass)
-        } else {
-            Err(Stop {
-                exit: Exit::Bug,
-                faults: Vec::new(),
-            })
+        if !violations.is_empty() {
+            let (exit, faults) = (Exit::Bug, Vec::new());
+            return Err(Stop { exit, faults });
         }
+        self.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
+        Ok(mass)
     }
 
     /// Notes the mass before and after for the report, and gives both.
@@ -185,10 +183,8 @@ impl<'a> Session<'a> {
             last.message.push_str(&format!(". {name} not written"));
         }
         self.words.clear();
-        Stop {
-            exit: Exit::NothingCut,
-            faults: Vec::new(),
-        }
+        let (exit, faults) = (Exit::NothingCut, Vec::new());
+        Stop { exit, faults }
     }
 
     /// Refuses places that could not be written: before work that takes long.

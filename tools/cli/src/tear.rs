@@ -10,6 +10,7 @@ mod summary;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::PathBuf;
 
 use indicatif::ProgressBar;
 use tearmesh::{Cursor, Scissor, VertexId};
@@ -22,7 +23,6 @@ use self::frames::{Frames, places};
 use self::recorder::Recorder;
 use self::still::Still;
 use crate::args::{Format, TearArgs};
-use crate::choice::Choice as _;
 use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
@@ -73,7 +73,10 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
         scene.duration_s = seconds;
     }
     scene.step_s = args.dt.or(scene.step_s);
-    if let Some(threshold) = threshold(args.threshold, args.toughness, args.threshold_newton) {
+    let stretch = args.threshold.map(Threshold::Stretch);
+    let toughness = args.toughness.map(Threshold::Toughness);
+    let force = args.threshold_newton.map(Threshold::Force);
+    if let Some(threshold) = stretch.or(toughness).or(force) {
         let tearing = scene.tearing.get_or_insert(Tearing::new(threshold));
         tearing.threshold = threshold;
     }
@@ -95,18 +98,6 @@ pub(crate) fn name_vertices(scene: &mut Scene, document: &Document) {
             }
         }
     }
-}
-
-/// The threshold that was typed, if any.
-fn threshold(
-    ratio: Option<f64>,
-    toughness_j_per_m: Option<f64>,
-    newtons: Option<f64>,
-) -> Option<Threshold> {
-    ratio
-        .map(Threshold::Stretch)
-        .or(toughness_j_per_m.map(Threshold::Toughness))
-        .or(newtons.map(Threshold::Force))
 }
 
 /// A scene that is about to be played.
@@ -157,12 +148,17 @@ impl Play<'_> {
         let pieces_before = run.mesh().components().count();
         let vertices_before = run.mesh().vertex_count();
         let torn_before_m = run.torn_length_m();
+        let files = &self.args.files;
+        let wanted = |path: &Option<PathBuf>| path.is_some() && !files.dry_run;
+        let name = files.input.display().to_string();
+        let title = format!("{}: {}", crate::page::title(Some(&name)), self.name);
+        let up = self.frame.up.vector();
         let mut records = Records {
             torn: TornDocument::new(&self.opened.document),
             frames: Frames::open(self.args, &run)?,
             tear_log: TearLog::new(&run),
-            recorder: self.recorder(),
-            still: self.still(),
+            recorder: wanted(&files.view).then(|| Recorder::new(&title, up)),
+            still: wanted(&files.picture).then(|| Still::new(self.args.picture_at)),
         };
         session.check_places()?; // One may be in the folder of the frames.
         let clock = Clock::start();
@@ -170,12 +166,10 @@ impl Play<'_> {
         let simulated = clock.milliseconds();
         session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
 
-        let clock = Clock::start();
         let ledger = run.cloth().masses().ledger();
         let unit = report::MassUnit::Kilogram;
         let broken = summary::momentum_broken(&run);
         let mass = session.verify(run.mesh(), &ledger, unit, broken)?;
-        session.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
 
         let pieces = run.mesh().components().count();
         let tally = run.tally();
@@ -261,7 +255,7 @@ impl Play<'_> {
         let kept = records.still.as_ref().and_then(Still::kept);
         let (mesh, points) = kept.unwrap_or(end);
         let document = &self.opened.document;
-        session.show_mesh(document, mesh, points, self.frame.up.vector())?;
+        session.show_mesh(document, mesh, points, up)?;
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {
             output::write(path, |out| {
@@ -271,22 +265,6 @@ impl Play<'_> {
         let mesh = run.mesh();
         session.end(vertices_before, mesh, mass);
         self.finish(records, &run, session)
-    }
-
-    /// A page to play it on, if one is wanted.
-    fn recorder(&self) -> Option<Recorder> {
-        let files = &self.args.files;
-        let name = files.input.display().to_string();
-        let title = format!("{}: {}", crate::page::title(Some(&name)), self.name);
-        let is_wanted = files.view.is_some() && !files.dry_run;
-        is_wanted.then(|| Recorder::new(&title, self.frame.up.vector()))
-    }
-
-    /// The moment of the picture, if one is wanted.
-    fn still(&self) -> Option<Still> {
-        let files = &self.args.files;
-        let is_wanted = files.picture.is_some() && !files.dry_run;
-        is_wanted.then(|| Still::new(self.args.picture_at))
     }
 
     /// Writes the page, which ends with the mesh as it was written, and then the frames that waited.
@@ -381,13 +359,7 @@ impl Play<'_> {
         let Ok(scissor) = Scissor::new(cut.rays[0], cut.rays[1]) else {
             return; // It was made with these rays.
         };
-        let how = report::How {
-            method: cut.method.word(),
-            through: cut.through,
-            tips: "vertex",
-            snap: (cut.method == tearmesh::CutMethod::Exact).then_some(Scissor::SNAP),
-            snap_move: (cut.method == tearmesh::CutMethod::Exact).then_some(false),
-        };
+        let how = report::How::new(cut.method, cut.through, "vertex", (Scissor::SNAP, false));
         let entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
         session.report.cuts.push(entry);
         let many = (scene.cuts.len() > 1).then_some(made.number + 1);
