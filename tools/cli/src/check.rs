@@ -106,13 +106,13 @@ impl Found {
         let (path, measured) = match file {
             Ok(path) => {
                 let measured = measure(&path, &mut faults, streams);
-                (path, measured.map_err(|stop| stop.faults))
+                (path, measured)
             }
-            Err((path, fault)) => (path, Err(vec![fault])),
+            Err((path, fault)) => (path, Err(fault.into())),
         };
         let (mesh, why) = match measured {
             Ok(measured) => (Some(measured), Vec::new()),
-            Err(why) => (None, why),
+            Err(stop) => (None, stop.faults),
         };
         faults.extend(why.into_iter().map(|fault| match fault.code {
             "E-IO-DIRECTORY" => fault.help("add -r, to check the OBJ files in it"),

@@ -56,20 +56,14 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let broken = (!moves).then(moved).flatten();
     let mut mass = session.verify(&mesh, &ledger, report::MassUnit::Area, broken)?;
 
-    let Simplified {
-        document: simplified,
-        edited,
-        slid_back,
-        slid_edited,
-        ..
-    } = if args.simplify {
-        let simplified = torn.simplified(&mesh, &positions);
-        simplified.expect("what we wrote can be read")
-    } else {
-        Simplified::default()
+    let simplified = match args.simplify {
+        true => torn.simplified(&mesh, &positions),
+        false => Ok(Simplified::default()),
     };
+    let simplified = simplified.expect("what we wrote can be read");
+    let (edited, slid_edited) = (simplified.edited, simplified.slid_edited);
     session.faults.extend(kept(edited, slid_edited));
-    if merged == 0 && simplified.is_none() {
+    if merged == 0 && simplified.document.is_none() {
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
         let mut fault = Fault::warning("W-MEND-NONE", message);
@@ -84,8 +78,8 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
                 "pairs of boundary edges lie",
             );
             fault.message = format!("the file has no record of cuts; {edges} on each other");
-            fault.help =
-                Some("if another program dropped the record, --coincident sews them".to_owned());
+            let help = "if another program dropped the record, --coincident sews them";
+            fault = fault.help(help);
         }
         session.faults.push(fault);
         return Err(session.nothing_done());
@@ -93,18 +87,18 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let cuts_left = torn.cuts().len();
     let faces_before = mesh.face_count();
     let vertices_mended = mesh.vertex_count();
-    if let Some(document) = &simplified {
+    if let Some(document) = &simplified.document {
         mesh = document.mesh().expect("what was written can be read");
         let points = document.positions().iter().copied();
         positions = Positions::new(points).expect("they were usable");
     }
-    if moves || slid_back > 0 {
+    if moves || simplified.slid_back > 0 {
         // What was moved spans another area: the mass is that of what is written.
         let masses = Masses::area(&mesh, &positions, 1.0).map_err(Fault::from)?;
         ledger.after = masses.ledger().after;
         mass = session.say_mass(&ledger, report::MassUnit::Area);
     }
-    let simple = simplified.as_ref().map(TornDocument::new);
+    let simple = simplified.document.as_ref().map(TornDocument::new);
     let torn = simple.as_ref().unwrap_or(&torn);
     let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill, streams)?;
@@ -117,7 +111,7 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         cuts_left,
         vertices_removed: taken_out,
         vertices_edited: edited,
-        vertices_slid_back: slid_back,
+        vertices_slid_back: simplified.slid_back,
         vertices_slid_edited: slid_edited,
         faces_removed: faces_before - mesh.face_count(),
         pieces_before,
@@ -129,16 +123,19 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         count(pieces_before, "piece", "pieces"),
         count(pieces, "piece", "pieces"),
     );
-    if taken_out > 0 {
-        let taken_out = count(taken_out, "inserted vertex", "inserted vertices");
-        words += &format!(", {taken_out} removed");
-    }
-    if slid_back > 0 {
-        let slid_back = count(slid_back, "vertex", "vertices");
-        words += &format!(", {slid_back} moved back");
-    }
-    if cuts_left > 0 {
-        words += &format!(", {} left", count(cuts_left, "cut", "cuts"));
+    let slid_back = count(simplified.slid_back, "vertex", "vertices");
+    for (number, what, done) in [
+        (
+            taken_out,
+            count(taken_out, "inserted vertex", "inserted vertices"),
+            "removed",
+        ),
+        (simplified.slid_back, slid_back, "moved back"),
+        (cuts_left, count(cuts_left, "cut", "cuts"), "left"),
+    ] {
+        if number > 0 {
+            words += &format!(", {what} {done}");
+        }
     }
     session.words.push(words);
     session.end(vertices_before, &mesh, mass);

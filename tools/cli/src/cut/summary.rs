@@ -85,41 +85,26 @@ pub(crate) fn warnings(
         "exact" => "the part to cut off is smaller than the snap",
         _ => "the mesh has no edges for the cut to follow",
     };
+    let missed = format!("no face lies {place_of_cut}{missed}");
+    let uncut = format!("the cut crosses {crossed}, {uncut}");
     let necks = cut.necks.iter().map(|neck| {
         let (at, width) = (place(neck.at.into()), short(neck.width));
         let faces = count(neck.faces, "face", "faces");
         let hung = format!("it hung on a neck {width} wide, which is narrower than the snap");
-        (
-            "W-CUT-NECK",
-            is_cut,
-            format!("a piece of {faces} came off at {at}: {hung}"),
-        )
+        let message = format!("a piece of {faces} came off at {at}: {hung}");
+        ("W-CUT-NECK", is_cut, message)
     });
-    let shared = "the two sides still share a vertex between the rays";
+    let loose = format!("{crumb} came loose beside the cut");
+    let lost = format!("{lost} stayed joined: {why_lost}");
+    let shared = "the two sides still share a vertex between the rays".to_owned();
     let rows = [
-        (
-            "W-CUT-MISS",
-            cut.missed,
-            format!("no face lies {place_of_cut}{missed}"),
-        ),
-        (
-            "W-CUT-NONE",
-            !cut.missed && !is_cut,
-            format!("the cut crosses {crossed}, {uncut}"),
-        ),
+        ("W-CUT-MISS", cut.missed, missed),
+        ("W-CUT-NONE", !cut.missed && !is_cut, uncut),
     ];
     let rows = rows.into_iter().chain(necks).chain([
-        (
-            "W-CUT-CRUMBS",
-            is_cut && crumbs > 0,
-            format!("{crumb} came loose beside the cut"),
-        ),
-        (
-            "W-CUT-LOST",
-            is_cut && cut.lost > 0,
-            format!("{lost} stayed joined: {why_lost}"),
-        ),
-        ("W-CUT-JOINED", is_cut && !cut.separated, shared.to_owned()),
+        ("W-CUT-CRUMBS", is_cut && crumbs > 0, loose),
+        ("W-CUT-LOST", is_cut && cut.lost > 0, lost),
+        ("W-CUT-JOINED", is_cut && !cut.separated, shared),
     ]);
     let due = rows.filter(|(_, is_due, _)| *is_due);
     let extent = extent.filter(|_| cut.missed);
