@@ -7,14 +7,13 @@ mod method;
 mod read;
 mod schema;
 
-use std::io::Read as _;
 use std::path::Path;
 
 pub(crate) use self::read::SceneFile;
 pub(crate) use self::schema::schema;
 use crate::choice::{Choice as _, Preset};
 use crate::exit::Stop;
-use crate::input::{Input, cannot_read};
+use crate::input::Input;
 use crate::say::Fault;
 use crate::streams::Streams;
 
@@ -32,14 +31,7 @@ impl SceneFile {
             return Err(fault.help(help).into());
         }
         let file = Input::find(Path::new(name), streams.input)?;
-        let mut bytes = Vec::new();
-        let read = file.open()?.read_to_end(&mut bytes);
-        read.map_err(|error| cannot_read(&file.name, &error))?;
-        let Ok(text) = String::from_utf8(bytes) else {
-            let message = format!("`{name}` is not a text in UTF-8");
-            return Err(Fault::error("E-SCENE-SYNTAX", message).into());
-        };
-        Ok(SceneFile::read(&file.name, &text)?)
+        Ok(SceneFile::read(&file.name, &file.text()?)?)
     }
 
     /// As it is called in the report.

@@ -31,9 +31,7 @@ impl Along {
 pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Along>, Stop> {
     if !args.plane.is_empty() {
         let planes = args.plane.iter().map(|text| rays::plane(text, "--plane"));
-        return Ok(planes
-            .map(|plane| plane.map(Along::Plane))
-            .collect::<Result<_, _>>()?);
+        return planes.map(|plane| Ok(Along::Plane(plane?))).collect();
     }
     if let Some(look) = args.camera.camera {
         let pairs = seen(&args.camera, look)?;

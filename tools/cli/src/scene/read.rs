@@ -71,8 +71,6 @@ impl Table {
 impl SceneFile {
     /// Reads a scene file, or says everything that is wrong with it.
     pub(super) fn read(path: &str, text: &str) -> Result<SceneFile, Vec<Fault>> {
-        // A mark of the byte order is no column.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Text {
             path: path.to_owned(),
             text: text.to_owned(),
