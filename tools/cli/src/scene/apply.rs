@@ -47,7 +47,7 @@ impl SceneFile {
         if let Some(table) = self.table("tear") {
             match self.tear(table, frame) {
                 Ok(tearing) => scene.tearing = tearing,
-                Err(fault) => faults.push(*fault),
+                Err(fault) => faults.push(fault),
             }
         }
         match faults.is_empty() {
@@ -62,7 +62,7 @@ impl SceneFile {
         list: &mut Vec<T>,
         name: &str,
         faults: &mut Vec<Fault>,
-        read: impl Fn(&SceneFile, &Table) -> Result<T, Box<Fault>>,
+        read: impl Fn(&SceneFile, &Table) -> Result<T, Fault>,
     ) {
         if self.has(name) {
             list.clear();
@@ -70,7 +70,7 @@ impl SceneFile {
         for table in self.tables(name) {
             match read(self, table) {
                 Ok(one) => list.push(one),
-                Err(fault) => faults.push(*fault),
+                Err(fault) => faults.push(fault),
             }
         }
     }
@@ -82,7 +82,7 @@ impl SceneFile {
         let period_s = table.get("period_s").unwrap_or(1.0);
         if !(scene.duration_s / period_s).is_finite() {
             let message = "`period_s` is too short: the wind would sway too often to be counted";
-            faults.push(*self.fault(table, "period_s", "E-SCENE-RANGE", message));
+            faults.push(self.fault(table, "period_s", "E-SCENE-RANGE", message));
         }
         match vector(table, "velocity_m_per_s") {
             Some(velocity_m_per_s) => {
@@ -95,11 +95,11 @@ impl SceneFile {
                     period_s,
                 });
             }
-            None => faults.push(*self.missing(table, "velocity_m_per_s")),
+            None => faults.push(self.missing(table, "velocity_m_per_s")),
         }
     }
 
-    fn collider(&self, table: &Table) -> Result<Collider, Box<Fault>> {
+    fn collider(&self, table: &Table) -> Result<Collider, Fault> {
         let groups: [&[_]; 2] = [&["point", "normal"], &["centre", "radius_m"]];
         self.one_of(table, "a collider", &groups)?;
         if let (Some(point), Some(normal)) = (point(table, "point"), vector(table, "normal")) {
@@ -114,7 +114,7 @@ impl SceneFile {
         }
     }
 
-    fn hold(&self, table: &Table) -> Result<HeldVertices, Box<Fault>> {
+    fn hold(&self, table: &Table) -> Result<HeldVertices, Fault> {
         let from_s = table.get("from_s").unwrap_or(0.0);
         let until_s = table.get("until_s");
         if until_s.is_some_and(|until_s| until_s <= from_s) {
@@ -133,14 +133,14 @@ impl SceneFile {
         })
     }
 
-    fn strength(&self, table: &Table) -> Result<(Region, f64), Box<Fault>> {
+    fn strength(&self, table: &Table) -> Result<(Region, f64), Fault> {
         match table.get("factor") {
             Some(factor) => Ok((self.region(table, "a strength")?, factor)),
             None => Err(self.missing(table, "factor")),
         }
     }
 
-    fn region(&self, table: &Table, what: &str) -> Result<Region, Box<Fault>> {
+    fn region(&self, table: &Table, what: &str) -> Result<Region, Fault> {
         let groups: [&[_]; 5] = [
             &["near", "radius"],
             &["across", "along"],
@@ -173,7 +173,7 @@ impl SceneFile {
         }
     }
 
-    fn cut(&self, table: &Table) -> Result<TimedCut, Box<Fault>> {
+    fn cut(&self, table: &Table) -> Result<TimedCut, Fault> {
         let rays = self.rays(table)?;
         Scissor::new(rays[0], rays[1])
             .map_err(|error| self.fault(table, "rays", "E-SCENE-RANGE", error.to_string()))?;
@@ -185,7 +185,7 @@ impl SceneFile {
         })
     }
 
-    fn tear(&self, table: &Table, frame: &Frame) -> Result<Option<Tearing>, Box<Fault>> {
+    fn tear(&self, table: &Table, frame: &Frame) -> Result<Option<Tearing>, Fault> {
         if table.get("never") == Some(true) {
             let Some(key) = table.first_but("never") else {
                 return Ok(None);
@@ -234,12 +234,7 @@ impl SceneFile {
     }
 
     /// Refuses keys of different groups in one table, and none of any.
-    fn one_of(
-        &self,
-        table: &Table,
-        what: &str,
-        groups: &[&[&'static str]],
-    ) -> Result<(), Box<Fault>> {
+    fn one_of(&self, table: &Table, what: &str, groups: &[&[&'static str]]) -> Result<(), Fault> {
         let found: Vec<Vec<&str>> = groups
             .iter()
             .map(|group| table.those_of(group))
@@ -252,9 +247,7 @@ impl SceneFile {
             [one, other, ..] => {
                 let message = format!("`{}` and `{}` cannot go together", one[0], other[0]);
                 let fault = self.fault(table, other[0], "E-SCENE-CLASH", message);
-                Err(Box::new(
-                    fault.help(format!("{what} takes one of {choices}")),
-                ))
+                Err(fault.help(format!("{what} takes one of {choices}")))
             }
             [] => {
                 let message = format!("{what} must have one of {choices}");

@@ -23,12 +23,12 @@ impl SceneFile {
         set(&mut fabric.copies, table.word("copies"));
         set(&mut fabric.unbend, table.word("unbend"));
         for done in [self.bend(table, scene), self.weave(table, scene, frame)] {
-            faults.extend(done.err().map(|fault| *fault));
+            faults.extend(done.err());
         }
     }
 
     /// What resists bending: springs, or arcs that buckle.
-    fn bend(&self, table: &Table, scene: &mut Scene) -> Result<(), Box<Fault>> {
+    fn bend(&self, table: &Table, scene: &mut Scene) -> Result<(), Fault> {
         let buckles = table.word("bend_law") == Some(BendLaw::Buckling);
         let (foreign, other): (&[&str], _) = match buckles {
             true => (&["bend_n_per_m"], "spring"),
@@ -57,7 +57,7 @@ impl SceneFile {
     }
 
     /// A fabric of triangles, which stands for springs on edges unless these are named as well.
-    fn weave(&self, table: &Table, scene: &mut Scene, frame: &Frame) -> Result<(), Box<Fault>> {
+    fn weave(&self, table: &Table, scene: &mut Scene, frame: &Frame) -> Result<(), Fault> {
         let keys = ["warp_n_per_m", "weft_n_per_m", "shear_n_per_m", "warp"];
         let Some(&key) = table.those_of(&keys).first() else {
             return Ok(());
@@ -74,18 +74,12 @@ impl SceneFile {
     }
 
     /// Refuses methods that move springs, where a key asks for something else.
-    fn has_forces(
-        &self,
-        scene: &Scene,
-        table: &Table,
-        key: &str,
-        lack: &str,
-    ) -> Result<(), Box<Fault>> {
+    fn has_forces(&self, scene: &Scene, table: &Table, key: &str, lack: &str) -> Result<(), Fault> {
         if matches!(scene.solver, Method::Pbd(_) | Method::Xpbd(_)) {
             let message = format!("pbd and xpbd move springs, and {lack}");
             let fault = self.fault(table, key, "E-SCENE-CLASH", message);
             let help = "add method = \"implicit\" to [solver]; verlet and provot do as well";
-            return Err(Box::new(fault.help(help)));
+            return Err(fault.help(help));
         }
         Ok(())
     }

@@ -28,7 +28,7 @@ impl SceneFile {
             if table.has(key) && !readers.iter().any(is_read) {
                 let readers = readers.join(" or ");
                 let message = format!("`{key}` goes with {readers}, and the method is {method}");
-                faults.push(*self.fault(table, key, "E-SCENE-CLASH", message));
+                faults.push(self.fault(table, key, "E-SCENE-CLASH", message));
             }
         }
         match &mut scene.solver {

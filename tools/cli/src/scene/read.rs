@@ -106,7 +106,7 @@ impl SceneFile {
         };
         let cuts = file.tables("cut").filter(|cut| cut.has("rays"));
         let wrong = cuts.filter_map(|cut| file.rays(cut).err());
-        faults.extend(wrong.map(|fault| *fault));
+        faults.extend(wrong);
         match faults.is_empty() {
             true => Ok(file),
             false => Err(sorted(faults)),
@@ -129,7 +129,7 @@ impl SceneFile {
     }
 
     /// The two rays of a cut.
-    pub(super) fn rays(&self, cut: &Table) -> Result<rays::Pair, Box<Fault>> {
+    pub(super) fn rays(&self, cut: &Table) -> Result<rays::Pair, Fault> {
         let entry = cut.values.get("rays");
         let entry = entry.ok_or_else(|| self.missing(cut, "rays"))?;
         let texts: Vec<String> = cut.get("rays").unwrap_or_default();
@@ -140,7 +140,7 @@ impl SceneFile {
                     let part = part.start + wrong.part.start..part.start + wrong.part.end;
                     let at = self.text.within(span, text, part);
                     let fault = self.text.fault(wrong.code, wrong.message, &at, wrong.label);
-                    Box::new(fault.help(rays::RAY_HELP))
+                    fault.help(rays::RAY_HELP)
                 })?;
                 found.push(ray);
             }
@@ -148,7 +148,7 @@ impl SceneFile {
         rays::Pair::try_from(found).map_err(|found| {
             let (message, label) = rays::miscounted(found.len());
             let fault = self.text.fault("E-RAY-COUNT", message, &entry.span, label);
-            Box::new(fault.help(rays::PAIR_HELP))
+            fault.help(rays::PAIR_HELP)
         })
     }
 
@@ -160,12 +160,12 @@ impl SceneFile {
         message: String,
     ) -> Fault {
         match self.tables(table).nth(number) {
-            Some(table) => *self.fault(table, key, code, message),
+            Some(table) => self.fault(table, key, code, message),
             None => Fault::error(code, message),
         }
     }
 
-    pub(super) fn missing(&self, table: &Table, key: &str) -> Box<Fault> {
+    pub(super) fn missing(&self, table: &Table, key: &str) -> Fault {
         let message = format!("[{}] lacks `{key}`", table.name);
         self.fault(table, "", "E-SCENE-MISSING", message)
     }
@@ -176,10 +176,10 @@ impl SceneFile {
         key: &str,
         code: &'static str,
         message: impl Into<String>,
-    ) -> Box<Fault> {
+    ) -> Fault {
         let entry = table.values.get(key);
         let span = entry.map_or(&table.span, |entry| &entry.span);
-        Box::new(self.text.fault(code, message.into(), span, ""))
+        self.text.fault(code, message.into(), span, "")
     }
 }
 
