@@ -257,7 +257,7 @@ fn the_guide_has_the_keys_of_the_report_and_no_others() {
         ),
         (
             "wild.toml",
-            "base = \"rip\"\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n[tear]\nthreshold = 2.5\n",
+            "base = \"rip\"\n[fabric]\nstretch_n_per_m = 1000\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n[tear]\nthreshold = 2.5\n",
         ),
         ("pin.toml", "seconds = 0.01\n[[hold]]\nnear = [0, 1]\n"),
     ];

@@ -8,6 +8,7 @@ use tearmesh_cloth::{
 };
 use tearmesh_cloth::{Method, implicit};
 
+use crate::parts::cloths::of_edges;
 use crate::parts::scenes::{methods, play, played, staged};
 use crate::parts::{mechanical_j, near, run};
 use crate::plain_verlet::PlainVerlet;
@@ -323,10 +324,7 @@ fn an_impact_takes_motion() {
 fn edits_make_what_is_there_after_and_was_not_before() {
     let (mut mesh, positions) = shapes::grid(4, 4);
     let masses = Masses::area(&mesh, &positions, 0.3).expect("masses");
-    let fabric = Fabric {
-        copies: Copies::Whole,
-        ..Fabric::new(50.0)
-    };
+    let fabric = of_edges(50.0, Copies::Whole);
     let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
     let system = cloth.system_mut();
     let gravity_m_per_s2 = Some(Vector::new(0.0, -10.0, 0.0));

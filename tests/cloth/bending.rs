@@ -23,7 +23,7 @@ fn arcs(flexural_n_m2: f64, buckles_below: f64) -> Fabric {
     let law = law(buckles_below);
     Fabric {
         bend: Some(Bending::Buckling { flexural_n_m2, law }),
-        ..Fabric::new(200.0)
+        ..Fabric::of_edges(200.0)
     }
 }
 

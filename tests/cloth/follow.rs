@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use tearmesh::insert::Plan;
 use tearmesh::{Edits, FaceId, Masses, Mesh, Place, Vector, VertexId, mend, shapes, slide, split};
 use tearmesh_cloth::{
-    Bending, Cloth, Constraint, Copies, Fabric, Unbend, Unstable, Weave, Xpbd, energy,
+    Bending, Cloth, Constraint, Copies, Fabric, Stretch, Unbend, Unstable, Weave, Xpbd, energy,
     frequency_bound,
 };
 
-use crate::parts::cloths::{cloth, momentum};
+use crate::parts::cloths::{cloth, momentum, of_edges};
 use crate::parts::vibration::rayleigh_quotient;
 use crate::parts::{gravity, near};
 use crate::random::Random;
@@ -153,14 +153,38 @@ fn check_bends(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
     all(cloth).len()
 }
 
+/// Stretch constraints of a membrane, bit for bit those of a cloth that is made anew of the mesh and the
+/// rest positions; and by definition: Σ k l² over all edges is three times modulus times area.
+fn check_membrane(mesh: &Mesh, cloth: &Cloth, fabric: Fabric) -> usize {
+    let Stretch::Membrane { modulus_n_per_m } = fabric.stretch else {
+        return 0;
+    };
+    let (rest, masses) = (cloth.rest_positions(), cloth.masses().clone());
+    let anew = Cloth::new(mesh, rest, masses, fabric).expect("a cloth made anew");
+    let of = |cloth: &Cloth, h| cloth.system().stretches().get(cloth.stretch(h));
+    let mut sum = 0.0;
+    for h in mesh.edges() {
+        let (one, other) = (of(cloth, h), of(&anew, h));
+        let [k, anew] = [one, other].map(|one| one.stiffness_n_per_m.to_bits());
+        assert_eq!(k, anew, "{h}: {one:?} {other:?}");
+        sum += one.stiffness_n_per_m * one.rest_length_m * one.rest_length_m;
+    }
+    let area = |f| {
+        let [p, q, r] = mesh.face_vertices(f).map(|v| rest.at(v));
+        0.5 * (q - p).cross(&(r - p)).norm()
+    };
+    let area: f64 = mesh.faces().map(area).sum();
+    near(sum, 3.0 * modulus_n_per_m * area, 1e-11 * sum);
+    mesh.edges().count()
+}
+
 fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
     Fabric {
         bend: bend.then_some(Bending::Spring {
             stiffness_n_per_m: 3.0,
         }),
-        copies,
         unbend,
-        ..Fabric::new(50.0)
+        ..of_edges(50.0, copies)
     }
 }
 
@@ -247,7 +271,7 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
 #[test]
 fn a_running_cloth_follows_every_edit_as_if_made_anew() {
     let mut counts = [0; 4];
-    let (mut triangles, mut bends) = (0, 0);
+    let (mut triangles, mut bends, mut edges) = (0, 0, 0);
     for seed in 0..130 {
         let mut random = Random(seed);
         let (mut mesh, positions) = match seed % 4 {
@@ -276,7 +300,13 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 shear_n_per_m: 4.0,
                 warp: Vector::new(1.0, 0.3, 0.15),
             });
-            fabric.stretch_n_per_m *= f64::from(u32::from(seed % 2 == 0));
+            if seed % 2 == 1 {
+                fabric.stretch = Stretch::Slack;
+            }
+        }
+        // Every third is a membrane.
+        if seed % 3 == 1 && fabric.stretch != Stretch::Slack {
+            fabric.stretch = Fabric::new(50.0).stretch;
         }
         // The last forty buckle where they bend.
         if seed >= 90 && with_bends {
@@ -285,7 +315,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 law: tearmesh_cloth::Buckling::new(0.6 + 0.01 * (seed - 90) as f64).expect("a law"),
             });
         }
-        let triangles_alone = fabric.stretch_n_per_m == 0.0 && !with_bends;
+        let triangles_alone = fabric.stretch == Stretch::Slack && !with_bends;
         let mut cloth = shaken(&mesh, &positions, fabric, &mut random);
         let check =
             |mesh: &Mesh, cloth: &Cloth| check(mesh, cloth, with_bends && unbend == Unbend::Seam);
@@ -298,6 +328,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             edits.replay(&mut cloth);
             check(&mesh, &cloth);
             triangles += check_triangles(&mesh, &cloth, fabric);
+            edges += check_membrane(&mesh, &cloth, fabric);
             if with_bends && unbend == Unbend::Seam {
                 bends += check_bends(&mesh, &cloth, fabric);
             }
@@ -349,8 +380,10 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         assert!(mesh.check().is_empty());
     }
     println!(
-        "{counts:?} splits, insertions, merges and slides; {triangles} triangles and {bends} bends seen"
+        "{counts:?} splits, insertions, merges and slides; {triangles} triangles, {bends} bends and {edges} \
+         edges of membranes seen"
     );
+    assert!(edges > 10_000, "{edges}");
     assert!(triangles > 10_000 && bends > 10_000, "{triangles} {bends}");
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }
@@ -553,7 +586,7 @@ fn a_cloth_that_cannot_be_is_refused_with_ids() {
         Cloth::new(&mesh, &positions, masses.clone(), Fabric::new(-1.0)).expect_err("no stiffness");
     assert_eq!(
         error.to_string(),
-        "stretch_n_per_m is -1, which makes no positive finite stiffness"
+        "modulus_n_per_m is -1, which makes no positive finite stiffness"
     );
     let twice = [
         [0.0, 0.0, 0.0],

@@ -4,7 +4,7 @@
 use tearmesh::{Point, Vector, VertexId, shapes};
 use tearmesh_cloth::{Copies, Fabric, Provot, Tear, Tearing, TearingError, Threshold, Verlet};
 
-use crate::parts::cloths::{Torn, cloth, deform, momentum, sheet};
+use crate::parts::cloths::{Torn, cloth, deform, momentum, of_edges, sheet};
 use crate::parts::nets::chain;
 use crate::parts::{mechanical_j, near};
 use crate::random::Random;
@@ -130,10 +130,7 @@ fn warp_and_weft_have_their_own_thresholds_and_diagonals_have_none() {
 #[test]
 fn a_tear_keeps_mass_and_momentum_and_makes_energy_with_whole_copies_alone() {
     for copies in [Copies::Halved, Copies::Whole] {
-        let fabric = Fabric {
-            copies,
-            ..Fabric::new(50.0)
-        };
+        let fabric = of_edges(50.0, copies);
         let mut torn = Torn::new(sheet(8, 8, 5), fabric, Tearing::default());
         let mut random = Random(4);
         deform(&mut torn.cloth, stretched(1.5));

@@ -11,7 +11,7 @@ use tearmesh_cloth::{
     force, frequency_bound, stable_step_s,
 };
 
-use crate::parts::cloths::{cloth, sheet};
+use crate::parts::cloths::{cloth, of_edges, sheet};
 use crate::parts::{gravity, gravity_along_y, near};
 use crate::random::Random;
 
@@ -157,7 +157,7 @@ fn a_threshold_of_strain_is_weaker_on_a_finer_mesh_and_toughness_is_not() {
     });
     println!("slopes of the largest and the mean force: {slopes:.3?}");
     let [[strain_max, strain_mean], [tough_max, tough_mean]] = slopes;
-    assert!(strain_max > 0.8 && strain_mean > 0.4);
+    assert!(strain_max > 0.5 && strain_mean > 0.15);
     assert!(tough_max < 0.45 && tough_mean.abs() < 0.2);
 }
 
@@ -247,9 +247,13 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
         bend: seed.is_multiple_of(2).then_some(Bending::Spring {
             stiffness_n_per_m: 1.0,
         }),
-        copies: [Copies::Halved, Copies::Whole][(seed / 2) as usize % 2],
         unbend: [Unbend::Seam, Unbend::Vertex][(seed / 4) as usize % 2],
-        ..Fabric::new(40.0)
+        damping_s: 2e-3,
+        ..match seed / 2 % 3 {
+            0 => Fabric::new(40.0),
+            1 => of_edges(40.0, Copies::Halved),
+            _ => of_edges(40.0, Copies::Whole),
+        }
     };
     let threshold = match seed % 5 {
         0 => Threshold::Stretch(1.4),

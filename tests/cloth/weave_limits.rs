@@ -137,7 +137,7 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
         assert!(error.to_string().starts_with(named), "{error}");
     }
     let nothing = made(Fabric::new(0.0)).expect_err("nothing at all");
-    let (field, given) = ("stretch_n_per_m", 0.0);
+    let (field, given) = ("modulus_n_per_m", 0.0);
     assert_eq!(nothing, ClothError::Stiffness { field, given });
     for warp in [
         Vector::z(),

@@ -1,7 +1,7 @@
 //! Cloths of meshes: made, moved, measured, torn.
 
 use tearmesh::{Edit, Edits, ExactSum, Masses, Mesh, Point, Positions, VertexId, shapes};
-use tearmesh_cloth::{Cloth, Fabric, Tear, TearReport, Tearing};
+use tearmesh_cloth::{Cloth, Copies, Fabric, Stretch, Tear, TearReport, Tearing};
 
 use crate::random::Random;
 
@@ -9,6 +9,18 @@ use crate::random::Random;
 pub(crate) fn cloth(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> Cloth {
     let masses = Masses::area(mesh, positions, 0.2).expect("masses");
     Cloth::new(mesh, positions, masses, fabric).expect("a cloth")
+}
+
+/// Springs of one stiffness, whose copies are as stiff as that.
+pub(crate) fn of_edges(stiffness_n_per_m: f64, copies: Copies) -> Fabric {
+    let stretch = Stretch::Edges {
+        stiffness_n_per_m,
+        copies,
+    };
+    Fabric {
+        stretch,
+        ..Fabric::of_edges(stiffness_n_per_m)
+    }
 }
 
 /// A flat sheet of cells of 0.1 m, whose inner vertices are off the grid, in generic position.

@@ -238,6 +238,7 @@ pub(crate) struct Energy {
     pub(crate) held: Option<f64>,
     pub(crate) wind: f64,
     pub(crate) drag: f64,
+    pub(crate) damping: f64,
     pub(crate) colliders: f64,
     pub(crate) edits: f64,
     /// The remainder, which the method lost, or made where negative.

@@ -91,6 +91,7 @@ mod tests {
             ("strength", "from") => "factor = 2\nto = [9, 9, 9]",
             ("strength", "to") => "factor = 2\nfrom = [0, 0, 0]",
             ("strength", _) => "factor = 2",
+            ("fabric", "copies") => "stretch_n_per_m = 300",
             ("tear", "threshold_warp") => "threshold_weft = 1.25",
             ("tear", "threshold_weft") => "threshold_warp = 1.25",
             ("tear", "warp") => "threshold_weft = 1.25\nthreshold_warp = 1.25",
@@ -111,7 +112,7 @@ mod tests {
             let names = names.filter(|name| !tables.contains(name));
             keys.extend(names.map(|name| (table, name.to_owned())));
         }
-        assert_eq!(keys.len(), 71);
+        assert_eq!(keys.len(), 73);
         keys
     }
 

@@ -11,6 +11,7 @@
 //! | part | how it is known | cost |
 //! |---|---|---|
 //! | kinetic, elastic, gravity | functions of the state | a pass over constraints, when asked |
+//! | damping | the power of its forces, trapezoids of each step ([`System::set_damping`]) | nothing |
 //! | wind, drag | ∫ power dt, trapezoids of [`AIR_S`] | a pass over particles each, with wind over faces |
 //! | leading | −∫ (f + m g) · dx of each led particle | its valence a step while it moves |
 //! | holding, letting go | the change of the particle's own energy ([`Balance::handle`]) | its valence |
@@ -75,6 +76,8 @@ pub struct EnergyBalance {
     pub wind_j: f64,
     /// The work of drag on the particles that are not held, which is never positive.
     pub drag_j: f64,
+    /// The work of the damping of springs ([`System::set_damping`]), which is never positive.
+    pub damping_j: f64,
     /// The work of colliders. It is negative, since impacts are inelastic, except for the energy it
     /// takes to push a particle out against springs or gravity.
     pub colliders_j: f64,
@@ -100,7 +103,7 @@ impl EnergyBalance {
     #[must_use]
     pub fn made_j(&self) -> f64 {
         let worked = self.gravity_j + self.held_j + self.wind_j + self.drag_j;
-        let given = self.began_j + worked + self.colliders_j + self.edits_j;
+        let given = self.began_j + worked + self.damping_j + self.colliders_j + self.edits_j;
         self.kinetic_j + self.elastic_j - given
     }
 }
@@ -111,6 +114,7 @@ impl EnergyBalance {
 pub struct Balance {
     began_j: f64,
     contact_began_j: f64,
+    damped_began_j: f64,
     potential_began_j: f64,
     edits_j: f64,
     pub(crate) work: Work,
@@ -148,6 +152,7 @@ impl Balance {
         Balance {
             began_j: energy::kinetic_j(system) + energy::stored_j(system),
             contact_began_j: *system.contact_j.get_or_insert(0.0),
+            damped_began_j: system.damped_j,
             potential_began_j: energy::potential_j(system),
             ..Balance::default()
         }
@@ -172,6 +177,7 @@ impl Balance {
             held_j: work.held_j,
             wind_j: work.wind_j,
             drag_j: work.drag_j,
+            damping_j: self.damped_began_j - system.damped_j,
             colliders_j: system.contact_j.unwrap_or(0.0) - self.contact_began_j,
             edits_j: self.edits_j,
         }

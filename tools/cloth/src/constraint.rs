@@ -11,6 +11,7 @@
 
 use std::fmt;
 
+use crate::damping;
 use crate::incidence::{Incidence, room_for};
 
 /// The id of a constraint within its family, displayed as `c7`. It is stable until the constraint
@@ -70,6 +71,9 @@ pub(crate) struct Colour {
     pub(crate) stiffness: Vec<f64>,
     /// The inverse of the stiffness: a division less in each projection.
     pub(crate) compliance: Vec<f64>,
+    /// The force by the rate at which the length changes, in N s/m: that of the last
+    /// [`Constraints::damp`].
+    pub(crate) damping: Vec<f64>,
     pub(crate) multipliers: Vec<f64>,
     pub(crate) ratios: Vec<f64>,
 }
@@ -227,6 +231,22 @@ impl Constraints {
         self.colours[colour].rest[i] = rest_length_m;
     }
 
+    pub(crate) fn damping(&self, id: ConstraintId) -> f64 {
+        let (colour, i) = self.slot(id);
+        self.colours[colour].damping[i]
+    }
+
+    /// Computes the damping of all constraints by the present masses.
+    pub(crate) fn damp(&mut self, time_s: f64, inverse_masses: &[f64]) {
+        for colour in &mut self.colours {
+            let springs = colour.ends.iter().zip(&colour.stiffness);
+            for ((&[a, b], &stiffness), damping) in springs.zip(&mut colour.damping) {
+                let w = inverse_masses[a as usize] + inverse_masses[b as usize];
+                *damping = damping::coefficient(time_s, stiffness, w);
+            }
+        }
+    }
+
     pub(crate) fn push_particle(&mut self) {
         self.lists.push_particle();
     }
@@ -299,8 +319,8 @@ impl Colour {
         room_for(&mut self.ids, count);
         room_for(&mut self.ends, count);
         let numbers = [&mut self.rest, &mut self.stiffness, &mut self.compliance];
-        let left_behind = [&mut self.multipliers, &mut self.ratios];
-        for column in numbers.into_iter().chain(left_behind) {
+        let others = [&mut self.damping, &mut self.multipliers, &mut self.ratios];
+        for column in numbers.into_iter().chain(others) {
             room_for(column, count);
         }
     }
@@ -311,6 +331,7 @@ impl Colour {
         self.rest.push(constraint.rest_length_m);
         self.stiffness.push(constraint.stiffness_n_per_m);
         self.compliance.push(1.0 / constraint.stiffness_n_per_m);
+        self.damping.push(0.0);
         self.multipliers.push(memory.multiplier);
         self.ratios.push(memory.ratio);
     }
@@ -322,6 +343,7 @@ impl Colour {
         self.rest.swap_remove(i);
         self.stiffness.swap_remove(i);
         self.compliance.swap_remove(i);
+        self.damping.swap_remove(i);
         Memory {
             multiplier: self.multipliers.swap_remove(i),
             ratio: self.ratios.swap_remove(i),

@@ -1,7 +1,8 @@
-//! The material of a cloth: springs along edges, triangles, springs or arcs across edges, and what
-//! happens to them where it tears.
+//! The material of a cloth: springs along edges, triangles, springs or arcs across edges, damping, and
+//! what happens to them where it tears.
 
 use tearmesh::geometry::Vector;
+use tearmesh::{HalfEdgeId, Mesh};
 
 use crate::bend::Buckling;
 use crate::sheet::error::ClothError;
@@ -9,32 +10,80 @@ use crate::sheet::error::ClothError;
 /// The material of a cloth, and the rules for its constraints when it tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fabric {
-    /// The stiffness of each edge, in N/m. In a regular net of triangles the modulus is 2/√3 times
-    /// this stiffness. It may be zero together with a [`Weave`]: edges are then measured, for
-    /// [`Cloth::overstretched`](crate::Cloth::overstretched), but exert no force.
-    pub stretch_n_per_m: f64,
+    /// The resistance of edges to stretch.
+    pub stretch: Stretch,
     /// The moduli of triangles that resist stretch and shear; `None` for no triangles.
     pub weave: Option<Weave>,
     /// The bending resistance across each interior edge; `None` for no resistance.
     pub bend: Option<Bending>,
-    /// How the stiffness of a torn edge is divided between its two constraints.
-    pub copies: Copies,
+    /// The damping along edges as a time τ, in seconds; zero for none. A spring of stiffness k is
+    /// damped by τ k, and by no more than a damping ratio of a tenth
+    /// ([`Fabric::DAMPING_RATIO_MAX`]). Only [`Verlet`](crate::Verlet) damps; the other methods lose
+    /// energy of their own.
+    pub damping_s: f64,
     /// The bend constraints that a split removes.
     pub unbend: Unbend,
 }
 
-impl Fabric {
-    /// Returns a fabric whose edges have this stiffness in N/m, without bending resistance, and
-    /// with the rules for tearing that conserve energy.
-    #[must_use]
-    pub fn new(stretch_n_per_m: f64) -> Fabric {
+/// The resistance of the edges of a cloth to stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stretch {
+    /// A membrane of this modulus E, in N/m, whatever the mesh. The stiffness of an edge is the sum
+    /// of E A / l² over its faces, where A is the area of a face and l the length of the edge, both
+    /// at rest. So Σ k l² over the edges of a face is 3 E A. Each side of a tear keeps the shares of
+    /// its own faces, and the parts of a divided face are measured anew.
+    ///
+    /// A net of equilateral triangles then has the modulus E and Poisson's ratio 1/3. In a grid of
+    /// right triangles, an edge along a cell has the stiffness E, and a diagonal or an edge of the
+    /// boundary half of it.
+    Membrane {
+        /// The modulus E, in N/m; positive.
+        modulus_n_per_m: f64,
+    },
+    /// Springs of one stiffness, as in the paper. How stiff the cloth is then depends on its mesh: a
+    /// net of equilateral triangles has 2/√3 times this stiffness as its modulus.
+    Edges {
+        /// The stiffness of an edge, in N/m; positive.
+        stiffness_n_per_m: f64,
+        /// How the stiffness of a torn edge is divided between its two constraints.
+        copies: Copies,
+    },
+    /// Edges that are measured, for [`Cloth::overstretched`](crate::Cloth::overstretched), but exert
+    /// no force. The cloth needs a [`Weave`].
+    Slack,
+}
+
+impl Default for Fabric {
+    /// Returns the cloth of the built-in scenes: a membrane of 1000 N/m, soft for cotton, so that a pull
+    /// shows; with damping of 1.6 ms, so that a tear runs on where undamped cloth bursts into crumbs, and
+    /// which a sheet that swings does not show.
+    fn default() -> Fabric {
         Fabric {
-            stretch_n_per_m,
-            weave: None,
-            bend: None,
-            copies: Copies::default(),
-            unbend: Unbend::default(),
+            damping_s: 1.6e-3,
+            ..Fabric::new(1000.0)
         }
+    }
+}
+
+impl Fabric {
+    /// The largest damping ratio of a spring. A cloth that loses as much at the frequencies that one
+    /// sees would need far more at the highest ones of a mesh, and steps many times shorter.
+    pub const DAMPING_RATIO_MAX: f64 = 0.1;
+
+    /// Returns a membrane of this modulus in N/m, without bending resistance and damping.
+    #[must_use]
+    pub fn new(modulus_n_per_m: f64) -> Fabric {
+        Fabric::of(Stretch::Membrane { modulus_n_per_m })
+    }
+
+    /// Returns a fabric whose edges all have this stiffness in N/m, without bending resistance and
+    /// damping. Tears conserve energy ([`Copies::Halved`]).
+    #[must_use]
+    pub fn of_edges(stiffness_n_per_m: f64) -> Fabric {
+        Fabric::of(Stretch::Edges {
+            stiffness_n_per_m,
+            copies: Copies::default(),
+        })
     }
 
     /// Returns a fabric of triangles alone, without springs along edges and without bending
@@ -64,28 +113,68 @@ impl Fabric {
     pub fn woven(weave: Weave) -> Fabric {
         Fabric {
             weave: Some(weave),
-            ..Fabric::new(0.0)
+            ..Fabric::of(Stretch::Slack)
         }
     }
-}
 
-impl Fabric {
+    fn of(stretch: Stretch) -> Fabric {
+        Fabric {
+            stretch,
+            weave: None,
+            bend: None,
+            damping_s: 0.0,
+            unbend: Unbend::default(),
+        }
+    }
+
+    /// The modulus of a membrane or the stiffness of every edge, in N/m; zero of edges that exert no
+    /// force.
+    #[must_use]
+    pub fn stretch_n_per_m(&self) -> f64 {
+        match self.stretch {
+            Stretch::Membrane { modulus_n_per_m } => modulus_n_per_m,
+            Stretch::Edges {
+                stiffness_n_per_m, ..
+            } => stiffness_n_per_m,
+            Stretch::Slack => 0.0,
+        }
+    }
+
+    /// The part of a whole edge's strength that this edge has: half where it has half the stiffness.
+    pub(super) fn share(&self, mesh: &Mesh, h: HalfEdgeId) -> f64 {
+        let is_half = match self.stretch {
+            Stretch::Membrane { .. } => mesh.pair(h).is_none(),
+            Stretch::Edges { copies, .. } => {
+                copies == Copies::Halved && mesh.ghost_pair(h).is_some()
+            }
+            Stretch::Slack => false,
+        };
+        if is_half { 0.5 } else { 1.0 }
+    }
+
     pub(super) fn check(&self) -> Result<(), ClothError> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
-        let is_woven_alone = self.stretch_n_per_m == 0.0 && self.weave.is_some();
-        if !(is_woven_alone || positive(self.stretch_n_per_m)) {
-            return Err(ClothError::Stiffness {
-                field: "stretch_n_per_m",
-                given: self.stretch_n_per_m,
-            });
-        }
+        let stretch = match self.stretch {
+            Stretch::Membrane { modulus_n_per_m } => Some(("modulus_n_per_m", modulus_n_per_m)),
+            Stretch::Edges {
+                stiffness_n_per_m, ..
+            } => Some(("stiffness_n_per_m", stiffness_n_per_m)),
+            Stretch::Slack if self.weave.is_none() => Some(("stretch", 0.0)),
+            Stretch::Slack => None,
+        };
         let weave = self.weave.and_then(|weave| weave.fault());
         let bend = self.bend.map(|bend| bend.number());
-        let bend = bend.filter(|(_, given)| !positive(*given));
-        match weave.or(bend) {
-            Some((field, given)) => Err(ClothError::Stiffness { field, given }),
-            None => Ok(()),
+        let numbers = [stretch, bend].into_iter().flatten();
+        let mut unusable = numbers.filter(|(_, given)| !positive(*given));
+        if let Some((field, given)) = weave.or_else(|| unusable.next()) {
+            return Err(ClothError::Stiffness { field, given });
         }
+        if !(self.damping_s >= 0.0 && self.damping_s.is_finite()) {
+            return Err(ClothError::Damping {
+                given: self.damping_s,
+            });
+        }
+        Ok(())
     }
 }
 

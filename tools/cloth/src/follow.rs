@@ -8,7 +8,7 @@ use tearmesh::{
 };
 
 use crate::constraint::{Constraint, ConstraintId, Constraints};
-use crate::fabric::{Copies, Unbend};
+use crate::fabric::{Copies, Stretch, Unbend};
 use crate::sheet::{Cloth, NO_BEND, Piece, weight};
 use crate::system::System;
 
@@ -39,7 +39,7 @@ impl Cloth {
             let id = self.stretch(link.stayed);
             let mut copy = self.system.model.stretch.get(id);
             let mut memory = self.system.model.stretch.memory(id);
-            if self.fabric.copies == Copies::Halved {
+            if self.halves_copies() {
                 copy.stiffness_n_per_m *= 0.5;
                 memory.multiplier *= 0.5;
                 let half = copy.stiffness_n_per_m;
@@ -49,8 +49,10 @@ impl Cloth {
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
             let copied = self.system.model.stretch.add(copy);
             self.system.model.stretch.remember(copied, memory);
-            self.join(link.stayed, id);
-            self.join(link.moved, copied);
+            self.join([link.stayed; 2], id);
+            self.join([link.moved; 2], copied);
+            self.measure_membrane(id);
+            self.measure_membrane(copied);
             self.unbend(link.stayed);
         }
         for &corner in split.corners {
@@ -88,14 +90,16 @@ impl Cloth {
         for link in merge.sewn {
             let (id, copied) = (self.stretch(link.stayed), self.stretch(link.moved));
             let stretch = &mut self.system.model.stretch;
-            let sum = stretch.get(id).stiffness_n_per_m + stretch.remove(copied).stiffness_n_per_m;
-            let share = match self.fabric.copies {
-                Copies::Halved => 1.0,
-                Copies::Whole => 0.5,
-            };
-            stretch.set_stiffness(id, sum * share);
-            self.join(link.moved, id);
-            self.join(link.stayed, id);
+            let removed = stretch.remove(copied);
+            if let Stretch::Edges { copies, .. } = self.fabric.stretch {
+                let sum = stretch.get(id).stiffness_n_per_m + removed.stiffness_n_per_m;
+                let share = match copies {
+                    Copies::Halved => 1.0,
+                    Copies::Whole => 0.5,
+                };
+                stretch.set_stiffness(id, sum * share);
+            }
+            self.join([link.stayed, link.moved], id);
         }
         let model = &mut self.system.model;
         for family in [&mut model.stretch, &mut model.bend] {
@@ -122,6 +126,10 @@ impl Cloth {
         self.reweigh(kept);
         if apart {
             self.measure_again(kept);
+        } else {
+            for link in merge.sewn {
+                self.measure_membrane(self.stretch(link.stayed));
+            }
         }
     }
 
@@ -134,8 +142,8 @@ impl Cloth {
         self.measure_again(particle);
     }
 
-    /// Takes new rest lengths and triangles for a particle whose place at rest has changed.
-    /// Stretch constraints keep k L, as the parts of a divided edge do.
+    /// Takes new rest lengths and triangles for a particle whose place at rest has changed. A membrane is
+    /// measured anew; other stretch constraints keep k L, as the parts of a divided edge do.
     fn measure_again(&mut self, particle: usize) {
         let mut ids = std::mem::take(&mut self.scratch.ids);
         ids.clear();
@@ -149,6 +157,15 @@ impl Cloth {
                 let k = before.stiffness_n_per_m * (before.rest_length_m / rest_length_m);
                 stretch.set_stiffness(id, k);
                 stretch.set_rest_length(id, rest_length_m);
+            }
+        }
+        // The edges of all faces there, those across from it too.
+        for id in ids.iter().map(|id| id.index()) {
+            for h in self.edge_of[id]
+                .map(|h| [h, h.next(), h.prev()])
+                .as_flattened()
+            {
+                self.measure_membrane(self.stretch(*h));
             }
         }
         ids.clear();
@@ -222,6 +239,11 @@ impl Cloth {
                 self.put(edge);
             }
         }
+        for child in insert.children {
+            for h in child.face.half_edges() {
+                self.measure_membrane(self.stretch(h));
+            }
+        }
         self.insert_triangles(insert);
         self.system.touched();
         self.scratch = room;
@@ -240,8 +262,14 @@ impl Cloth {
 
     /// An edge that was there stays; what is across it may be another vertex.
     fn keep(&mut self, edge: &[Piece]) {
+        let id = edge[0].stretch;
+        let renamed = self.edge_of[id.index()].map(|h| {
+            let mut pieces = edge.iter();
+            let piece = pieces.find(|piece| piece.half_edge_before == h);
+            piece.map_or(h, |piece| piece.half_edge)
+        });
+        self.join(renamed, id);
         for piece in edge {
-            self.join(piece.half_edge, piece.stretch);
             let id = piece.bend;
             if id == NO_BEND {
                 continue;
@@ -272,12 +300,23 @@ impl Cloth {
             stiffness_n_per_m: piece.stiffness_by_length / rest_length_m,
         };
         let id = self.system.model.stretch.add(constraint);
-        for piece in edge {
-            self.join(piece.half_edge, id);
-        }
         if let [one, other] = edge {
+            self.join([one.half_edge, other.half_edge], id);
             self.bend_across([one.half_edge, other.half_edge]);
+        } else {
+            self.join([piece.half_edge; 2], id);
         }
+    }
+
+    /// Whether the two constraints of a torn edge have half its stiffness each.
+    fn halves_copies(&self) -> bool {
+        matches!(
+            self.fabric.stretch,
+            Stretch::Edges {
+                copies: Copies::Halved,
+                ..
+            }
+        )
     }
 
     /// Takes away the bend constraint across an edge.

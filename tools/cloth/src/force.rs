@@ -39,7 +39,7 @@ pub fn force_n(system: &System, id: ConstraintId) -> f64 {
 }
 
 /// Returns the force, in newtons, that a hand must exert to hold or lead a particle: minus the sum
-/// of the forces of constraints ([`force_n`]), triangles, gravity, wind and drag. On a grabbed
+/// of the forces of constraints ([`force_n`]) and their damping, triangles, gravity, wind and drag. On a grabbed
 /// particle it is a force probe. On a free one it is minus the force that accelerates it, which
 /// vanishes at rest. It excludes colliders, and the inertia at the corners of a path. The cost is
 /// proportional to the valence, and linear in the system if there is wind.
@@ -80,18 +80,19 @@ pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bo
     accelerations.clear();
     accelerations.resize(system.positions.len(), Vector::zeros());
     let (x, v, model) = (&system.positions, &system.velocities, &system.model);
-    let is_sane = model.pull(x, v, None, accelerations, &mut system.counters);
+    let pull = model.pull(x, v, None, accelerations, &mut system.counters);
     model.weigh(None, accelerations);
-    is_sane
+    pull.is_sane
 }
 
-/// The force of constraints, triangles and gravity on a particle, in newtons.
+/// The force of constraints, their damping, triangles and gravity on a particle, in newtons.
 pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
     let model = &system.model;
     let mut sum = model.gravity() * model.masses[particle];
     let exerted = |ends, by_length, multiplier| model.exerted_n(ends, by_length, multiplier);
+    let velocities = model.is_damped.then_some(&system.velocities[..]);
     for pairs in model.families() {
-        pairs.add_force_at(&system.positions, particle, exerted, &mut sum);
+        pairs.add_force_at(&system.positions, velocities, particle, exerted, &mut sum);
     }
     let triangles = &model.triangles;
     triangles.add_force_at(&system.positions, particle, &mut sum);

@@ -12,6 +12,9 @@
 //! uneven ones .24. A step up to twice as long is admitted whole, with many more that are carried:
 //! it is as stable, and exact at rest, but errs by some per cent in motion.
 //!
+//! Material damping counts as stiffness in a step ([`damping`](crate::damping)): with the sum C of the
+//! dampers at a particle, Δt² S becomes Δt² S + 2Δt C/(1 + 2θ).
+//!
 //! μ leaves room for the damping of what is crushed ([`crush`](crate::crush)), 4μ(1 + 2θ) = 3.9 of
 //! 4, and what wind slows takes its part of it: with λ the rate of wind μ(1 − λΔt), so that the sum
 //! stays within the limit of springs and air together ([`air`](crate::air)).
@@ -44,6 +47,7 @@
 
 use tearmesh::geometry::Point;
 
+use crate::damping;
 use crate::incidence::room_for;
 use crate::mass_scaling::MassScaling;
 use crate::system::counters::Counters;
@@ -82,8 +86,11 @@ pub(crate) struct Guard {
     reach: f64,
     /// Whether the sums, and what follows from them, are those of the present constraints.
     is_known: bool,
-    /// The sum of the stiffness at each particle.
+    /// The sums of the stiffness and of the damping at each particle.
     sums: Vec<f64>,
+    dampers: Vec<f64>,
+    /// The sum of the stiffness that both count as in a step.
+    stiffness: Vec<f64>,
     frequency: Frequency,
     /// `None` where it is not known.
     suited_s: Option<f64>,
@@ -107,6 +114,8 @@ impl Default for Guard {
             reach: 4.0,
             is_known: false,
             sums: Vec::new(),
+            dampers: Vec::new(),
+            stiffness: Vec::new(),
             frequency: Frequency::default(),
             suited_s: None,
             weighed: None,
@@ -126,11 +135,9 @@ impl Guard {
     /// Makes room for so many particles, and springs between them.
     pub(crate) fn reserve(&mut self, particles: usize, springs: usize) {
         self.carry.reserve(particles, springs);
-        let lists = [&mut self.sums, &mut self.rates];
-        for list in lists
-            .into_iter()
-            .chain([&mut self.vector, &mut self.product])
-        {
+        let sums = [&mut self.sums, &mut self.dampers, &mut self.stiffness];
+        let others = [&mut self.rates, &mut self.vector, &mut self.product];
+        for list in sums.into_iter().chain(others) {
             room_for(list, particles);
         }
     }
@@ -145,6 +152,11 @@ impl Guard {
     /// step that suits gets no shorter for it: slivers along a cut are to be carried.
     pub(crate) fn edited(&mut self) {
         self.is_known = false;
+    }
+
+    /// Whether nothing has changed since masses and stiffness were looked at.
+    pub(crate) fn is_known(&self) -> bool {
+        self.is_known
     }
 
     /// Takes in how far triangles are stretched now.
@@ -182,16 +194,26 @@ impl Guard {
         self.is_known = true;
         self.weighed = None;
         self.unsound_s = f64::INFINITY;
-        self.sums.clear();
-        self.sums.resize(model.masses.len(), 0.0);
-        let sums = &mut self.sums;
-        model.each_spring(self.reach, |[a, b], stiffness| {
+        let (sums, dampers) = (&mut self.sums, &mut self.dampers);
+        for list in [&mut *sums, &mut *dampers] {
+            list.clear();
+            list.resize(model.masses.len(), 0.0);
+        }
+        model.each_spring(self.reach, 0.0, |[a, b], stiffness| {
             sums[a] += stiffness;
             sums[b] += stiffness;
         });
+        if model.damping_s > 0.0 {
+            for colour in model.stretch.colours() {
+                for (ends, damping) in colour.ends.iter().zip(&colour.damping) {
+                    ends.iter()
+                        .for_each(|&end| dampers[end as usize] += damping);
+                }
+            }
+        }
         let (sums, w) = (&self.sums, &model.inverse_masses);
         let mut most = (0.0, None);
-        model.each_spring(self.reach, |[a, b], _| {
+        model.each_spring(self.reach, 0.0, |[a, b], _| {
             let row = w[a] * sums[a] + w[b] * sums[b];
             if row > most.0 {
                 most = (row, Some([a, b]));
@@ -202,8 +224,10 @@ impl Guard {
             omega_rad_per_s: square.sqrt(),
             ends,
         };
-        let rates = self.sums.iter().zip(&model.inverse_masses);
-        let rates = rates.map(|(sum, w)| w * sum).filter(|rate| *rate > 0.0);
+        let rates = self.sums.iter().zip(&self.dampers);
+        let rates = rates.zip(&model.inverse_masses);
+        let rates = rates.map(|((sum, damper), w)| rate(w * sum, w * damper));
+        let rates = rates.filter(|rate| *rate > 0.0);
         self.rates.clear();
         self.rates.extend(rates);
         let last = self.rates.len().saturating_sub(1);
@@ -224,16 +248,21 @@ impl Guard {
             return false;
         }
         let had = self.carry.len();
+        let damper = damping::stiffness_in(dt_s);
+        let sums = self.sums.iter().zip(&self.dampers);
+        self.stiffness.clear();
+        self.stiffness
+            .extend(sums.map(|(sum, damping)| sum + damper * damping));
         let masses = [&model.masses[..], &model.inverse_masses[..]];
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
             let [stretch, bend] = model.families();
-            stretch.springs_at(particle, &mut *visit);
-            bend.springs_at(particle, &mut *visit);
+            stretch.springs_at(particle, damper, &mut *visit);
+            bend.springs_at(particle, damper, &mut *visit);
             model.triangles.springs_at(particle, self.reach, visit);
         };
         let share = SHARE * (1.0 - air);
         self.carry
-            .weigh(masses, &self.sums, neighbours, share, dt_s);
+            .weigh(masses, &self.stiffness, neighbours, share, dt_s);
         self.weighed = Some([dt_s, air]);
         self.is_sound = self.carry.is_proven();
         had + self.carry.len() > 0
@@ -246,7 +275,7 @@ impl Guard {
         };
         if dt_s < self.unsound_s {
             let limit = 4.0 * SHARE * (1.0 - air);
-            self.is_sound = dt_s * dt_s * self.largest(model, counters) <= limit;
+            self.is_sound = dt_s * dt_s * self.largest(model, dt_s, counters) <= limit;
         }
         if !self.is_sound {
             self.unsound_s = self.unsound_s.min(dt_s);
@@ -254,8 +283,9 @@ impl Guard {
         self.is_sound
     }
 
-    /// The largest eigenvalue of M′⁻¹ L, from below.
-    fn largest(&mut self, model: &Model, counters: &mut Counters) -> f64 {
+    /// The largest eigenvalue of M′⁻¹ L for a step, from below.
+    fn largest(&mut self, model: &Model, dt_s: f64, counters: &mut Counters) -> f64 {
+        let damper = damping::stiffness_in(dt_s);
         let count = model.masses.len();
         if self.vector.len() != count {
             // Signs that alternate as the fastest modes do.
@@ -273,7 +303,7 @@ impl Guard {
             }
             product.clear();
             product.resize(count, 0.0);
-            model.each_spring(self.reach, |[a, b], stiffness| {
+            model.each_spring(self.reach, damper, |[a, b], stiffness| {
                 let force = stiffness * (u[a] - u[b]);
                 product[a] += force;
                 product[b] -= force;
@@ -298,6 +328,16 @@ impl Guard {
         }
         largest
     }
+}
+
+/// w S of a particle for which an undamped one has the same longest step: Δt² w S + 2Δt w C/(1 + 2θ) = 2μ.
+fn rate(stiffness: f64, damping: f64) -> f64 {
+    if damping == 0.0 {
+        return stiffness;
+    }
+    let half = 0.5 * damping * damping::stiffness_in(1.0);
+    let step_s = ((half * half + 2.0 * SHARE * stiffness).sqrt() - half) / stiffness;
+    2.0 * SHARE / (step_s * step_s)
 }
 
 fn inner(a: &[f64], b: &[f64]) -> f64 {

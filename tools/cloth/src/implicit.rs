@@ -326,7 +326,7 @@ impl Implicit {
         let loads = self.outside.iter().zip(weights.masses);
         refill(&mut self.forces, loads.map(|(g, m)| g * *m));
         // What is far too long is found in the state in which a step ends.
-        let _ = model.add_forces(x, f64::INFINITY, None, &mut self.forces);
+        let _unlimited = model.add_forces(x, f64::INFINITY, None, &mut self.forces);
         let drag_per_s = model.drag_per_s();
         let acting = weights.rms(|i| self.forces[i] - v[i] * (drag_per_s * weights.masses[i]));
         let residual_max = stage.residual_max.min(UNANSWERED * acting);

@@ -23,7 +23,7 @@
 //!
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
 //!
-//! Stretch is resisted by springs along edges, by triangles with a modulus for warp, weft and shear
+//! Stretch is resisted by springs along edges ([`Stretch`]), by triangles with a modulus for warp, weft and shear
 //! ([`Weave`]), or by both. Bending is resisted by springs across edges, or by arcs that buckle
 //! ([`Bending`]). [`Pbd`] and [`Xpbd`] project springs alone, and are refused if there are
 //! triangles or arcs.
@@ -41,6 +41,7 @@ mod bend;
 mod blow_up;
 mod constraint;
 mod crush;
+mod damping;
 pub mod energy;
 mod fabric;
 mod follow;
@@ -76,7 +77,8 @@ pub use balance::{Balance, EnergyBalance};
 pub use bend::Buckling;
 pub use blow_up::BlowUpSite;
 pub use constraint::{Constraint, ConstraintId, Constraints};
-pub use fabric::{Bending, Copies, Fabric, Unbend, Weave};
+pub use damping::Damping;
+pub use fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};
 pub use guard::Frequency;
 pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};

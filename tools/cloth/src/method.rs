@@ -194,7 +194,7 @@ const OF_WIND: f64 = 0.7;
 
 /// The speed at which a pull travels through a fabric of this areal density, c = √(k/ρ), in m/s.
 pub(crate) fn speed_m_per_s(fabric: &Fabric, density_kg_per_m2: f64) -> f64 {
-    (fabric.stretch_n_per_m / density_kg_per_m2).sqrt()
+    (fabric.stretch_n_per_m() / density_kg_per_m2).sqrt()
 }
 
 /// How far a pull travels in `sweeps` sweeps without a step in between, as a multiple of a sweep

@@ -23,10 +23,11 @@ pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Opt
         true => &scratch.predicted,
         false => velocities,
     };
-    let is_sane = model.pull(positions, winds, crush, accelerations, &mut system.counters);
+    let pull = model.pull(positions, winds, crush, accelerations, &mut system.counters);
     model.weigh(guarded_s.map(|_| system.guard.carry()), accelerations);
     scratch.guarded_s = guarded_s.unwrap_or(0.0);
-    is_sane
+    scratch.damped_w = pull.damped_w;
+    pull.is_sane
 }
 
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which

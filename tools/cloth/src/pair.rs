@@ -20,6 +20,16 @@ pub(crate) struct Pairs<'a> {
     pub(crate) buckling: Option<Buckling>,
 }
 
+/// What a pass over forces finds.
+#[derive(Clone, Copy, Debug)]
+#[must_use]
+pub(crate) struct Pull {
+    /// False where a constraint is longer than allowed, or not a number.
+    pub(crate) is_sane: bool,
+    /// The power that material damping takes, in watts.
+    pub(crate) damped_w: f64,
+}
+
 impl Pairs<'_> {
     /// Twice the energy of one, in joules (a sum is halved once), and its pull in newtons: the derivative of
     /// the energy, negative where it pushes apart.
@@ -89,17 +99,15 @@ impl Pairs<'_> {
             .sum()
     }
 
-    /// Adds the forces, in newtons, to those of the particles, with those of damping where a spring is
-    /// crushed: a fold is where it is meant to be short. False where one is longer than `ratio_max` times
-    /// its rest length, or not a number.
-    #[must_use]
+    /// Adds the forces, in newtons, to those of the particles. In a guarded step springs are damped, and
+    /// where they are crushed by the guard too: a fold is where it is meant to be short.
     pub(crate) fn add_forces(
         self,
         x: &[Point],
         ratio_max: f64,
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
-    ) -> bool {
+    ) -> Pull {
         let spring = |rest, stiffness: f64, length| Some(stiffness * (length - rest));
         match self.buckling {
             None => self.add_forces_by(spring, x, ratio_max, crush, forces),
@@ -122,22 +130,26 @@ impl Pairs<'_> {
         ratio_max: f64,
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
-    ) -> bool {
-        let mut sane = true;
+    ) -> Pull {
+        let (mut is_sane, mut damped_w) = (true, 0.0);
         for colour in self.constraints.colours() {
-            for ([a, b], rest, stiffness) in colour.springs() {
+            for (([a, b], rest, stiffness), &damping) in colour.springs().zip(&colour.damping) {
                 let d = x[b] - x[a];
                 let length = length(d);
                 let Some(mut pull) = pull(rest, stiffness, length) else {
                     continue;
                 };
-                sane &= length <= ratio_max * rest;
+                is_sane &= length <= ratio_max * rest;
                 if length > 0.0 {
                     if let Some(crush) = crush
-                        && length < Crush::BELOW * rest
+                        && (damping > 0.0 || length < Crush::BELOW * rest)
                     {
                         let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
-                        pull += crush.pull(stiffness, length / rest, speed);
+                        pull += damping * speed;
+                        damped_w += damping * speed * speed;
+                        if length < Crush::BELOW * rest {
+                            pull += crush.pull(stiffness, length / rest, speed);
+                        }
                     }
                     let force = d * (pull / length);
                     forces[a] += force;
@@ -145,14 +157,16 @@ impl Pairs<'_> {
                 }
             }
         }
-        sane
+        Pull { is_sane, damped_w }
     }
 
     /// Adds the forces on one particle, as `exerted` has them by the ends of a constraint, its force by its
-    /// length, and the multiplier that the last step recorded.
+    /// length, and the multiplier that the last step recorded; and the forces of damping at these velocities,
+    /// if the method damps.
     pub(crate) fn add_force_at(
         self,
         x: &[Point],
+        velocities: Option<&[Vector]>,
         particle: usize,
         exerted: impl Fn([usize; 2], f64, f64) -> f64,
         sum: &mut Vector,
@@ -160,11 +174,16 @@ impl Pairs<'_> {
         for id in self.constraints.of(particle) {
             let one = self.constraints.get(id);
             let [a, b] = one.ends;
-            let d = x[a + b - particle] - x[particle];
+            let other = a + b - particle;
+            let d = x[other] - x[particle];
             let length = length(d);
             if length > 0.0 {
                 let multiplier = self.constraints.memory(id).multiplier;
-                *sum += d * (exerted([a, b], self.force_of(&one, x), multiplier) / length);
+                let damped_n = velocities.map_or(0.0, |v| {
+                    self.constraints.damping(id) * dot(d, v[other] - v[particle]) / length
+                });
+                let pull = exerted([a, b], self.force_of(&one, x), multiplier) + damped_n;
+                *sum += d * (pull / length);
             }
         }
     }
@@ -179,22 +198,31 @@ impl Pairs<'_> {
     }
 
     /// Visits springs that together are as stiff as these constraints or stiffer, in every direction and in
-    /// any state: their particles, and their stiffness in N/m.
-    pub(crate) fn each_spring(self, mut visit: impl FnMut([usize; 2], f64)) {
-        for (ends, _, stiffness) in self.constraints.colours().iter().flat_map(Colour::springs) {
-            if stiffness > 0.0 {
-                visit(ends, self.stiffest(stiffness));
+    /// any state: their particles, and their stiffness in N/m. A damper of 1 N s/m counts as `damper`.
+    pub(crate) fn each_spring(self, damper: f64, mut visit: impl FnMut([usize; 2], f64)) {
+        for colour in self.constraints.colours() {
+            for ((ends, _, stiffness), &damping) in colour.springs().zip(&colour.damping) {
+                if stiffness > 0.0 {
+                    visit(ends, self.stiffest(stiffness) + damper * damping);
+                }
             }
         }
     }
 
     /// Visits those springs of a particle: the other one, and the stiffness.
-    pub(crate) fn springs_at(self, particle: usize, mut visit: impl FnMut(usize, f64)) {
+    pub(crate) fn springs_at(
+        self,
+        particle: usize,
+        damper: f64,
+        mut visit: impl FnMut(usize, f64),
+    ) {
         for id in self.constraints.of(particle) {
             let one = self.constraints.get(id);
             if one.stiffness_n_per_m > 0.0 {
                 let [a, b] = one.ends;
-                visit(a + b - particle, self.stiffest(one.stiffness_n_per_m));
+                let damping = damper * self.constraints.damping(id);
+                let stiffness = self.stiffest(one.stiffness_n_per_m) + damping;
+                visit(a + b - particle, stiffness);
             }
         }
     }

@@ -4,11 +4,11 @@ pub(crate) mod error;
 
 pub use error::ClothError;
 
-use tearmesh::geometry::{Point, length};
+use tearmesh::geometry::{Point, cross, length};
 use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
 
 use crate::constraint::{Constraint, ConstraintId};
-use crate::fabric::{Copies, Fabric};
+use crate::fabric::{Copies, Fabric, Stretch};
 use crate::incidence::room_for;
 use crate::solver::{Solver, StepError, StepReport};
 use crate::system::System;
@@ -23,12 +23,16 @@ use crate::system::System;
 /// * **Split**: the new particle has the position and velocity of the old one, and [`Masses`]
 ///   divides the mass between them, so mass and momentum are exact. Constraints of moved faces go
 ///   with them; a torn edge gets a copy. A pinned particle's copy is pinned.
-/// * **Insertion**: the stiffness of each part of a divided edge is that of the edge divided by the
-///   part's share of its length. Stiffness times length of a new edge inside a face is the mean of
-///   the face's edges.
+/// * **Insertion**: the edges of a divided membrane are measured anew. Between springs of one
+///   stiffness, each part of a divided edge has that of the edge divided by the part's share of its
+///   length, and stiffness times length of a new edge inside a face is the mean of the face's edges.
 /// * **Merge**: the inverse of a split; velocities are joined by mass.
 /// * **Slide**: the particle moves along its edge, at rest as well; it keeps its velocity, so
-///   momentum is exact, and its edges keep stiffness times length.
+///   momentum is exact. A membrane is measured anew around it; other springs keep stiffness times
+///   length.
+///
+/// The stiffness of a membrane's edge is always, to the bit, that of a new cloth with this mesh and
+/// these places at rest ([`Stretch::Membrane`]).
 ///
 /// ```
 /// use tearmesh_cloth::{Cloth, Fabric, Loads, Unstable, Verlet};
@@ -69,8 +73,8 @@ pub struct Cloth {
     pub(super) fabric: Fabric,
     /// By half-edge: the constraint of its edge.
     pub(super) stretch_of: Vec<ConstraintId>,
-    /// By constraint: a half-edge of its edge.
-    pub(super) edge_of: Vec<HalfEdgeId>,
+    /// By constraint: the half-edges of its edge, the lower first; twice the same where there is one.
+    pub(super) edge_of: Vec<[HalfEdgeId; 2]>,
     /// By half-edge: the constraint across its edge, or [`NO_BEND`]. Empty without bending.
     pub(super) bend_of: Vec<ConstraintId>,
     /// By bend constraint: the two half-edges that it is across.
@@ -131,17 +135,21 @@ impl Cloth {
             scratch: EditScratch::default(),
             seen,
         };
+        cloth.system.model.damping_s = fabric.damping_s;
         for h in mesh.edges() {
-            let halved = fabric.copies == Copies::Halved && mesh.ghost_pair(h).is_some();
-            let share = if halved { 0.5 } else { 1.0 };
             let ends = [mesh.origin(h), mesh.target(h)];
-            let stiffness = fabric.stretch_n_per_m * share;
+            let edge = [h, mesh.pair(h).unwrap_or(h)];
+            let stiffness = match fabric.stretch {
+                Stretch::Edges {
+                    stiffness_n_per_m,
+                    copies: Copies::Halved,
+                } if mesh.ghost_pair(h).is_some() => 0.5 * stiffness_n_per_m,
+                _ => fabric.stretch_n_per_m(),
+            };
             let constraint = cloth.constraint(ends, stiffness)?;
             let id = cloth.system.model.stretch.add(constraint);
-            cloth.join(h, id);
-            if let Some(pair) = mesh.pair(h) {
-                cloth.stretch_of[pair.index()] = id;
-            }
+            cloth.join(edge, id);
+            cloth.measure_membrane(id);
         }
         if let Some(bend) = fabric.bend {
             cloth.system.model.buckling = bend.law();
@@ -283,14 +291,14 @@ impl Cloth {
         self.stretch_of[h.index()]
     }
 
-    /// Returns a half-edge of the edge that a stretch constraint belongs to.
+    /// Returns the lower half-edge of the edge that a stretch constraint belongs to.
     ///
     /// # Panics
     ///
     /// If the constraint does not belong to an edge.
     #[must_use]
     pub fn edge(&self, id: ConstraintId) -> HalfEdgeId {
-        self.edge_of[id.index()]
+        self.edge_of[id.index()][0]
     }
 
     /// Returns the edges that are longer than `ratio` times their rest length, in ascending order,
@@ -308,13 +316,46 @@ impl Cloth {
         length(rest[b] - rest[a])
     }
 
-    /// Notes whose edge a stretch constraint is.
-    pub(super) fn join(&mut self, h: HalfEdgeId, id: ConstraintId) {
-        self.stretch_of[h.index()] = id;
+    /// Notes whose edge a stretch constraint is: by its two half-edges, or twice the same.
+    pub(super) fn join(&mut self, [one, other]: [HalfEdgeId; 2], id: ConstraintId) {
+        self.stretch_of[one.index()] = id;
+        self.stretch_of[other.index()] = id;
+        let edge = [one.min(other), one.max(other)];
         if self.edge_of.len() <= id.index() {
-            self.edge_of.resize(id.index() + 1, h);
+            self.edge_of.resize(id.index() + 1, edge);
         }
-        self.edge_of[id.index()] = h;
+        self.edge_of[id.index()] = edge;
+    }
+
+    /// Gives an edge of a membrane the stiffness that its faces have at rest now, and the force that it
+    /// remembers in proportion. Does nothing without a membrane.
+    pub(super) fn measure_membrane(&mut self, id: ConstraintId) {
+        let Stretch::Membrane { modulus_n_per_m } = self.fabric.stretch else {
+            return;
+        };
+        let [one, other] = self.edge_of[id.index()];
+        let mut stiffness = self.membrane_share(one, modulus_n_per_m, id);
+        if other != one {
+            stiffness += self.membrane_share(other, modulus_n_per_m, id);
+        }
+        // Faces without area have no stiffness, but a compliance must be finite.
+        let stiffness = stiffness.max(modulus_n_per_m * f64::EPSILON);
+        let stretch = &mut self.system.model.stretch;
+        let before = stretch.get(id).stiffness_n_per_m;
+        if stiffness != before {
+            let mut memory = stretch.memory(id);
+            memory.multiplier *= stiffness / before;
+            stretch.remember(id, memory);
+            stretch.set_stiffness(id, stiffness);
+        }
+    }
+
+    /// The share of a half-edge's face in the stiffness of its edge: E A / l².
+    fn membrane_share(&self, h: HalfEdgeId, modulus_n_per_m: f64, id: ConstraintId) -> f64 {
+        let [a, b, c] = self.rest_corners(h.face());
+        let area = 0.5 * length(cross(b - a, c - a));
+        let edge = self.system.model.stretch.get(id).rest_length_m;
+        modulus_n_per_m * (area / edge / edge)
     }
 
     /// Gives a bend constraint the length that the rest positions of its ends have now, and the

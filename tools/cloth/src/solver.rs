@@ -93,6 +93,8 @@ pub struct Abilities {
     /// Whether neighbours carry the particles that are too light for a step. The step is then
     /// limited by [`recommended_step_s`](crate::recommended_step_s) instead of a bound of frequencies.
     pub carries_light: bool,
+    /// Whether the method takes in the damping of springs ([`System::set_damping`]).
+    pub damps: bool,
     /// Whether the method supports the forces of [`System::triangles`] and bends that buckle
     /// ([`System::set_buckling`]). A method that does not is refused if the system has any.
     pub takes_all_forces: bool,

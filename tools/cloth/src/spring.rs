@@ -176,6 +176,7 @@ mod tests {
                     rest: (0..COUNT).map(|_| 0.1 + random()).collect(),
                     compliance: stiffness.iter().map(|k| 1.0 / k).collect(),
                     stiffness,
+                    damping: vec![0.0; COUNT],
                     multipliers: vec![0.25; COUNT],
                     ratios: vec![0.0; COUNT],
                 },

@@ -98,6 +98,7 @@ pub fn recommended_step_s(system: &mut System) -> f64 {
 
 /// Weighs particles for steps of this length.
 pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
+    damp(system);
     let air = dt_s * system.scratch.air_per_s;
     if system.guard.weigh(&system.model, dt_s, air) {
         system.scratch.is_fresh = false;
@@ -122,7 +123,16 @@ pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
 }
 
 fn reach_out(system: &mut System) {
+    damp(system);
     system.guard.reach_out(&system.model, &system.positions);
+}
+
+/// Computes the damping of springs, if masses or stiffness have changed.
+fn damp(system: &mut System) {
+    let model = &mut system.model;
+    if !system.guard.is_known() {
+        model.stretch.damp(model.damping_s, &model.inverse_masses);
+    }
 }
 
 /// The largest step in seconds that is taken whole by this method with the present wind, where of that of the

@@ -55,13 +55,15 @@ impl System {
         let admitted = admit(self, solver, dt_s);
         let report = admitted.map_err(|error| unless_broken(self, error))?;
         begin(self);
-        let (began_s, contact_j) = (self.elapsed_s, self.contact_j);
+        let (began_s, contact_j, damped_j) = (self.elapsed_s, self.contact_j, self.damped_j);
         let work = balance.as_ref().map(|balance| balance.work);
         self.model.recorded = Recorded::Nothing;
+        self.model.is_damped = solver.abilities().damps;
         let substep_s = dt_s / f64::from(report.substeps);
         for _ in 0..report.substeps {
             if let Err(failure) = advance(self, solver, substep_s, balance.as_deref_mut()) {
                 (self.elapsed_s, self.contact_j) = (began_s, contact_j);
+                self.damped_j = damped_j;
                 if let Some((balance, work)) = balance.zip(work) {
                     balance.work = work;
                 }

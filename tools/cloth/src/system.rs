@@ -16,7 +16,8 @@ pub(crate) use model::{Model, Recorded};
 use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::bend::Buckling;
-use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::constraint::{Colour, Constraint, ConstraintId, Constraints};
+use crate::damping::{self, Damping};
 use crate::guard::Guard;
 use crate::incidence::room_for;
 use crate::load::{Loads, Path};
@@ -60,6 +61,8 @@ pub struct System {
     pub(crate) unstable: Unstable,
     /// What the push of colliders made in all, in joules, where someone keeps a balance of energy.
     pub(crate) contact_j: Option<f64>,
+    /// What material damping took in all, in joules.
+    pub(crate) damped_j: f64,
     /// How often the state was changed but by a step.
     pub(crate) changes: u64,
 }
@@ -70,6 +73,8 @@ pub(crate) struct Scratch {
     pub(crate) accelerations: Vec<Vector>,
     /// Whether these are the accelerations now.
     pub(crate) is_fresh: bool,
+    /// The power in watts that damping takes where these are of a guarded step.
+    pub(crate) damped_w: f64,
     /// The step in seconds for which they are guarded; zero without guards.
     pub(crate) guarded_s: f64,
     /// The part of a step's limit that wind takes in a second, as a step found it.
@@ -156,6 +161,8 @@ impl System {
                 bend: Constraints::new(count),
                 buckling: None,
                 triangles: Triangles::new(count),
+                damping_s: 0.0,
+                is_damped: false,
                 faces: Vec::new(),
                 loads: Loads::default(),
                 grabbed: Vec::new(),
@@ -168,6 +175,7 @@ impl System {
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             contact_j: None,
+            damped_j: 0.0,
             changes: 0,
         }
     }
@@ -448,6 +456,42 @@ impl System {
         self.changes += 1;
         self.model.loads = loads;
         Ok(())
+    }
+
+    /// Damps the stretch constraints with this time τ in seconds; zero for no damping, which is the
+    /// default. A constraint of stiffness k exerts c dl/dt besides, where c is τ k, and no more than gives it a
+    /// damping ratio of [`Fabric::DAMPING_RATIO_MAX`](crate::Fabric::DAMPING_RATIO_MAX). Methods that do not
+    /// damp ([`Abilities::damps`](crate::Abilities::damps)) leave it out.
+    ///
+    /// # Errors
+    ///
+    /// [`SystemError::Loads`] if the time is negative or not finite.
+    pub fn set_damping(&mut self, time_s: f64) -> Result<(), SystemError> {
+        if !(time_s >= 0.0 && time_s.is_finite()) {
+            let (field, given) = ("damping_s", time_s);
+            return Err(SystemError::Loads { field, given });
+        }
+        self.model.damping_s = time_s;
+        self.guard.forget();
+        self.touched();
+        Ok(())
+    }
+
+    /// Returns the damping of the stretch constraints, and how many of them it is capped for; `None`
+    /// without damping. Takes linear time.
+    #[must_use]
+    pub fn damping(&self) -> Option<Damping> {
+        let (time_s, w) = (self.model.damping_s, &self.model.inverse_masses);
+        let springs = self.model.stretch.colours().iter();
+        let springs = springs.flat_map(Colour::springs);
+        let capped = springs.filter(|&([a, b], _, stiffness)| {
+            let w = w[a] + w[b];
+            w > 0.0 && time_s * stiffness > damping::cap(stiffness, w)
+        });
+        (time_s > 0.0).then(|| Damping {
+            time_s,
+            capped: capped.count() as f64 / self.model.stretch.len().max(1) as f64,
+        })
     }
 
     /// Sets how to treat a step beyond the stability limit. The default is to refuse it.

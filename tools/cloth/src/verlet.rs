@@ -104,6 +104,7 @@ impl Solver for Verlet {
     fn abilities(&self) -> Abilities {
         Abilities {
             carries_light: true,
+            damps: true,
             ..Abilities::of_forces(Some(2.0), 1.0)
         }
     }
@@ -112,6 +113,7 @@ impl Solver for Verlet {
         let half_s = dt_s / 2.0;
         weigh_for(system, dt_s);
         let began_sane = is_fresh(system, dt_s) || accelerate(system, false, Some(dt_s));
+        let before_w = system.scratch.damped_w;
         kick_and_drift(system, half_s, dt_s);
         // The velocities at the end of the step, at which wind blows, as far as they are known in its
         // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),
@@ -127,6 +129,7 @@ impl Solver for Verlet {
         let accelerations = &system.scratch.accelerations;
         kick(&system.model, accelerations, half_s, &mut system.velocities);
         system.scratch.is_fresh = system.model.loads.colliders.is_empty();
+        system.damped_j += half_s * (before_w + system.scratch.damped_w);
         Failure::unless(began_sane && is_sane)
     }
 

@@ -123,7 +123,7 @@ impl Cloth {
         named.or_else(|| material(rest, default_warp(rest)))
     }
 
-    fn rest_corners(&self, f: FaceId) -> [Point; 3] {
+    pub(super) fn rest_corners(&self, f: FaceId) -> [Point; 3] {
         let at = |v: u32| self.rest.as_slice()[v as usize];
         self.face_vertices(f).map(at)
     }

@@ -92,7 +92,7 @@ impl Solver for Xpbd {
         let residual_n = |particle| {
             let mut sum = Vector::zeros();
             for pairs in model.families() {
-                pairs.add_force_at(x, particle, miss, &mut sum);
+                pairs.add_force_at(x, None, particle, miss, &mut sum);
             }
             length(sum)
         };

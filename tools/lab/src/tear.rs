@@ -21,7 +21,7 @@ use std::num::NonZero;
 use serde::{Deserialize, Serialize};
 use tearmesh_cloth::scene::ensemble::{self, MemberStatus, Subject};
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
-use tearmesh_cloth::{Tearing, Threshold};
+use tearmesh_cloth::{Fabric, Tearing, Threshold};
 
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::method::{DEFAULT, DEFAULTS, Method};
@@ -136,7 +136,7 @@ impl Tear {
         let edge_m = STRIP_M[0] / middle.map_or(1.0, |&cells| f64::from(cells));
         let strain = Scene::STRETCH_RATIO - 1.0;
         // ½ k ε² h: the energy of an edge at the ratio.
-        let toughness = 0.5 * Scene::STRETCH_N_PER_M * strain * strain * edge_m;
+        let toughness = 0.5 * Fabric::default().stretch_n_per_m() * strain * strain * edge_m;
         let stretch = (Rule::Stretch, Scene::STRETCH_RATIO);
         let rules = [stretch, (Rule::Toughness, toughness)].into_iter();
         let keys = rules.flat_map(|(rule, threshold)| {

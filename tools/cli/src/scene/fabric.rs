@@ -2,7 +2,7 @@
 
 use tearmesh_cloth::Method;
 use tearmesh_cloth::scene::{Frame, Scene};
-use tearmesh_cloth::{Bending, Buckling, Weave};
+use tearmesh_cloth::{Bending, Buckling, Stretch, Weave};
 
 use super::apply::vector;
 use super::kinds::set;
@@ -19,11 +19,42 @@ impl SceneFile {
         let fabric = &mut scene.fabric;
         let density = table.get("density_kg_per_m2");
         set(&mut scene.areal_density_kg_per_m2, density);
-        set(&mut fabric.stretch_n_per_m, table.get("stretch_n_per_m"));
-        set(&mut fabric.copies, table.word("copies"));
+        set(&mut fabric.damping_s, table.get("damping_s"));
         set(&mut fabric.unbend, table.word("unbend"));
-        for done in [self.bend(table, scene), self.weave(table, scene, frame)] {
+        let stretch = self.stretch(table, scene);
+        let others = [self.bend(table, scene), self.weave(table, scene, frame)];
+        for done in std::iter::once(stretch).chain(others) {
             faults.extend(done.err());
+        }
+    }
+
+    /// What resists stretch along edges: a membrane, or springs of one stiffness.
+    fn stretch(&self, table: &Table, scene: &mut Scene) -> Result<(), Fault> {
+        let stretch = &mut scene.fabric.stretch;
+        let membrane = |modulus_n_per_m| Stretch::Membrane { modulus_n_per_m };
+        set(stretch, table.get("modulus_n_per_m").map(membrane));
+        if let Some(stiffness_n_per_m) = table.get("stretch_n_per_m") {
+            *stretch = Stretch::Edges {
+                stiffness_n_per_m,
+                copies: table.word("copies").unwrap_or_default(),
+            };
+        }
+        let has = |key| table.has(key);
+        let clash = |key, message: &str| Err(self.fault(table, key, "E-SCENE-CLASH", message));
+        match (
+            has("stretch_n_per_m"),
+            has("modulus_n_per_m"),
+            has("copies"),
+        ) {
+            (true, true, _) => clash(
+                "modulus_n_per_m",
+                "`modulus_n_per_m` is of a membrane, and stretch_n_per_m of springs: give one of them",
+            ),
+            (false, _, true) => clash(
+                "copies",
+                "`copies` goes with stretch_n_per_m: each side of a torn membrane keeps what its faces give",
+            ),
+            _ => Ok(()),
         }
     }
 
@@ -56,7 +87,7 @@ impl SceneFile {
         self.has_forces(scene, table, "bend_law", "know no arcs")
     }
 
-    /// A fabric of triangles, which stands for springs on edges unless these are named as well.
+    /// A fabric of triangles, which stands for a membrane or springs unless these are named as well.
     fn weave(&self, table: &Table, scene: &mut Scene, frame: &Frame) -> Result<(), Fault> {
         let keys = ["warp_n_per_m", "weft_n_per_m", "shear_n_per_m", "warp"];
         let Some(&key) = table.those_of(&keys).first() else {
@@ -69,7 +100,14 @@ impl SceneFile {
             shear_n_per_m: table.get("shear_n_per_m").unwrap_or(0.0),
             warp: vector(table, "warp").unwrap_or_else(|| frame.along.vector()),
         });
-        scene.fabric.stretch_n_per_m = table.get("stretch_n_per_m").unwrap_or(0.0);
+        if !table.has("stretch_n_per_m") && !table.has("modulus_n_per_m") {
+            scene.fabric.stretch = Stretch::Slack;
+            if table.has("damping_s") {
+                let message = "`damping_s` damps springs, and this fabric is of triangles";
+                return Err(self.fault(table, "damping_s", "E-SCENE-CLASH", message));
+            }
+            scene.fabric.damping_s = 0.0;
+        }
         self.has_forces(scene, table, key, "have no triangles")
     }
 

@@ -103,7 +103,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             format!(
                 "pbd treats edges as rigid: their stretch depends on the step and the number of sweeps, not \
                  on the {} N/m of the fabric",
-                short(scene.fabric.stretch_n_per_m),
+                short(scene.fabric.stretch_n_per_m()),
             ),
             "--solver verlet, or xpbd, whose edges are as stiff as the fabric's at short steps"
                 .to_owned(),
@@ -199,24 +199,17 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
                 format!("{others}, --dt {half}, or a larger drag_per_s in a scene file"),
             )
         }
-        Warning::Damped { rate_per_s } => {
-            let rate = match rate_per_s {
-                rate if rate > 1000.0 => "more than 1000".to_owned(),
-                rate => three_digits(rate),
-            };
-            let beside = match scene.drag_per_s {
-                0.0 => "although the scene has none".to_owned(),
-                drag => format!("on top of the {} /s of the scene", short(drag)),
-            };
+        Warning::Damped { lost_j, moving_j } => {
             let order = match scene.solver {
                 Method::Implicit(_) => "`order = \"2\"` in [solver] of a scene file, ",
                 _ => "",
             };
             (
                 format!(
-                    "{} damped motion as much as a drag of {rate} /s would, {beside}: swinging cloth comes \
-                     to rest too soon",
-                    scene.solver.name()
+                    "{} lost {} J of the {} J that went into motion, which fades too soon",
+                    scene.solver.name(),
+                    three_digits(lost_j),
+                    three_digits(moving_j),
                 ),
                 format!("--dt {half}, {order}or --solver verlet"),
             )

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{RunError, Scene, TimedCut};
-use tearmesh_cloth::{ClothError, Method, SimulationError, TearingError, Threshold};
+use tearmesh_cloth::{ClothError, Method, SimulationError, Stretch, TearingError, Threshold};
 
 use crate::args::TearArgs;
 use crate::choice::{Choice as _, Preset};
@@ -69,8 +69,7 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
         return Ok(());
     };
     let fabric = &scene.fabric;
-    let has_springs = fabric.weave.is_none() || fabric.stretch_n_per_m > 0.0;
-    if has_springs || !matches!(tearing.threshold, Threshold::Force(_)) {
+    if fabric.stretch != Stretch::Slack || !matches!(tearing.threshold, Threshold::Force(_)) {
         return Ok(());
     }
     let lack = "is the pull of springs, and this fabric is of triangles";
@@ -80,7 +79,7 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
             "take --toughness",
         ));
     }
-    let help = "take toughness_j_per_m or principal_stretch, or add stretch_n_per_m to [fabric]";
+    let help = "take toughness_j_per_m or principal_stretch, or add modulus_n_per_m to [fabric]";
     blame(
         ("tear", 0, "threshold_n"),
         &format!("`threshold_n` {lack}"),

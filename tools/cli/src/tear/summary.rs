@@ -54,10 +54,11 @@ pub(super) fn balance(run: &Run) -> String {
         "of numerical dissipation"
     };
     format!(
-        "energy: {} J put in, {} J stored, {} J lost to drag, {} J {how}",
+        "energy: {} J put in, {} J stored, {} J lost to drag, {} J to damping, {} J {how}",
         three_digits(balance.put_in_j()),
         three_digits(balance.kinetic_j + balance.elastic_j),
         three_digits(-balance.drag_j),
+        three_digits(-balance.damping_j),
         three_digits(made_j.abs()),
     )
 }
@@ -81,6 +82,7 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         held: said(balance.held_j),
         wind: balance.wind_j,
         drag: balance.drag_j,
+        damping: balance.damping_j,
         colliders: balance.colliders_j,
         edits: balance.edits_j,
         numerical_dissipation: said(-balance.made_j()),

@@ -9,9 +9,6 @@ use crate::method::Method;
 use crate::{Tearing, Threshold};
 
 impl Scene {
-    /// The stiffness of an edge in the built-in scenes, in N/m. It is soft for cotton, so that a
-    /// pull shows.
-    pub const STRETCH_N_PER_M: f64 = 1000.0;
     /// The magnitude of gravity in the built-in scenes except [`Scene::trouser`], in m/s².
     pub const GRAVITY_M_PER_S2: f64 = 9.81;
     /// The ratio of length to rest length at which an edge tears in built-in scenes with tearing.
@@ -24,7 +21,7 @@ impl Scene {
             duration_s: 2.0,
             solver: Method::Verlet,
             step_s: None,
-            fabric: Fabric::new(Scene::STRETCH_N_PER_M),
+            fabric: Fabric::default(),
             areal_density_kg_per_m2: 0.15, // Of shirt cotton.
             gravity_m_per_s2: up.vector() * -Scene::GRAVITY_M_PER_S2,
             drag_per_s: 0.5,

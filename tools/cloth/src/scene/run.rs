@@ -451,33 +451,6 @@ impl Run {
         self.watch.gain()
     }
 
-    /// Returns the rate of damping by the method, in 1/s: that of a drag that would have removed as
-    /// much energy as the method did so far. For backward Euler it is ½ω²Δt for a mode of frequency
-    /// ω. `None` if the method removed none, and before 1/60 s. Costs a pass over all constraints.
-    ///
-    /// ```
-    /// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-    /// use tearmesh_cloth::Method;
-    /// use tearmesh::shapes;
-    ///
-    /// let (mesh, positions) = shapes::grid(6, 6);
-    /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    /// let rate = |solver| {
-    ///     let scene = Scene { solver, duration_s: 0.5, ..Scene::hang(&frame) };
-    ///     let mut run = Run::new(mesh.clone(), &positions, scene, &frame)?;
-    ///     while !run.is_over() {
-    ///         run.step()?;
-    ///     }
-    ///     Ok::<_, Box<dyn std::error::Error>>(run.damping_per_s().unwrap_or(0.0))
-    /// };
-    /// assert!(rate(Method::implicit())? > 1.0 && rate(Method::Verlet)? < 0.01);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn damping_per_s(&self) -> Option<f64> {
-        self.watch.damping_per_s(self.energy_balance().made_j())
-    }
-
     /// Returns the scene that this run carries out.
     #[must_use]
     pub fn scene(&self) -> &Scene {

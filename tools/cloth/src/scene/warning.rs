@@ -91,11 +91,13 @@ pub enum Warning {
     },
     /// The method made energy out of nothing.
     Energy(EnergyGain),
-    /// The method damped motion more than the scene's own drag does, enough to show in the time that was
-    /// simulated.
+    /// The method lost more than a tenth of the energy that went into motion.
     Damped {
-        /// The rate at which velocities faded, per second.
-        rate_per_s: f64,
+        /// The numerical dissipation, in joules.
+        lost_j: f64,
+        /// The energy that was put in ([`EnergyBalance::put_in_j`](crate::EnergyBalance::put_in_j)) and
+        /// is not stored as strain, in joules.
+        moving_j: f64,
     },
 }
 
@@ -221,17 +223,20 @@ fn strong(run: &Run) -> Option<Warning> {
     (least > 1.0 && least.is_finite()).then_some(Warning::Strong { least })
 }
 
-/// What Verlet takes is from what is crushed alone, and nothing from what swings; nor do Provot's springs,
-/// and of what the limiter takes nothing is known.
+/// Of what Provot's limiter takes nothing is known.
 fn damped(run: &Run) -> Option<Warning> {
-    let scene = run.scene();
-    if matches!(scene.solver, Method::Verlet | Method::Provot(_)) {
+    if matches!(run.quality(), Quality::Limiter(stats) if stats.steps_limited > 0) {
         return None;
     }
-    let rate_per_s = run.damping_per_s()?;
-    let shows = rate_per_s > scene.drag_per_s && rate_per_s * run.elapsed_s() > FADED;
-    shows.then_some(Warning::Damped { rate_per_s })
+    let balance = run.energy_balance();
+    let (lost_j, put_in_j) = (-balance.made_j(), balance.put_in_j());
+    // A sheet in its frame holds most of what was put in, and rings with the rest.
+    let moving_j = put_in_j - balance.elastic_j;
+    let shows = put_in_j >= LEAST_J && lost_j > DISSIPATED * moving_j;
+    shows.then_some(Warning::Damped { lost_j, moving_j })
 }
 
-/// By how much motion has to fade to be told: energy by two fifths.
-const FADED: f64 = 0.25;
+/// The part of that energy that a method may lose unsaid, and the energy in joules below which nothing is
+/// said of it.
+const DISSIPATED: f64 = 0.1;
+const LEAST_J: f64 = 1e-6;

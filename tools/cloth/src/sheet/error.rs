@@ -19,6 +19,11 @@ pub enum ClothError {
         /// The value that was given.
         given: f64,
     },
+    /// The time of damping is negative or not finite.
+    Damping {
+        /// The time that was given, in seconds.
+        given: f64,
+    },
     /// Two vertices that a constraint joins are at the same place, or have coordinates that are not
     /// finite.
     Length {
@@ -59,6 +64,10 @@ impl fmt::Display for ClothError {
             ClothError::Stiffness { field, given } => write!(
                 f,
                 "{field} is {given}, which makes no positive finite stiffness"
+            ),
+            ClothError::Damping { given } => write!(
+                f,
+                "damping_s is {given}, which is no finite time of 0 or more"
             ),
             ClothError::Length {
                 ends: [a, b],

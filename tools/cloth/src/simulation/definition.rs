@@ -38,7 +38,7 @@ impl Default for SimulationDef {
     fn default() -> SimulationDef {
         SimulationDef {
             density_kg_per_m2: 0.15,
-            fabric: Fabric::new(1000.0),
+            fabric: Fabric::default(),
             method: Method::Verlet,
             tearing: Some(Tearing::default()),
             strengths: Vec::new(),

@@ -10,7 +10,7 @@ use crate::crush::Crush;
 use crate::load::{Loads, Path};
 use crate::mass_scaling::MassScaling;
 use crate::matrix::Hessian;
-use crate::pair::Pairs;
+use crate::pair::{Pairs, Pull};
 use crate::triangle::Triangles;
 
 /// All but positions and velocities.
@@ -25,6 +25,10 @@ pub(crate) struct Model {
     /// The law of all bend constraints; `None` where they are springs.
     pub(crate) buckling: Option<Buckling>,
     pub(crate) triangles: Triangles,
+    /// The time τ of the damping of stretch constraints ([`damping`](crate::damping)).
+    pub(crate) damping_s: f64,
+    /// Whether the method of the last step damps.
+    pub(crate) is_damped: bool,
     /// The corners of faces, three each, where wind may blow.
     pub(crate) faces: Vec<u32>,
     pub(crate) loads: Loads,
@@ -117,11 +121,16 @@ impl Model {
 
     /// Visits springs that together are as stiff as all constraints, or stiffer, in every direction and in
     /// any state in which triangles are stretched within `reach`: their particles, and their stiffness in
-    /// N/m.
-    pub(crate) fn each_spring(&self, reach: f64, mut visit: impl FnMut([usize; 2], f64)) {
+    /// N/m. A damper of 1 N s/m counts as `damper`.
+    pub(crate) fn each_spring(
+        &self,
+        reach: f64,
+        damper: f64,
+        mut visit: impl FnMut([usize; 2], f64),
+    ) {
         let [stretch, bend] = self.families();
-        stretch.each_spring(&mut visit);
-        bend.each_spring(&mut visit);
+        stretch.each_spring(damper, &mut visit);
+        bend.each_spring(damper, &mut visit);
         self.triangles.each_spring(reach, visit);
     }
 
@@ -150,20 +159,21 @@ impl Model {
             + self.triangles.add_hessian(x, clamp, slots(2), hessian)
     }
 
-    /// Adds the forces of constraints and triangles. False where one is longer than `ratio_max` times its
-    /// rest length, or not a number.
-    #[must_use]
+    /// Adds the forces of constraints and triangles, in a guarded step with damping.
     pub(crate) fn add_forces(
         &self,
         x: &[Point],
         ratio_max: f64,
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
-    ) -> bool {
-        let [stretch, bend] = self.families();
-        stretch.add_forces(x, ratio_max, crush, forces)
-            & bend.add_forces(x, ratio_max, crush, forces)
-            & self.triangles.add_forces(x, ratio_max, crush, forces)
+    ) -> Pull {
+        let families = self.families();
+        let [stretch, bend] = families.map(|pairs| pairs.add_forces(x, ratio_max, crush, forces));
+        let are_triangles_sane = self.triangles.add_forces(x, ratio_max, crush, forces);
+        Pull {
+            is_sane: stretch.is_sane & bend.is_sane & are_triangles_sane,
+            damped_w: stretch.damped_w,
+        }
     }
 
     /// The elastic energy of all constraints and triangles, in joules.
@@ -186,8 +196,7 @@ impl Model {
         self.grabbed.retain(|(led, _)| *led as usize != particle);
     }
 
-    /// Fills in the forces of springs, triangles and wind. False where a spring has blown up.
-    #[must_use]
+    /// Fills in the forces of springs, triangles and wind.
     pub(crate) fn pull(
         &self,
         positions: &[Point],
@@ -195,13 +204,13 @@ impl Model {
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
         counters: &mut Counters,
-    ) -> bool {
+    ) -> Pull {
         counters.force_evaluations += 1;
         self.count_visits(1, counters);
         forces.fill(Vector::zeros());
-        let sane = self.add_forces(positions, self.stretch_ratio_max, crush, forces);
+        let pull = self.add_forces(positions, self.stretch_ratio_max, crush, forces);
         self.blow(positions, velocities, forces, counters);
-        sane
+        pull
     }
 
     /// Makes accelerations of forces, with gravity, and with what is carried as heavy as that makes it;

@@ -5,6 +5,7 @@ use tearmesh::{Cursor, Edit, Edits, Follower, HalfEdgeId, Mesh, PerVertex, Verte
 
 use super::load::{find_stretched, strain};
 use super::{Tearing, TearingError};
+use crate::fabric::Stretch;
 use crate::force;
 use crate::incidence::room_for;
 use crate::sheet::Cloth;
@@ -228,7 +229,7 @@ impl Tear {
                 break;
             }
             report.edge_energy_j += energy_j(cloth, due.edge);
-            let has_force = cloth.fabric.stretch_n_per_m > 0.0;
+            let has_force = cloth.fabric.stretch != Stretch::Slack;
             let tension_n = || force::force_n(cloth.system(), cloth.stretch(due.edge));
             self.torn.push(Torn {
                 edge: due.edge,

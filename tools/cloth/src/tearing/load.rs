@@ -5,7 +5,6 @@ use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
 use crate::constraint::{Constraint, ConstraintId};
-use crate::fabric::Copies;
 use crate::force;
 use crate::sheet::Cloth;
 use crate::system::{Recorded, System};
@@ -49,8 +48,7 @@ impl Threshold {
                 Some(strain(system, id) / bears)
             }
             Threshold::Force(newtons) => {
-                let halved = cloth.fabric.copies == Copies::Halved && mesh.ghost_pair(h).is_some();
-                let share = if halved { 0.5 } else { 1.0 };
+                let share = cloth.fabric.share(mesh, h);
                 Some(force::force_n(system, id) / (newtons * share))
             }
             Threshold::WarpWeft { warp, weft, axis } => {
@@ -96,12 +94,7 @@ impl Threshold {
                 return None;
             }
             Threshold::Force(newtons) => {
-                let share = if cloth.fabric.copies == Copies::Halved {
-                    0.5
-                } else {
-                    1.0
-                };
-                share * newtons / most(|edge| edge.stiffness_n_per_m * edge.rest_length_m)
+                0.5 * newtons / most(|edge| edge.stiffness_n_per_m * edge.rest_length_m)
             }
             Threshold::PrincipalStretch(_) => return None,
         };
@@ -204,7 +197,7 @@ fn modulus(cloth: &Cloth) -> f64 {
         .fabric
         .weave
         .map_or(0.0, |weave| (weave.warp_n_per_m + weave.weft_n_per_m) / 2.0);
-    cloth.fabric.stretch_n_per_m + woven
+    cloth.fabric.stretch_n_per_m() + woven
 }
 
 /// √(2 G / (E h)).

@@ -6,8 +6,7 @@
 //! they came. (At 128 × 128 cells, `rip` by Verlet at 0.67 of the limit: in the 18 ms in which it
 //! begins to shatter, 4011 of 22 million steps of a spring turned it by more than 90°. They made
 //! 16.6 J, and all others lost 1.4 J. With half the step it was 12 that turned.) So the balance of
-//! energy is judged at every frame of 1/60 s; see [`EnergyBalance`]. What a method takes instead is
-//! weighed against what moves, at the same frames.
+//! energy is judged at every frame of 1/60 s; see [`EnergyBalance`].
 
 use crate::balance::EnergyBalance;
 use crate::method::FRAME_S;
@@ -37,10 +36,6 @@ pub(super) struct Watch {
     put_in_j: f64,
     /// Since when more was made than its share of what was put in.
     since_s: Option<f64>,
-    /// Kinetic energy times time so far, by frames, in J s.
-    motion_js: f64,
-    /// The length of a frame, in seconds.
-    every_s: f64,
 }
 
 impl Watch {
@@ -63,8 +58,6 @@ impl Watch {
         let every = (FRAME_S / step_s).round().max(1.0);
         Watch {
             every: every as u64,
-            every_s: every * step_s,
-            motion_js: 0.0,
             least_j: Watch::ROUNDING * collapsed.sum::<f64>(),
             made_j: 0.0,
             put_in_j: 0.0,
@@ -79,18 +72,10 @@ impl Watch {
 
     /// Judges a frame. What was made before more was put in may turn out to be within its share.
     pub(super) fn judge(&mut self, elapsed_s: f64, balance: &EnergyBalance) {
-        self.motion_js += balance.kinetic_j * self.every_s;
         self.made_j = self.made_j.max(balance.made_j());
         self.put_in_j = self.put_in_j.max(balance.put_in_j());
         let is_beyond = self.made_j > Watch::SHARE * self.put_in_j + self.least_j;
         self.since_s = is_beyond.then_some(self.since_s.unwrap_or(elapsed_s));
-    }
-
-    /// The rate of the drag that would have taken from motion what the method took: drag takes 2 c ∫ K dt.
-    /// `None` where it took nothing, or nothing moved.
-    pub(super) fn damping_per_s(&self, made_j: f64) -> Option<f64> {
-        let rate_per_s = -made_j / (2.0 * self.motion_js);
-        (rate_per_s > 0.0 && rate_per_s.is_finite()).then_some(rate_per_s)
     }
 
     pub(super) fn gain(&self) -> Option<EnergyGain> {

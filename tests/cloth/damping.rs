@@ -1,0 +1,165 @@
+//! Material damping, against answers on paper.
+
+use tearmesh::{Masses, Point, Vector};
+use tearmesh_cloth::scene::Warning;
+use tearmesh_cloth::{
+    Balance, Cloth, Fabric, Implicit, Pbd, Provot, Solver, System, SystemError, Unstable, Verlet,
+    Xpbd, force, recommended_step_s,
+};
+
+use crate::parts::cloths::sheet;
+use crate::parts::scenes::played;
+use crate::parts::{mechanical_j, near};
+use crate::random::Random;
+
+/// A kilogram on a spring of 100 N/m that is held at its other end, 5 cm from rest.
+fn oscillator(damping_s: f64) -> System {
+    let points = [0.0, 1.05].map(|x| Point::new(x, 0.0, 0.0));
+    let mut system = System::new(points, vec![1.0; 2]).expect("two particles");
+    system.stretch([0, 1], 1.0, 100.0).expect("a spring");
+    system.hold(0);
+    system.set_damping(damping_s).expect("a time");
+    system
+}
+
+/// Where it is after two seconds, in steps of this length, with its balance.
+fn swung(damping_s: f64, dt_s: f64) -> (f64, Balance, System) {
+    let mut system = oscillator(damping_s);
+    let mut kept = Balance::new(&mut system);
+    for _ in 0..(2.0 / dt_s).round() as usize {
+        let taken = system.step_observed(&mut Verlet::new(), dt_s, &mut kept);
+        taken.expect("a stable step");
+    }
+    (system.positions()[1].x - 1.0, kept, system)
+}
+
+/// x = x₀ exp(−ζωt) (cos ω′t + ζω/ω′ sin ω′t), with ω′ = ω √(1 − ζ²).
+#[test]
+fn a_damped_spring_swings_by_the_closed_answer_and_its_ratio_is_capped() {
+    let omega = 10.0;
+    // τ k = c = 2 ζ √(k m); a ratio above a tenth is a tenth.
+    for (damping_s, ratio, capped) in [(0.01, 0.05, 0.0), (0.019, 0.095, 0.0), (7.0, 0.1, 1.0)] {
+        let t = 2.0;
+        let slower = omega * f64::sqrt(1.0 - ratio * ratio);
+        let shape = (slower * t).cos() + ratio * omega / slower * (slower * t).sin();
+        let answer = 0.05 * (-ratio * omega * t).exp() * shape;
+        let [whole, half] = [0.0025, 0.00125].map(|dt_s| swung(damping_s, dt_s).0 - answer);
+        println!("{damping_s}: off by {whole:e} and {half:e} of {answer}");
+        // By velocities of half a step before, so of first order.
+        near(whole / half, 2.0, 0.1);
+        near(2.0 * half - whole, 0.0, 1e-5);
+
+        let (_, kept, system) = swung(damping_s, 0.00125);
+        let balance = kept.now(&system);
+        let lost_j = balance.began_j - mechanical_j(&system);
+        near(-balance.damping_j / lost_j, 1.0, 5e-3);
+        let damping = system.damping().expect("it is damped");
+        assert_eq!((damping.time_s, damping.capped), (damping_s, capped));
+
+        // What a spring of 2 c/(Δt (1 + 2θ)) would take of the step that suits.
+        let (mut system, c) = (oscillator(damping_s), 2.0 * ratio * omega);
+        let suits_s = recommended_step_s(&mut system);
+        near(
+            100.0 * suits_s * suits_s + 2.0 * c / 1.5 * suits_s,
+            1.3,
+            1e-12,
+        );
+    }
+    assert_eq!(oscillator(0.0).damping(), None);
+    let refused = oscillator(0.0).set_damping(-1.0).expect_err("no time");
+    let (field, given) = ("damping_s", -1.0);
+    assert_eq!(refused, SystemError::Loads { field, given });
+}
+
+#[test]
+fn a_hand_feels_damping_and_a_threshold_does_not() {
+    let mut system = oscillator(0.01);
+    system.state_mut().1[1] = Vector::new(3.0, 1.0, 0.0);
+    let spring = system.stretches().iter().next().expect("a spring");
+    system.step(&mut Verlet::new(), 1e-3).expect("a step");
+    let d = system.positions()[1] - system.positions()[0];
+    let (pull, rate) = (
+        100.0 * (d.norm() - 1.0),
+        d.dot(&system.velocities()[1]) / d.norm(),
+    );
+    near(force::force_n(&system, spring), pull, 1e-12);
+    let hand = -d / d.norm() * (pull + 1.0 * rate);
+    near((force::reaction_n(&system, 0) - hand).norm(), 0.0, 1e-12);
+}
+
+#[test]
+fn other_methods_leave_damping_out() {
+    let methods: [fn() -> Box<dyn Solver>; 4] = [
+        || Box::new(Xpbd::default()),
+        || Box::new(Pbd::default()),
+        || Box::new(Provot::unlimited()),
+        || Box::new(Implicit::default()),
+    ];
+    let swing = |damping_s, solver: &mut dyn Solver| {
+        let mut system = oscillator(damping_s);
+        assert!(!solver.abilities().damps);
+        for _ in 0..50 {
+            system.step(solver, 5e-3).expect("a step");
+        }
+        (system.positions()[1], force::reaction_n(&system, 0))
+    };
+    for method in methods {
+        assert_eq!(swing(0.01, &mut *method()), swing(0.0, &mut *method()));
+    }
+}
+
+/// Uneven sheets that are crushed and shaken, at the longest steps that are taken whole, damped far beyond
+/// what a scene needs: the guard against crushed springs acts as well.
+#[test]
+fn damped_cloth_gains_no_energy_at_the_longest_step() {
+    for seed in 0..12 {
+        let mut random = Random(seed);
+        let (mesh, positions) = sheet(9, 9, seed);
+        let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+        let fabric = Fabric {
+            damping_s: [1e-3, 1e-2, 1.0][seed as usize % 3],
+            ..Fabric::new(500.0)
+        };
+        let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+        let system = cloth.system_mut();
+        system.when_unstable(Unstable::Substep);
+        let (points, velocities) = system.state_mut();
+        for (p, v) in points.iter_mut().zip(velocities) {
+            let mut next = || random.next() - 0.5;
+            *p = Point::from(0.6 * p.coords) + 0.02 * Vector::new(next(), next(), next());
+            *v = Vector::new(next(), next(), next());
+        }
+        let dt_s = 1.999 * recommended_step_s(system);
+        let before = mechanical_j(system);
+        let mut most = 0.0_f64;
+        for _ in 0..2000 {
+            let report = system.step(&mut Verlet::new(), dt_s).expect("a step");
+            assert_eq!(report.substeps, 1, "{seed}");
+            most = most.max(mechanical_j(system));
+        }
+        let left = mechanical_j(system);
+        println!("{seed}: {before} J, at most {most} J, {left} J left");
+        assert!(most < 1.02 * before && left < 0.5 * before, "{seed}");
+    }
+}
+
+/// At the defaults that a user gets, what a tear sets free goes into the cloth and the air; who loses it by
+/// other ways says so.
+#[test]
+fn the_default_method_hardly_dissipates_by_itself_and_others_say_so() {
+    let is_dissipation = |warning: &Warning| matches!(warning, Warning::Damped { .. });
+    for scene in ["hang", "flag", "rip", "trouser"] {
+        for method in ["verlet", "xpbd", "implicit"] {
+            let run = played(10, scene, method);
+            let balance = run.energy_balance();
+            let moving_j = balance.put_in_j() - balance.elastic_j;
+            let part = -balance.made_j() / moving_j;
+            println!("{scene}, {method}: {part} of {moving_j} J");
+            let warns = Warning::after(run).iter().any(is_dissipation);
+            assert_eq!(warns, part > 0.1, "{scene}, {method}: {balance:?}");
+            assert!(warns || part.abs() < 0.05, "{scene}, {method}: {balance:?}");
+            assert_eq!(warns, method != "verlet", "{scene}, {method}: {balance:?}");
+            assert_eq!(balance.damping_j < 0.0, method == "verlet");
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! One sheet on four meshes: what of an answer is the mesh's, by springs and by triangles.
+
+use tearmesh::insert::Plan;
+use tearmesh::{Edits, Mesh, Point, Positions, Vector, VertexId};
+use tearmesh_cloth::implicit::Settings;
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+use tearmesh_cloth::{Fabric, Implicit, Weave, force};
+
+use crate::parts::cloths::cloth;
+use crate::parts::scenes::square;
+use crate::parts::{gravity_along_y, near};
+use crate::random::Random;
+
+const MODULUS_N_PER_M: f64 = 1000.0;
+
+/// A square metre with its upper edge along y = 1.
+fn meshes() -> [(&'static str, Mesh, Positions); 4] {
+    let (mesh, even) = square(12);
+    let moved = |by: &mut dyn FnMut(usize) -> [f64; 2]| {
+        let points = even.as_slice().iter().enumerate().map(|(v, p)| {
+            let is_inner = [p.x, p.y].iter().all(|x| (0.01..0.99).contains(x));
+            let [x, y] = if is_inner { by(v) } else { [0.0; 2] };
+            [p.x + x / 12.0, p.y + y / 12.0, 0.0]
+        });
+        Positions::new(points).expect("finite")
+    };
+    let mut random = Random(7);
+    let uneven = moved(&mut |_| [0, 1].map(|_| 0.3 * (2.0 * random.next() - 1.0)));
+    // Every fifth vertex is all but at its neighbour.
+    let slivers = moved(&mut |v| [if v % 5 == 0 { 0.95 } else { 0.0 }, 0.0]);
+    let (mut finer, mut refined, mut edits) = (mesh.clone(), even.clone(), Edits::new());
+    for _ in 0..2 {
+        let mut plan = Plan::new();
+        for h in finer.edges() {
+            let [a, b] = [finer.origin(h), finer.target(h)].map(|v| refined.at(v));
+            if a.x.max(b.x) < 0.5 && a.y.min(b.y) > 0.4 {
+                plan.on_edge(h, 0.5);
+            }
+        }
+        plan.apply(&mut finer, &mut edits).expect("a plan");
+        edits.replay(&mut refined);
+    }
+    [
+        ("even", mesh.clone(), even.clone()),
+        ("uneven", mesh.clone(), uneven),
+        ("slivers", mesh, slivers),
+        ("refined", finer, refined),
+    ]
+}
+
+fn springs() -> Fabric {
+    Fabric::new(MODULUS_N_PER_M)
+}
+
+fn triangles() -> Fabric {
+    Fabric::woven(Weave {
+        warp_n_per_m: MODULUS_N_PER_M,
+        weft_n_per_m: MODULUS_N_PER_M,
+        shear_n_per_m: MODULUS_N_PER_M / 2.0,
+        warp: Vector::y(),
+    })
+}
+
+/// The droop of the lower edge's middle, and the 99th percentile of the strains of edges that lie further
+/// than .15 m from where the sheet is held, at rest.
+fn hung(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> [f64; 2] {
+    let mut cloth = cloth(mesh, positions, fabric);
+    let rest = positions.as_slice();
+    let system = cloth.system_mut();
+    for v in (0..rest.len()).filter(|&v| rest[v].y > 0.99) {
+        system.hold(v);
+    }
+    let mut loads = gravity_along_y(2.0);
+    loads.gravity_m_per_s2 = Some(Vector::new(0.0, -100.0, 0.0));
+    system.set_loads(loads).expect("loads");
+    let mut solver = Implicit::new(Settings::default());
+    for _ in 0..150 {
+        system.step(&mut solver, 0.1).expect("a step");
+    }
+    let at = |p: Point| {
+        let nearest = |v: &usize| (rest[*v] - p).norm();
+        let vertices = 0..rest.len();
+        vertices.min_by(|a, b| nearest(a).total_cmp(&nearest(b)))
+    };
+    let middle = at(Point::new(0.5, 0.0, 0.0)).expect("a vertex");
+    let droop_m = rest[middle].y - system.positions()[middle].y;
+    let low = |v: VertexId| positions.at(v).y < 0.85;
+    let edges = mesh
+        .edges()
+        .filter(|&h| low(mesh.origin(h)) && low(mesh.target(h)));
+    let mut strains: Vec<f64> = edges
+        .map(|h| cloth.system().stretch_ratio(cloth.stretch(h)) - 1.0)
+        .collect();
+    strains.sort_unstable_by(f64::total_cmp);
+    [droop_m, strains[strains.len() * 99 / 100]]
+}
+
+/// A stretch of a tenth, everywhere the same, is at equilibrium in a membrane. The largest force on a vertex
+/// inside, over E times the mean length of its edges.
+fn patch(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> f64 {
+    let mut cloth = cloth(mesh, positions, fabric);
+    for p in cloth.system_mut().state_mut().0 {
+        p.y *= 1.1;
+    }
+    let inner = mesh.vertices().filter(|&v| {
+        let is_inside = |x: f64| (0.01..0.99).contains(&x);
+        is_inside(positions.at(v).x) && is_inside(positions.at(v).y)
+    });
+    let missed = inner.map(|v| {
+        let lengths = mesh.faces_of(v).map(|f| {
+            let [a, b, _] = mesh.face_vertices(f).map(|v| positions.at(v));
+            (b - a).norm()
+        });
+        let lengths: Vec<f64> = lengths.collect();
+        let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+        force::reaction_n(cloth.system(), v.index()).norm() / (MODULUS_N_PER_M * mean)
+    });
+    missed.fold(0.0, f64::max)
+}
+
+#[test]
+fn triangles_hang_alike_on_all_meshes_and_springs_within_their_mesh() {
+    let (mesh, positions) = square(48);
+    let [droop, strain] = hung(&mesh, &positions, triangles());
+    println!("triangles on 48 cells: droop {droop:.5} m, strain {strain:.4}");
+    // ρ g L²/(2 E) of a strip.
+    near(droop / (0.2 * 100.0 / (2.0 * MODULUS_N_PER_M)), 1.0, 0.05);
+    for (name, mesh, positions) in meshes() {
+        let woven = hung(&mesh, &positions, triangles());
+        let net = hung(&mesh, &positions, springs());
+        let patches = [triangles(), springs()].map(|fabric| patch(&mesh, &positions, fabric));
+        println!(
+            "{name}: triangles {woven:.5?}, springs {net:.5?}, patch test {} and {}",
+            patches[0], patches[1]
+        );
+        assert!((woven[0] / droop - 1.0).abs() < 0.05, "{name}");
+        assert!((woven[1] / strain - 1.0).abs() < 0.05, "{name}");
+        assert!((0.75..1.4).contains(&(net[0] / droop)), "{name}");
+        assert!(net[1] < 3.0 * strain, "{name}");
+        assert!(patches[0] < 1e-12, "{name}");
+    }
+}
+
+#[test]
+fn a_rip_begins_where_the_hand_pulls_on_all_meshes() {
+    for (name, mesh, positions) in meshes() {
+        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+        let scene = Scene::rip(&frame);
+        let mut run = Run::new(mesh, &positions, scene, &frame).expect("a scene");
+        let edge = loop {
+            assert!(!run.is_over(), "{name}: nothing tore");
+            let tear = run.step().expect("a step");
+            if let Some((edge, _)) = tear.worst.filter(|_| tear.splits > 0) {
+                break edge;
+            }
+        };
+        let rest = run.cloth().rest_positions().as_slice();
+        let ends = [run.mesh().origin(edge), run.mesh().target(edge)];
+        let away = ends.map(|v| (rest[v.index()] - Point::new(0.5, 0.5, 0.0)).norm());
+        let away_m = away[0].min(away[1]);
+        println!(
+            "{name}: first tear at {} s, {away_m} m away",
+            run.elapsed_s()
+        );
+        assert!(away_m < 0.15, "{name}: {away_m}");
+    }
+}
