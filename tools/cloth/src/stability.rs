@@ -13,6 +13,9 @@ pub(crate) fn admit(
     solver: &(impl Solver + ?Sized),
     dt_s: f64,
 ) -> Result<StepReport, StepError> {
+    if solver.abilities().damps {
+        damp(system);
+    }
     let limit = match system.unstable {
         Unstable::Allow => None,
         Unstable::Refuse | Unstable::Substep => limit(system, solver),

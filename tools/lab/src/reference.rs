@@ -1,8 +1,8 @@
 //! The second reference: BDF2 with each step solved to convergence, in code of its own.
 //!
 //! A floor of errors is the distance between two references. It says something only if they share no mistake,
-//! so this one has its own springs, loads and solver, and takes from a system no more than its numbers: of
-//! stretch and bend constraints, masses, weight, drag, holds and wind. Bends that buckle, triangles and
+//! so this one has its own springs, damping, loads and solver, and takes from a system no more than its numbers:
+//! of stretch and bend constraints, masses, weight, drag, holds and wind. Bends that buckle, triangles and
 //! colliders are not supported.
 //!
 //! Newton's method with conjugate gradients solves M (v − v*) = h [f(x* + h v, v) − c M v] for the new velocity
@@ -59,7 +59,10 @@ impl Reference {
 
 impl Solver for Reference {
     fn abilities(&self) -> Abilities {
-        Abilities::default()
+        Abilities {
+            damps: true,
+            ..Abilities::default()
+        }
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
@@ -108,12 +111,22 @@ struct Step<'a> {
 impl<'a> Step<'a> {
     /// A step of backward Euler.
     fn new(system: &'a System, faces: &'a [u32], h: f64) -> Step<'a> {
-        let families = [system.stretches(), system.bends()].into_iter();
-        let constraints = families.flat_map(|of| of.iter().map(|id| of.get(id)));
-        let springs = constraints.map(|constraint| Spring {
-            ends: constraint.ends,
-            rest_m: constraint.rest_length_m,
-            n_per_m: constraint.stiffness_n_per_m,
+        let damping_s = system.damping().map_or(0.0, |damping| damping.time_s);
+        let families = [(system.stretches(), damping_s), (system.bends(), 0.0)];
+        let springs = families.into_iter().flat_map(|(family, damping_s)| {
+            family.iter().map(move |id| {
+                let constraint = family.get(id);
+                let [w, other_w] = constraint.ends.map(|end| system.inverse_masses()[end]);
+                let n_per_m = constraint.stiffness_n_per_m;
+                // A tenth of the critical damping of this spring alone.
+                let most = 0.2 * (n_per_m / (w + other_w)).sqrt();
+                Spring {
+                    ends: constraint.ends,
+                    rest_m: constraint.rest_length_m,
+                    n_per_m,
+                    n_s_per_m: most.min(damping_s * n_per_m),
+                }
+            })
         });
         Step {
             springs: springs.collect(),
@@ -184,7 +197,7 @@ impl<'a> Step<'a> {
     fn direction(&self, x: &[Point], residual: &[Vector]) -> Vec<Vector> {
         let springs = self.springs.iter().map(|spring| {
             let [a, b] = spring.ends;
-            (spring.ends, spring.stiffness(x[b] - x[a]))
+            (spring.ends, spring.stiffness(x[b] - x[a], self.h))
         });
         let springs: Vec<_> = springs.collect();
         let mut solution = vec![Vector::zeros(); x.len()];
@@ -240,7 +253,7 @@ impl<'a> Step<'a> {
         let mut forces: Vec<Vector> = forces.collect();
         for spring in &self.springs {
             let [a, b] = spring.ends;
-            let pull = spring.pull(x[b] - x[a]);
+            let pull = spring.pull(x[b] - x[a], v[b] - v[a]);
             forces[a] += pull;
             forces[b] -= pull;
         }
@@ -276,23 +289,25 @@ struct Spring {
     ends: [usize; 2],
     rest_m: f64,
     n_per_m: f64,
+    n_s_per_m: f64,
 }
 
 impl Spring {
-    /// The force on the first end, with the second at the difference `d` from it.
-    fn pull(self, d: Vector) -> Vector {
+    /// The force on the first end, with the second at the difference `d` from it and as much faster as `v`.
+    fn pull(self, d: Vector, v: Vector) -> Vector {
         let length = d.norm();
-        d * (self.n_per_m * (length - self.rest_m) / length)
+        let damped_n = self.n_s_per_m * d.dot(&v) / length;
+        d * ((self.n_per_m * (length - self.rest_m) + damped_n) / length)
     }
 
-    /// The change of the force on the first end if the difference to the second, which is `d`, changes by a vector:
-    /// the stiffness along the spring, and across it a part of that.
-    fn stiffness(self, d: Vector) -> impl Fn(Vector) -> Vector {
+    /// The change of the force on the first end if the difference to the second, which is `d`, changes by a vector
+    /// within `h` seconds: stiffness and damping along the spring, and across it a part of the stiffness.
+    fn stiffness(self, d: Vector, h: f64) -> impl Fn(Vector) -> Vector {
         let length = d.norm();
         let (direction, across) = (d / length, (length - self.rest_m) / length);
         move |u| {
             let along = direction * direction.dot(&u);
-            (along + (u - along) * across) * self.n_per_m
+            (along + (u - along) * across) * self.n_per_m + along * (self.n_s_per_m / h)
         }
     }
 }
@@ -301,7 +316,7 @@ impl Spring {
 mod tests {
     use tearmesh::{Masses, shapes};
     use tearmesh_cloth::implicit::{self, Settings};
-    use tearmesh_cloth::{Bending, Cloth, Fabric, Implicit, Loads, Wind, force};
+    use tearmesh_cloth::{Bending, Cloth, Fabric, Implicit, Loads, Unstable, Verlet, Wind, force};
 
     use super::*;
 
@@ -358,15 +373,42 @@ mod tests {
             ends: [0, 1],
             rest_m: 0.7,
             n_per_m: 30.0,
+            n_s_per_m: 0.0,
         };
         let u = Vector::new(-0.3, 0.8, 0.2);
         for scale in [0.4, 0.7, 1.9] {
             let d = Vector::new(0.6, 0.64, -0.48) * scale;
             let h = 1e-5;
-            let difference = (spring.pull(d + u * h) - spring.pull(d - u * h)) / (2.0 * h);
-            let apart = (difference - spring.stiffness(d)(u)).norm();
+            let pull = |d| spring.pull(d, Vector::zeros());
+            let difference = (pull(d + u * h) - pull(d - u * h)) / (2.0 * h);
+            let apart = (difference - spring.stiffness(d, 1.0)(u)).norm();
             assert!(apart < 1e-7, "{scale}: {apart}");
         }
+    }
+
+    /// Verlet takes damping in by the velocities of half a step before, so half of their distance is left at half
+    /// the step.
+    #[test]
+    fn damped_motions_are_those_of_the_product_to_first_order() {
+        let distance = |steps: u32| {
+            let mut own = crumpled();
+            own.system_mut().set_damping(0.01).expect("a time");
+            own.system_mut().when_unstable(Unstable::Allow);
+            let mut product = own.clone();
+            let mut reference = Reference::new(own.indices());
+            for _ in 0..steps {
+                let dt_s = 0.05 / f64::from(steps);
+                own.step(&mut reference, dt_s).expect("a step");
+                product.step(&mut Verlet::new(), dt_s).expect("a step");
+            }
+            let pairs = own.positions().iter().zip(product.positions());
+            pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+        };
+        let [coarse, fine] = [400, 800].map(distance);
+        assert!(
+            fine < 1e-3 && (1.8..2.2).contains(&(coarse / fine)),
+            "{coarse} {fine}"
+        );
     }
 
     /// At the same steps both are of second order, so a quarter is left of their distance at half the step.
