@@ -273,7 +273,9 @@ impl Section<'_> {
                     short(1e3 * dt_s, 2)
                 ));
             }
-            if let Some(error) = points[0].row.error.filter(|error| *error > LOOK) {
+            let default = points[0].row;
+            let is_off = |error: &f64| *error > default.error_floor.unwrap_or(0.0).max(LOOK);
+            if let Some(error) = default.error.filter(is_off) {
                 failing.push(format!("{name} at its default is {} off", percent(error)));
             }
         }
@@ -291,8 +293,13 @@ impl Section<'_> {
         ]
     }
 
-    /// The command with the least cost among those that have no larger error.
+    /// The command with the least cost among those that have no larger error; none where the references
+    /// themselves are further apart.
     fn cheapest(&self, error_max: f64) -> String {
+        let floor = self.points().find_map(|point| point.row.error_floor);
+        if floor.is_some_and(|floor| floor > error_max) {
+            return "not known, as the references are further apart".to_owned();
+        }
         let meets = self.points().filter_map(|point| {
             let error = point.row.error.filter(|error| *error <= error_max)?;
             Some((point.cost?, error, point.command()))
@@ -312,14 +319,16 @@ fn title(sections: &[Section<'_>]) -> String {
     let errors = |name: &'static str| {
         let curves = sections.iter().flat_map(|section| &section.fine);
         let of = curves.filter(move |(method, _)| method.name == name);
-        of.filter_map(|(_, points)| points[0].row.error)
+        let known =
+            of.filter(|(_, points)| points[0].row.error_floor.is_some_and(|at| at <= FORCES));
+        known.filter_map(|(_, points)| points[0].row.error)
     };
     let within = |name| errors(name).filter(|error| *error <= FORCES).count();
     let others = DEFAULTS[1..].iter();
     let others = others.map(|method| format!("{} {}", method.name, within(method.name)));
     let others: Vec<String> = others.collect();
     format!(
-        "Which method for my scene? {DEFAULT}, the default, is within 5 % in {} of {} scenes ({})",
+        "Which method for my scene? {DEFAULT}, the default, is within 5 % in {} of {} scenes whose answer is known ({})",
         within(DEFAULT),
         errors(DEFAULT).count(),
         others.join(", ")

@@ -23,6 +23,14 @@ fn page_has_all_topics_and_survives_a_file() {
     let figure = guide.figure(&rows, &Provenance::default());
     assert_eq!(figure.panels.len(), 6);
     assert!(!crate::plot::svg(&figure).contains("NaN"));
+    // What the references do not know recommends nothing.
+    let unknown = |summary: String| summary.matches("not known, as the references").count();
+    let mut apart = rows.clone();
+    for row in apart.iter_mut().filter(|row| row.topic == Topic::Hang) {
+        row.error_floor = row.error_floor.and(Some(0.1));
+    }
+    let [before, after] = [&rows, &apart].map(|rows| unknown(guide.summary(rows)));
+    assert_eq!(after, before + 1);
     // At rest there is one shape, whatever finds it, but for methods whose sweeps are soft.
     let error = |method: &str| {
         let is_it = |row: &&Row| {
