@@ -389,7 +389,7 @@ fn unsolved(error: &implicit::StepError) -> (String, &'static str) {
 mod tests {
     use tearmesh::Positions;
     use tearmesh_cloth::scene::{Axis, Scene};
-    use tearmesh_cloth::{Tearing, Xpbd};
+    use tearmesh_cloth::{Fabric, Tearing, Xpbd};
     use tearmesh_obj::Document;
 
     use super::*;
@@ -422,8 +422,10 @@ mod tests {
         let positions = Positions::new(document.positions().iter().copied()).expect("numbers");
         let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
         let warned = |solver| {
+            // A membrane without area has next to no stiffness.
             let scene = Scene {
                 solver,
+                fabric: Fabric::of_edges(1000.0),
                 ..Scene::hang(&frame)
             };
             let run = Run::new(mesh.clone(), &positions, scene, &frame).expect("a scene");
