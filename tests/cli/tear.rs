@@ -518,6 +518,11 @@ fn what_would_be_ignored_is_refused() {
         ),
         ("[solver]\norder = \"2\"\n", "--solver implicit", ""),
         (
+            "[fabric]\nflexural_n_m2 = 1e-6\n",
+            "",
+            "error[E-SCENE-KEY]: `flexural_n_m2` of [fabric] was removed at:2:1",
+        ),
+        (
             "[solver]\nnewton_iterations = 2\n",
             "",
             "error[E-SCENE-KEY]: `newton_iterations` of [solver] was removed at:2:1",

@@ -311,7 +311,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         // The last forty buckle where they bend.
         if seed >= 90 && with_bends {
             fabric.bend = Some(Bending::Buckling {
-                flexural_n_m2: 1e-3,
+                rigidity_n_m: 1e-2,
                 law: tearmesh_cloth::Buckling::new(0.6 + 0.01 * (seed - 90) as f64).expect("a law"),
             });
         }

@@ -128,7 +128,7 @@ fn a_solver_that_has_followed_tears_steps_as_a_new_one() {
     let fabric = Fabric {
         weave: Some(weave),
         bend: Some(Bending::Buckling {
-            flexural_n_m2: 1e-4,
+            rigidity_n_m: 1e-3,
             law: Buckling::new(0.9).expect("a law"),
         }),
         ..Fabric::new(5.0)

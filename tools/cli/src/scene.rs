@@ -175,13 +175,13 @@ mod tests {
                 let others: String = others.map(|other| format!("{other} = 300\n")).collect();
                 format!("{implicit}{others}{line}")
             }
-            ("fabric", "flexural_n_m2") => format!("{implicit}bend_law = \"buckling\"\n{line}"),
+            ("fabric", "rigidity_n_m") => format!("{implicit}bend_law = \"buckling\"\n{line}"),
             ("fabric", "buckles_below") => {
-                format!("{implicit}bend_law = \"buckling\"\nflexural_n_m2 = 1e-6\n{line}")
+                format!("{implicit}bend_law = \"buckling\"\nrigidity_n_m = 1e-6\n{line}")
             }
             // A law without a number is none.
             ("fabric", "bend_law") if value == "\"buckling\"" => {
-                format!("{implicit}flexural_n_m2 = 1e-6\n{line}")
+                format!("{implicit}rigidity_n_m = 1e-6\n{line}")
             }
             _ => format!("{}{}\n{line}", head(table), beside(table, key)),
         }

@@ -38,7 +38,7 @@
 /// use tearmesh_cloth::Buckling;
 ///
 /// let law = Buckling::new(0.95).unwrap();
-/// // What a strip of 10 cm with a flexural stiffness of 1e-6 N m² resists with until it buckles.
+/// // The resistance of a strip of 10 cm with a flexural stiffness of 1e-6 N m², until it buckles.
 /// let stiffness_n_per_m = law.compression_n_per_m(1e-6, 0.1);
 /// assert!((stiffness_n_per_m - 0.247).abs() < 1e-3);
 /// assert!(Buckling::new(1.0).is_none() && Buckling::new(0.59).is_none());

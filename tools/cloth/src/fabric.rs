@@ -215,7 +215,7 @@ impl Weave {
 /// use tearmesh_cloth::{Bending, Buckling, Cloth, Fabric, Implicit, StepError, Xpbd};
 /// use tearmesh::{shapes, Masses};
 ///
-/// let bend = Bending::Buckling { flexural_n_m2: 1e-6, law: Buckling::new(0.95).unwrap() };
+/// let bend = Bending::Buckling { rigidity_n_m: 1e-5, law: Buckling::new(0.95).unwrap() };
 /// let fabric = Fabric { bend: Some(bend), ..Fabric::new(500.0) };
 /// let (mesh, positions) = shapes::grid(4, 4);
 /// let masses = Masses::area(&mesh, &positions, 0.15)?;
@@ -234,13 +234,13 @@ pub enum Bending {
         /// The stiffness, in N/m; positive.
         stiffness_n_per_m: f64,
     },
-    /// A strip of the same flexural stiffness across every edge, which buckles into an arc under
-    /// compression (Choi and Ko 2002 §4.2). Before it buckles, its stiffness against compression is
-    /// inversely proportional to the third power of its length.
+    /// A strip across every edge, which buckles into an arc under compression (Choi and Ko 2002
+    /// §4.2). Its width is 8 A / (9 L), where A is the area of both faces at the edge and L the
+    /// length of the strip, all at rest.
     Buckling {
-        /// The flexural stiffness k, in N m²: the bending moment is k times the curvature.
-        /// Positive.
-        flexural_n_m2: f64,
+        /// The flexural rigidity B of the cloth, in N m: the bending moment per width is B times the
+        /// curvature. Positive.
+        rigidity_n_m: f64,
         /// The law by which a bend buckles.
         law: Buckling,
     },
@@ -251,7 +251,7 @@ impl Bending {
     pub(super) fn number(&self) -> (&'static str, f64) {
         match *self {
             Bending::Spring { stiffness_n_per_m } => ("bend.stiffness_n_per_m", stiffness_n_per_m),
-            Bending::Buckling { flexural_n_m2, .. } => ("bend.flexural_n_m2", flexural_n_m2),
+            Bending::Buckling { rigidity_n_m, .. } => ("bend.rigidity_n_m", rigidity_n_m),
         }
     }
 
@@ -262,15 +262,17 @@ impl Bending {
         }
     }
 
-    /// The stiffness of a bend constraint of this length. `None` where it is beyond all numbers.
-    pub(super) fn stiffness_n_per_m(&self, rest_length_m: f64) -> Option<f64> {
+    /// The stiffness of a bend constraint of this length, across an edge whose faces have this area:
+    /// zero where they have none. `None` where it is beyond all numbers.
+    pub(super) fn stiffness_n_per_m(&self, rest_length_m: f64, area_m2: f64) -> Option<f64> {
         let stiffness = match *self {
             Bending::Spring { stiffness_n_per_m } => stiffness_n_per_m,
-            Bending::Buckling { flexural_n_m2, law } => {
-                law.compression_n_per_m(flexural_n_m2, rest_length_m)
+            Bending::Buckling { rigidity_n_m, law } => {
+                let width_m = 8.0 / 9.0 * (area_m2 / rest_length_m);
+                law.compression_n_per_m(rigidity_n_m * width_m, rest_length_m)
             }
         };
-        (stiffness > 0.0 && stiffness.is_finite()).then_some(stiffness)
+        stiffness.is_finite().then_some(stiffness)
     }
 }
 

@@ -166,12 +166,8 @@ impl Cloth {
                 .as_flattened()
             {
                 self.measure_membrane(self.stretch(*h));
+                self.measure_bend(*h);
             }
-        }
-        ids.clear();
-        ids.extend(self.system.model.bend.of(particle));
-        for &id in &ids {
-            self.measure_bend(id);
         }
         self.scratch.ids = ids;
         self.weave_again(particle);
@@ -278,7 +274,6 @@ impl Cloth {
                 let bend = &mut self.system.model.bend;
                 bend.repoint(id, piece.apex_before, piece.apex);
             }
-            self.measure_bend(id);
             self.bend_of[piece.half_edge.index()] = id;
             for h in &mut self.bent_edge[id.index()] {
                 if *h == piece.half_edge_before {
@@ -286,6 +281,7 @@ impl Cloth {
                 }
             }
         }
+        self.measure_bend(edge[0].half_edge);
     }
 
     /// A part of a divided edge, or a new edge inside a face.

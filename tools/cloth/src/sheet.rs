@@ -157,9 +157,7 @@ impl Cloth {
             for h in mesh.edges() {
                 if let Some(pair) = mesh.pair(h) {
                     let apexes = [h, pair].map(|h| mesh.origin(h.prev()));
-                    let length_m = cloth.rest_length(apexes.map(VertexId::index));
-                    let stiffness = bend.stiffness_n_per_m(length_m);
-                    cloth.constraint(apexes, stiffness.unwrap_or(0.0))?;
+                    cloth.constraint(apexes, 0.0)?;
                     let id = cloth.bend_across([h, pair]);
                     let (field, given) = bend.number();
                     id.ok_or(ClothError::Stiffness { field, given })?;
@@ -352,21 +350,37 @@ impl Cloth {
 
     /// The share of a half-edge's face in the stiffness of its edge: E A / l².
     fn membrane_share(&self, h: HalfEdgeId, modulus_n_per_m: f64, id: ConstraintId) -> f64 {
-        let [a, b, c] = self.rest_corners(h.face());
-        let area = 0.5 * length(cross(b - a, c - a));
+        let area = self.rest_area(h);
         let edge = self.system.model.stretch.get(id).rest_length_m;
         modulus_n_per_m * (area / edge / edge)
     }
 
-    /// Gives a bend constraint the length that the rest positions of its ends have now, and the
-    /// stiffness that goes with it: none where rounding left no length for one.
-    pub(super) fn measure_bend(&mut self, id: ConstraintId) {
+    /// The area at rest of a half-edge's face.
+    fn rest_area(&self, h: HalfEdgeId) -> f64 {
+        let [a, b, c] = self.rest_corners(h.face());
+        0.5 * length(cross(b - a, c - a))
+    }
+
+    /// The stiffness of a bend constraint of this length across an edge. `None` where it is beyond all
+    /// numbers.
+    fn bend_stiffness(&self, edge: [HalfEdgeId; 2], rest_length_m: f64) -> Option<f64> {
+        let [one, other] = edge.map(|h| self.rest_area(h));
+        self.fabric
+            .bend?
+            .stiffness_n_per_m(rest_length_m, one + other)
+    }
+
+    /// Gives the bend constraint across an edge the length that the rest positions of its ends have
+    /// now, and the stiffness that goes with it: none where rounding left no length for one. Does
+    /// nothing without such a constraint.
+    pub(super) fn measure_bend(&mut self, h: HalfEdgeId) {
+        let id = self.bend_of.get(h.index()).copied().unwrap_or(NO_BEND);
+        if id == NO_BEND {
+            return;
+        }
         let ends = self.system.model.bend.get(id).ends;
         let rest_length_m = self.rest_length(ends).max(f64::MIN_POSITIVE);
-        let stiffness = self
-            .fabric
-            .bend
-            .and_then(|bend| bend.stiffness_n_per_m(rest_length_m));
+        let stiffness = self.bend_stiffness(self.bent_edge[id.index()], rest_length_m);
         let bend = &mut self.system.model.bend;
         bend.set_rest_length(id, rest_length_m);
         bend.set_stiffness(id, stiffness.unwrap_or(0.0));
@@ -375,13 +389,12 @@ impl Cloth {
 
     /// Adds the bend constraint across an edge, unless there is no distance across it.
     pub(super) fn bend_across(&mut self, edge: [HalfEdgeId; 2]) -> Option<ConstraintId> {
-        let bend = self.fabric.bend?;
         let apexes = edge.map(|h| self.system.model.faces[h.prev().index()] as usize);
         let rest_length_m = self.rest_length(apexes);
         if rest_length_m <= 0.0 {
             return None;
         }
-        let stiffness_n_per_m = bend.stiffness_n_per_m(rest_length_m)?;
+        let stiffness_n_per_m = self.bend_stiffness(edge, rest_length_m)?;
         let id = self.system.model.bend.add(Constraint {
             ends: apexes,
             rest_length_m,

@@ -63,7 +63,7 @@ impl SceneFile {
         let buckles = table.word("bend_law") == Some(BendLaw::Buckling);
         let (foreign, other): (&[&str], _) = match buckles {
             true => (&["bend_n_per_m"], "spring"),
-            false => (&["flexural_n_m2", "buckles_below"], "buckling"),
+            false => (&["rigidity_n_m", "buckles_below"], "buckling"),
         };
         if let Some(&key) = table.those_of(foreign).first() {
             let message = format!("`{key}` goes with bend_law = \"{other}\"");
@@ -76,14 +76,14 @@ impl SceneFile {
             }
             return Ok(());
         }
-        let flexural_n_m2 = table.get("flexural_n_m2");
-        let flexural_n_m2 = flexural_n_m2.ok_or_else(|| self.missing(table, "flexural_n_m2"))?;
+        let rigidity_n_m = table.get("rigidity_n_m");
+        let rigidity_n_m = rigidity_n_m.ok_or_else(|| self.missing(table, "rigidity_n_m"))?;
         let law = Buckling::new(table.get("buckles_below").unwrap_or(0.95));
         let law = law.ok_or_else(|| {
             let message = "`buckles_below` is above 0.592 and under 1";
             self.fault(table, "buckles_below", "E-SCENE-RANGE", message)
         })?;
-        scene.fabric.bend = Some(Bending::Buckling { flexural_n_m2, law });
+        scene.fabric.bend = Some(Bending::Buckling { rigidity_n_m, law });
         self.has_forces(scene, table, "bend_law", "know no arcs")
     }
 

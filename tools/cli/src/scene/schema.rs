@@ -4,7 +4,12 @@
 use std::fmt::Write as _;
 
 /// Keys that scene files once had, by table, and what to do without them.
-pub(super) const REMOVED: [(&str, &str, &str); 3] = [
+pub(super) const REMOVED: [(&str, &str, &str); 4] = [
+    (
+        "fabric",
+        "flexural_n_m2",
+        "give `rigidity_n_m`, which is per width of the cloth",
+    ),
     (
         "solver",
         "newton_iterations",
