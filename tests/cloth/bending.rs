@@ -238,7 +238,7 @@ fn a_folded_strip_rests_where_the_forces_of_the_paper_balance() {
                 let l = rest(ends);
                 let d = (x[ends[1]] - x[ends[0]]).norm();
                 // Every face is half a cell.
-                let flexural = rigidity * 8.0 * 0.01 / (9.0 * l);
+                let flexural = rigidity * 4.0 * 0.01 / (3.0 * l);
                 // c at which the spring has the arc's force at the change-over.
                 let c = arc_force(flexural, l, below * l) / (below * l - l);
                 count += 1;
@@ -299,18 +299,16 @@ fn methods_that_project_springs_are_refused_and_those_with_forces_run() {
 }
 
 /// A strip that is clamped at one end and sags under its weight, on three meshes, against a thin plate
-/// whose small sag is q L⁴ / (8 B): within 5 % of a multiple that comes from the mesh.
-///
-/// A strip across an edge is bent with the cloth between its ends as if vertices lay on an arc and edges
-/// were its chords. But edges keep their lengths, so that the ends come less near than those of an arc,
-/// and where all diagonals go one way, only the long strips across the edges of one direction bend.
+/// whose small sag is q L⁴ / (8 B): within 5 %, but where all diagonals go one way. Only the strips across
+/// one direction of edges bend there, which are √5 / 2 times as long as with alternating diagonals, and the
+/// resistance to the same curve falls with the fourth power of that, 1.56.
 #[test]
-fn a_clamped_strip_sags_by_a_multiple_that_comes_from_its_mesh() {
+fn a_clamped_strip_sags_as_a_plate_but_for_diagonals_of_one_direction() {
     let even = |i: u32, j: u32| (i + j).is_multiple_of(2);
     for (name, rising, jitter, multiple) in [
-        ("even", &even as &dyn Fn(u32, u32) -> bool, 0.0, 1.5),
-        ("uneven", &even, 0.3, 1.5),
-        ("diagonals of one direction", &|_, _| true, 0.0, 2.4),
+        ("even", &even as &dyn Fn(u32, u32) -> bool, 0.0, 1.0),
+        ("uneven", &even, 0.3, 1.0),
+        ("diagonals of one direction", &|_, _| true, 0.0, 1.73),
     ] {
         let sag_m = sag_of_a_strip_m(rising, jitter);
         let ratio = sag_m / SAG_OF_A_PLATE_M;
