@@ -198,6 +198,23 @@ fn stability_has_no_method_that_differs_or_is_silent_and_each_failure_has_its_co
         assert!(codes.contains(&code), "{scene}, {method}: {codes:?}");
     }
     assert_eq!(codes("short steps", "verlet"), Vec::<&str>::new());
+    let outcomes = column(&table, "measured")
+        .into_iter()
+        .zip(column(&table, "codes"));
+    let (mut dissipated, mut all) = (0, 0);
+    for (outcome, codes) in outcomes {
+        let is_damped = codes.contains("W-SIM-DAMPED");
+        let is_dissipated = outcome == "dissipated";
+        assert!(!is_dissipated || is_damped, "{codes}");
+        assert!(!is_damped || outcome != "ok", "{codes}");
+        dissipated += usize::from(is_dissipated);
+        all += usize::from(is_damped);
+    }
+    assert!(dissipated > 5 && all > dissipated, "{dissipated} of {all}");
+    assert!(
+        said.contains("crushed, implicit: dissipated; W-SIM-DAMPED"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -201,6 +201,8 @@ pub fn read_table<R: DeserializeOwned>(text: &str) -> Result<Vec<R>, csv::Error>
 pub enum Status {
     /// The run reached its end.
     Ok,
+    /// The run reached its end with a right result, but the method lost much of the energy of its motion.
+    Dissipated,
     /// The run reached its end, but its result is not right.
     Wrong,
     /// A step was refused, at the start or later.

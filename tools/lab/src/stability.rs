@@ -8,7 +8,8 @@
 //! A *scene* is played as a user would play it, by all methods at their default settings. Each scene is made
 //! such that some of them fail, and it says which.
 //!
-//! A run that failed without a message is *silent*. A run *differs* if its outcome is not the expected one.
+//! A run is *dissipated* if its result is right, but it warns that the method lost more than a tenth of the energy
+//! that went into motion (`W-SIM-DAMPED`). A run that failed without a message is *silent*. A run *differs* if its outcome is not the expected one.
 //! There should be neither.
 
 mod chart;

@@ -108,7 +108,8 @@ fn scenes(rows: &[Row]) -> Panel {
     let abouts = TRIALS.iter();
     let abouts = abouts.map(|trial| format!("{}: {}.", trial.name, trial.about));
     let about = "The outcome; the largest strain, the error of positions or the largest energy as a multiple of \
-                 that at the start; and the codes of all messages.";
+                 that at the start; and the codes of all messages. Dissipated: right, but the method lost more than a tenth of the \
+                 energy that went into motion.";
     let mut panel = Panel::new("Scenes as a user plays them", about, axes, layers);
     panel.words = abouts.collect();
     panel
@@ -151,6 +152,7 @@ fn map(
 fn colour(outcome: Status) -> Colour {
     match outcome {
         Status::Ok => [0xa6, 0xd8, 0xf0],
+        Status::Dissipated => [0xd6, 0xe8, 0xb0],
         Status::Wrong => [0xf5, 0xcf, 0x6b],
         Status::BlownUp => [0xee, 0x9b, 0x5e],
         _ => [0xd2, 0xd2, 0xde],
