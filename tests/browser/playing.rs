@@ -31,10 +31,18 @@ fn a_simulation_is_played_and_can_be_turned() {
     chrome.open(&folder.path("rip.html"));
     let stage = chrome.value("[stage.clientWidth, stage.clientHeight]");
     let size = [0, 1].map(|i| stage[i].as_f64().expect("a number"));
-    assert!(
-        chrome.screen(size).places(is_seam).is_empty(),
-        "it is whole"
-    );
+    // It opens at the first tear, which is marked on the slider, and nothing is torn before.
+    let red = chrome.screen(size).places(is_seam).len();
+    assert!(red > 40, "{red} red pixels at the first tear");
+    let off = "parseFloat(tears.firstChild.style.left) - 100 * time.value / time.max";
+    let off = chrome.value(off).as_f64().expect("per cent");
+    assert!(off.abs() < 0.01, "the mark is {off} % off");
+    let marks = chrome.value("tears.childElementCount");
+    assert!(marks.as_u64() > Some(1), "{marks} marks");
+    chrome.value("time.value -= 1; time.dispatchEvent(new Event('input'))");
+    let before = chrome.screen(size);
+    assert!(before.places(is_seam).is_empty(), "it is whole");
+    chrome.value("time.value = 0; time.dispatchEvent(new Event('input'))");
     assert_eq!(chrome.text("clock"), "0.00 s");
     assert!(chrome.text("plots").contains("largest stretch"));
 
@@ -149,5 +157,34 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     assert!(chrome.text("line").contains(" --rays "));
     let sticks_out = "document.documentElement.scrollWidth > innerWidth";
     assert_eq!(chrome.value(sticks_out), json!(false));
+    chrome.was_quiet();
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn every_moment_is_in_the_frame() {
+    let Some(mut chrome) = Chrome::start() else {
+        return;
+    };
+    let folder = Folder::new();
+    folder.write("sheet.obj", "sheet.obj", |p| p);
+    let [mesh, end, page] = ["sheet.obj", "end.obj", "fall.html"].map(|name| folder.name(name));
+    let fall = ["tearmesh", "tear", &mesh, "--scene", "fall"];
+    let files = ["--seconds", "1", "-o", &end, "--view", &page];
+    done(&[&fall[..], &files].concat());
+    chrome.open(&folder.path("fall.html"));
+    let stage = chrome.value("[stage.clientWidth, stage.clientHeight]");
+    let size = [0, 1].map(|i| stage[i].as_f64().expect("a number"));
+    let is_cloth = |[r, _, b]: [u8; 3]| b > r.saturating_add(40);
+    let mut counts = Vec::new();
+    for moment in [0, 10, 20, 30] {
+        chrome.value(&format!(
+            "time.value = {moment}; time.dispatchEvent(new Event('input'))"
+        ));
+        counts.push(chrome.screen(size).places(is_cloth).len());
+    }
+    println!("{counts:?} pixels of cloth");
+    assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
+    assert!(counts[3] * 2 > counts[0], "all of it is seen: {counts:?}");
     chrome.was_quiet();
 }

@@ -1,6 +1,8 @@
 // What the page shows: a text in JSON, and the faces and places of every moment behind it. Places are
 // counted from the corner of the box, in its longest side.
 const GOES_ON = 1, AS_NEIGHBOUR = 2, STEPS = 65536;
+// The kind of a half-edge that is torn.
+const TORN = 2;
 
 async function unpack() {
   const bytes = await unpacked("data", "deflate");
@@ -102,3 +104,23 @@ function neighboursIn(corners, vertices) {
   return neighbours;
 }
 
+// The box round some moments, but for crumbs: pieces that have come off since the first of them, and have less
+// than a tenth of the faces.
+function boxOfMoments(shown, states) {
+  const first = new Set(states[shown[0].state].pieces);
+  const box = { least: [Infinity, Infinity, Infinity], most: [-Infinity, -Infinity, -Infinity] };
+  for (const number of new Set(shown.map((moment) => moment.state))) {
+    const { corners, pieces } = states[number], faces = new Map();
+    for (const piece of pieces) faces.set(piece, (faces.get(piece) ?? 0) + 1);
+    const large = corners.filter((_, corner) => {
+      const piece = pieces[corner / 3 | 0];
+      return first.has(piece) || 10 * faces.get(piece) >= pieces.length;
+    });
+    for (const { places } of shown.filter((moment) => moment.state === number)) {
+      const { least, most } = boxOf(places, large);
+      box.least = box.least.map((x, axis) => Math.min(x, least[axis]));
+      box.most = box.most.map((x, axis) => Math.max(x, most[axis]));
+    }
+  }
+  return box;
+}

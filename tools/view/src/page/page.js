@@ -9,6 +9,8 @@ async function open() {
   const camera = new Camera(data.up, data.look, data.angle);
   const { moments, states } = data;
   const isPlayed = moments.length > 1;
+  // A simulation or many meshes are a film; a few meshes are looked at one after another.
+  const isFilm = moments.length >= data.few || moments[0].time !== null;
   let scene = new Scene(canvas, data.crease);
   let now = 0, state = -1, box, isDirty = false;
   let hasEdges = false, hasBox = true, isDrawing = false;
@@ -52,6 +54,7 @@ async function open() {
     root.classList.toggle("dark", dark);
     root.style.setProperty("--ground", `rgb(${colors.background})`);
     root.style.setProperty("--accent", `rgb(${colors.trace})`);
+    root.style.setProperty("--seam", `rgb(${colors.seam})`);
     redraw();
   }
 
@@ -67,7 +70,7 @@ async function open() {
     const point = (v) => [0, 1, 2].map((axis) => moment.places[3 * v + axis]);
     const open = { boundary: [], seam: [] };
     kinds.forEach((kind, h) => {
-      if (kind) open[kind === 2 ? "seam" : "boundary"].push(...point(corners[h]), ...point(corners[h - h % 3 + (h + 1) % 3]));
+      if (kind) open[kind === TORN ? "seam" : "boundary"].push(...point(corners[h]), ...point(corners[h - h % 3 + (h + 1) % 3]));
     });
     scene.setLines("boundary", open.boundary);
     scene.setLines("seam", open.seam);
@@ -95,6 +98,9 @@ async function open() {
   // ---- What is said of the mesh
 
   const pieces = states.map((one) => new Set(one.pieces).size);
+  const tornCounts = states.map(({ kinds }) => kinds.filter((kind) => kind === TORN).length);
+  // The moments with more torn edges than the one before.
+  const tears = moments.flatMap(({ state }, i) => (i && tornCounts[state] > tornCounts[moments[i - 1].state] ? [i] : []));
 
   function tellFacts() {
     const moment = moments[now], { corners } = states[moment.state];
@@ -266,7 +272,7 @@ async function open() {
   const pressed = (id, is) => $(id).setAttribute("aria-pressed", is);
   const fit = () => {
     camera.goHome();
-    camera.fit(box);
+    camera.fit(boxOfMoments(isFilm ? moments : [moments[now]], states));
     redraw();
   };
   const actions = {
@@ -342,14 +348,19 @@ async function open() {
   if (isPlayed) {
     $("player").hidden = false;
     $("time").max = moments.length - 1;
+    $("tears").style.setProperty("--moment", `${100 / (moments.length - 1)}%`);
+    for (const tear of tears) {
+      const mark = document.createElement("i");
+      mark.style.left = `${100 * tear / (moments.length - 1)}%`;
+      $("tears").append(mark);
+    }
     $("time").addEventListener("input", () => {
       play(false);
       show(Number($("time").value));
     });
     $("play").addEventListener("click", () => play(!isPlaying));
     const counted = { name: "pieces", unit: "", lines: [{ name: "", points: moments.map((m) => [m.seconds, pieces[m.state]]) }] };
-    const isFilm = moments.length >= data.few && states.length > 1;
-    const plots = [...data.plots, ...(isFilm ? [counted] : [])];
+    const plots = [...data.plots, ...(moments.length >= data.few && states.length > 1 ? [counted] : [])];
     $("plots").hidden = !plots.length;
     for (const plot of plots) charts.push(new Chart($("plots"), plot, until, data.colors.pieces, seek));
   }
@@ -378,8 +389,8 @@ async function open() {
   setTheme(prefersDark.matches);
   camera.size = [$("stage").clientWidth || 1, $("stage").clientHeight || 1];
   say("");
-  show(0);
-  camera.fit(box);
+  show(isFilm && tears.length ? tears[0] : 0);
+  fit();
   new ResizeObserver(resize).observe($("stage"));
   document.body.dataset.ready = "yes";
 }
