@@ -111,6 +111,7 @@ fn cut_at_random(
         let turned = [0; 2].map(|_| chance.between(200.0, 500.0));
         chrome.drag([150.0, 320.0], turned);
         let points = [0; 2].map(|_| [chance.between(30.0, 650.0), chance.between(60.0, 560.0)]);
+        chrome.value(&format!("front.checked = {}", hit % 2 == 1));
         match planned(chrome, folder, mesh, points) {
             true => hit += 1,
             false => missed += 1,
@@ -133,6 +134,8 @@ fn planned(chrome: &mut Chrome, folder: &Folder, mesh: &str, points: [[f64; 2]; 
         misses(&eye, mesh, points);
         return false;
     }
+    let is_first = line.contains(" --layers first");
+    assert_eq!(chrome.value("front.checked"), is_first, "{line}");
     let mut words = shlex::split(&line).expect("words that a shell understands");
     let seam = folder.name("seam.obj");
     words.extend(["--seam".to_owned(), seam.clone()]);

@@ -122,6 +122,12 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     chrome.press("draw");
     chrome.drag([200.0, 300.0], [400.0, 350.0]);
     assert!(chrome.text("line").contains(" --rays "));
+    chrome.value("gap.value = 5; gap.dispatchEvent(new Event('input'))");
+    let line = chrome.text("line");
+    assert!(line.contains(" --gap 5% "), "{line}");
+    chrome.press("front");
+    let line = chrome.text("line");
+    assert!(line.contains(" --layers first "), "{line}");
     chrome.press("edges");
     chrome.press("theme");
     // As on a phone: two fingers spread, and two taps plan a cut.

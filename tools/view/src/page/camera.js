@@ -37,9 +37,14 @@ class Camera {
     this.aim();
   }
 
+  // The angle that a pixel covers in the middle of the picture.
+  get pixelAngle() {
+    return 2 * this.half / this.size[1];
+  }
+
   // So many pixels, at the distance of what is looked at.
   pan(dx, dy) {
-    const pixel = 2 * this.half * this.distance / this.size[1];
+    const pixel = this.pixelAngle * this.distance;
     this.at = add(this.at, add(times(this.right, -dx * pixel), times(this.up, dy * pixel)));
     this.aim();
   }
@@ -47,7 +52,7 @@ class Camera {
   // Towards a pixel, which stays where it is.
   zoom(factor, [x, y]) {
     const distance = Math.max(1e-4, Math.min(1e3, this.distance * factor));
-    const [w, h] = this.size, pixel = 2 * this.half * (this.distance - distance) / h;
+    const [w, h] = this.size, pixel = this.pixelAngle * (this.distance - distance);
     this.at = add(this.at, add(times(this.right, (x - w / 2) * pixel), times(this.up, (h / 2 - y) * pixel)));
     this.distance = distance;
     this.aim();
@@ -76,7 +81,7 @@ class Camera {
 
   // The direction in which a pixel looks, one long.
   direction([x, y]) {
-    const [w, h] = this.size, scale = 2 * this.half / h;
+    const [w, h] = this.size, scale = this.pixelAngle;
     const aside = add(times(this.right, (x - w / 2) * scale), times(this.up, (h / 2 - y) * scale));
     return unit(sub(aside, this.backward));
   }

@@ -4,12 +4,16 @@
 // is given to --snap.
 const OFF = 1.2, TIP = 2.6;
 
-// The rays of a cut from one eye through two points, rounded to a billionth of the mesh.
-function raysThrough(eye, targets, { origin, side }) {
-  const digits = Math.max(0, Math.min(100, 9 - Math.floor(Math.log10(side))));
-  const rounded = (x, digits) => Number(x.toFixed(digits)) || 0;
-  const from = eye.map((x, axis) => rounded(origin[axis] + side * x, digits));
-  const rays = targets.map((target) => unit(sub(target, eye)).map((x) => rounded(x, 9)));
+// A number that is a few hundredths of a step off at most, with no more digits than that needs.
+const rounded = (x, step) => Number(x.toFixed(Math.max(0, Math.min(100, 2 - Math.floor(Math.log10(step)))))) || 0;
+
+// A point as it is typed, to a hundredth of a pixel.
+const pointTyped = (p, camera, { origin, side }) => p.map((x, axis) => rounded(origin[axis] + side * x, side * camera.distance * camera.pixelAngle));
+
+// The rays of a cut from the eye of a camera through two points, to a hundredth of a pixel.
+function raysThrough(camera, targets, lattice) {
+  const from = pointTyped(camera.eye, camera, lattice), { origin, side } = lattice;
+  const rays = targets.map((target) => unit(sub(target, camera.eye)).map((x) => rounded(x, camera.pixelAngle)));
   // What is shown is what the typed numbers say.
   return { from, rays, eye: from.map((x, axis) => (x - origin[axis]) / side) };
 }
@@ -18,31 +22,71 @@ const raysTyped = ({ from, rays }) => `--rays ${rays.map((ray) => `${from}:${ray
 
 // Where the plane of two rays meets the faces between them: the ends of a segment a face. Points on the plane
 // count as in front of it.
-function traceOf({ eye, rays: [a, b] }, places, corners) {
-  const normal = cross(a, b), inward = [cross(normal, a), cross(b, normal)];
-  const segments = [];
-  if (!(Math.hypot(...normal) > 0)) return { segments, faces: [] };
+function traceOf({ eye, rays }, places, { corners, kinds }, isFront) {
+  const normal = cross(...rays), sides = [cross(normal, rays[0]), cross(rays[1], normal)];
+  if (!(Math.hypot(...normal) > 0)) return { segments: [], faces: [] };
   const count = places.length / 3, offsets = new Float64Array(count);
   for (let v = 0; v < count; v++) {
     offsets[v] = (places[3 * v] - eye[0]) * normal[0] + (places[3 * v + 1] - eye[1]) * normal[1] + (places[3 * v + 2] - eye[2]) * normal[2];
   }
   const point = (v) => [places[3 * v], places[3 * v + 1], places[3 * v + 2]];
-  const faces = [];
-  for (let f = 0; f < corners.length; f += 3) {
-    const behind = [0, 1, 2].map((i) => offsets[corners[f + i]] < 0);
+  // A vertex on the plane, or an edge between two faces.
+  const nodeOf = (h, v, w) => {
+    if (offsets[v] === 0) return -1 - v;
+    if (offsets[w] === 0) return -1 - w;
+    return kinds[h] ? null : Math.min(v, w) * count + Math.max(v, w);
+  };
+  const pieces = [];
+  for (let face = 0; face < corners.length; face += 3) {
+    const behind = [0, 1, 2].map((i) => offsets[corners[face + i]] < 0);
     if (behind[0] === behind[1] && behind[1] === behind[2]) continue;
-    let segment = [];
+    const line = [], ends = [];
     for (let i = 0; i < 3; i++) {
-      const [v, w] = [corners[f + i], corners[f + (i + 1) % 3]];
-      if (behind[i] !== behind[(i + 1) % 3]) segment.push(between(point(v), point(w), offsets[v] / (offsets[v] - offsets[w])));
+      const [v, w] = [corners[face + i], corners[face + (i + 1) % 3]];
+      if (behind[i] === behind[(i + 1) % 3]) continue;
+      line.push(between(point(v), point(w), offsets[v] / (offsets[v] - offsets[w])));
+      ends.push(nodeOf(face + i, v, w));
     }
-    for (const side of inward) segment = segment && inFront(segment, side, eye);
-    if (segment) {
-      segments.push(segment);
-      faces.push(f);
-    }
+    let segment = line;
+    for (const side of sides) segment = segment && inFront(segment, side, eye);
+    // Where a ray ends a segment, no other goes on.
+    if (segment) pieces.push({ face, line, segment, nodes: ends.filter((node, i) => node !== null && segment[i] === line[i]) });
   }
-  return { segments, faces };
+  const chosen = isFront ? firstLayers(pieces, eye, rays, sides) : pieces;
+  return { segments: chosen.map((piece) => piece.segment), faces: chosen.map((piece) => piece.face) };
+}
+
+// What `--layers first` cuts: all that hangs together, from node to node, with what the first ray hits first,
+// and the same of the second. A ray that misses turns towards the other until it hits.
+function firstLayers(pieces, eye, rays, sides) {
+  const around = new Map(), chosen = new Set();
+  for (const piece of pieces) {
+    for (const node of piece.nodes) around.set(node, [...(around.get(node) ?? []), piece]);
+  }
+  rays.forEach((ray, i) => {
+    let first, least = Infinity;
+    const take = (piece, far) => { if (far < least) [first, least] = [piece, far]; };
+    const from = (p) => sub(p, eye);
+    for (const piece of pieces) {
+      const [d, e] = piece.line.map((p) => dot(from(p), sides[i]));
+      const far = dot(from(between(...piece.line, d / (d - e))), ray);
+      if ((d < 0) !== (e < 0) && far >= 0) take(piece, far);
+    }
+    for (const piece of first ? [] : pieces) {
+      for (const p of piece.segment) {
+        const [own, other] = [sides[i], sides[1 - i]].map((side) => Math.max(0, dot(from(p), side)));
+        const part = own / (own + other) || 0;
+        if (dot(from(p), between(ray, rays[1 - i], part)) >= 0) take(piece, part);
+      }
+    }
+    for (const open = first ? [first] : []; open.length;) {
+      const piece = open.pop();
+      if (chosen.has(piece)) continue;
+      chosen.add(piece);
+      for (const node of piece.nodes) open.push(...around.get(node));
+    }
+  });
+  return pieces.filter((piece) => chosen.has(piece));
 }
 
 function inFront([p, q], normal, from) {

@@ -1,6 +1,5 @@
 // The page itself: what is clicked and dragged, and what is shown then.
 const $ = (id) => document.getElementById(id);
-const short = (x) => String(Number(x.toPrecision(6))).replace("-", "−");
 
 async function open() {
   if (!("DecompressionStream" in window)) throw new Error("This page needs a browser of 2023 or later.");
@@ -104,11 +103,12 @@ async function open() {
 
   function tellFacts() {
     const moment = moments[now], { corners } = states[moment.state];
-    const from = (corner) => corner.map((x, axis) => short(data.origin[axis] + x * data.side)).join(", ");
+    const short = (x, step) => String(rounded(x, step)).replaceAll("-", "−");
+    const from = (corner) => corner.map((x, axis) => short(data.origin[axis] + x * data.side, data.side / 10)).join(", ");
     const rows = [
       ...(isPlayed && moment.label ? [["shown", moment.label]] : []),
       ["vertices", moment.vertices], ["faces", corners.length / 3], ["pieces", pieces[moment.state]],
-      ["boundary loops", moment.loops], ["torn", moment.torn ? `${short(moment.torn)} long${moment.torn_at_rest ? " at rest" : ""}` : "nothing"],
+      ["boundary loops", moment.loops], ["torn", moment.torn ? `${short(moment.torn, moment.torn / 10)} long${moment.torn_at_rest ? " at rest" : ""}` : "nothing"],
       ["from", from(box.least)], ["to", from(box.most)],
       ...data.facts,
     ];
@@ -125,9 +125,8 @@ async function open() {
     const file = moments[now].cut;
     $("view").hidden = !file;
     if (!file) return;
-    const typed = ({ from }) => from.join(",");
-    const [eye, at] = [camera.eye, camera.at].map((p) => typed(raysThrough(p, [], data)));
-    const up = camera.up.map((x) => Number(x.toFixed(9)) || 0);
+    const [eye, at] = [camera.eye, camera.at].map((p) => pointTyped(p, camera, data));
+    const up = camera.up.map((x) => rounded(x, camera.pixelAngle));
     $("render").textContent = `tearmesh render ${file[0]} --camera ${eye}@${at} --up ${up} --fov ${data.angle} --size ${camera.size.join("x")} -o view.png`;
   }
 
@@ -153,14 +152,15 @@ async function open() {
       say("These points are too near each other: click another second point.");
       return;
     }
-    cut = raysThrough(camera.eye, targets, data);
+    cut = raysThrough(camera, targets, data);
     trace(true);
   }
 
   // Draws where the cut goes in the mesh as it is now, and tells how to make it.
   function trace(isNew = false) {
     const { places, state, cut: file } = moments[now], { corners } = states[state];
-    const found = cut ? traceOf(cut, places, corners) : { segments: [], faces: [] };
+    const isFront = $("front").checked;
+    const found = cut ? traceOf(cut, places, states[state], isFront) : { segments: [], faces: [] };
     scene.setLines("trace", found.segments.flat(2));
     if (isNew) cut.snap = snapFor(found, places, corners, camera, data.snap);
     const isMade = found.segments.length > 0;
@@ -178,7 +178,9 @@ async function open() {
     } else {
       const [name, options, output] = file;
       const snap = cut.snap < data.snap ? ` --snap ${cut.snap}` : "";
-      $("line").textContent = `tearmesh cut ${name}${options} ${raysTyped(cut)}${snap} -o ${output}`;
+      const layers = isFront ? " --layers first" : "";
+      const gap = $("gap").value && $("gap").validity.valid ? ` --gap ${$("gap").value}%` : "";
+      $("line").textContent = `tearmesh cut ${name}${options} ${raysTyped(cut)}${layers}${snap}${gap} -o ${output}`;
     }
     if (isNew) say(isMade ? "" : "The line misses the mesh.");
   }
@@ -294,6 +296,12 @@ async function open() {
   }
   $("copy").addEventListener("click", copy);
   $("clear").addEventListener("click", clear);
+  for (const id of ["front", "gap"]) {
+    $(id).addEventListener("input", () => {
+      trace(cut !== null);
+      redraw();
+    });
+  }
   const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || ["INPUT", "SELECT", "BUTTON", "SUMMARY"].includes(event.target.tagName)) return;

@@ -200,7 +200,7 @@ async function open() {
     first = null;
     if (Math.hypot(a[0] - b[0], a[1] - b[1]) < 3) return say("These points are too near each other.");
     const directions = [a, b].map((pixel) => camera.direction(pixel));
-    const rays = raysThrough(camera.eye, directions.map((d) => add(camera.eye, d)), lattice);
+    const rays = raysThrough(camera, directions.map((d) => add(camera.eye, d)), lattice);
     const isFront = $("front").checked;
     tried(() => {
       const was = cloth.obj();
