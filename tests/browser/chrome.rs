@@ -214,6 +214,15 @@ impl Chrome {
         self.drawn();
     }
 
+    /// Presses a key, and lets it go.
+    pub(crate) fn key(&mut self, key: &str) {
+        let text = if key.len() == 1 { key } else { "" };
+        for kind in ["keyDown", "keyUp"] {
+            let event = json!({"type": kind, "key": key, "text": text});
+            self.call("Input.dispatchKeyEvent", &event);
+        }
+    }
+
     /// Drags from a place to another.
     pub(crate) fn drag(&mut self, from: [f64; 2], to: [f64; 2]) {
         self.mouse("mousePressed", from);

@@ -53,6 +53,16 @@ fn a_simulation_is_played_and_can_be_turned() {
     }, 10); })";
     chrome.value(pause);
     let reached = chrome.value("time.value");
+    // A space plays on, also after a click on another button.
+    chrome.press("edges");
+    chrome.key(" ");
+    assert_eq!(chrome.text("play"), "Pause");
+    chrome.key(" ");
+    chrome.key("ArrowLeft");
+    assert_eq!(chrome.text("play"), "Play");
+    chrome.value(&format!(
+        "time.value = {reached}; time.dispatchEvent(new Event('input'))"
+    ));
     assert_eq!(chrome.text("play"), "Play");
     chrome.value("new Promise(r => setTimeout(r, 100))");
     assert_eq!(chrome.value("time.value"), reached, "it is paused");
@@ -128,7 +138,16 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     chrome.press("front");
     let line = chrome.text("line");
     assert!(line.contains(" --layers first "), "{line}");
+    // Keys work after a click on a button or a box, but for a number that is typed.
+    let is_pressed = |id| format!("document.getElementById('{id}').ariaPressed");
+    chrome.key("e");
+    assert_eq!(chrome.value(&is_pressed("edges")), "true");
     chrome.press("edges");
+    chrome.key("e");
+    assert_eq!(chrome.value(&is_pressed("edges")), "true");
+    chrome.press("gap");
+    chrome.key("e");
+    assert_eq!(chrome.value(&is_pressed("edges")), "true");
     chrome.press("theme");
     // As on a phone: two fingers spread, and two taps plan a cut.
     chrome.size(390, 844);

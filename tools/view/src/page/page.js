@@ -302,11 +302,16 @@ async function open() {
       redraw();
     });
   }
+  // After a click on a button or the slider, keys are the page's; where one is reached by keys, they are its own.
+  addEventListener("click", ({ detail, target }) => {
+    if (detail && target.matches("button, summary, #time")) canvas.focus({ preventScroll: true });
+  });
+  const isTyped = ({ key, target }) => target.id === "gap" || target.matches("button, summary, select, input") && !/^([a-z]|Escape)$/i.test(key);
   const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
   addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || ["INPUT", "SELECT", "BUTTON", "SUMMARY"].includes(event.target.tagName)) return;
-    const keys = { f: "fit", e: "edges", b: "box", d: "draw", t: "theme" };
-    if (keys[event.key]) $(keys[event.key]).click();
+    if (event.ctrlKey || event.metaKey || event.altKey || isTyped(event)) return;
+    const keys = { f: "fit", e: "edges", b: "box", d: "draw", t: "theme" }, pressedBy = keys[event.key.toLowerCase()];
+    if (pressedBy) $(pressedBy).click();
     else if (event.key === "Escape") clear();
     else if (isPlayed && event.key === " ") play(!isPlaying);
     else if (isPlayed && event.key === "ArrowRight") step(1);
