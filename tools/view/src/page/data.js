@@ -1,6 +1,6 @@
 // What the page shows: a text in JSON, and the faces and places of every moment behind it. Places are
 // counted from the corner of the box, in its longest side.
-const GOES_ON = 1, AS_NEIGHBOUR = 2, STEPS = 65536;
+const STEPS = 65536;
 // The kind of a half-edge that is torn.
 const TORN = 2;
 
@@ -58,35 +58,22 @@ function readPlaces(bytes, { moments, states }) {
   for (let axis = 0; axis < 3; axis++) {
     for (let v = 0; v < moments[0].vertices; v++) moments[0].places[3 * v + axis] = floats[axis * moments[0].vertices + v];
   }
-  const guesses = bytes.subarray(4 * first), planes = guesses.subarray(moments.length - 1);
-  const total = planes.length / 3;
-  let at = 0, was = moments[0].places.map((x) => Math.round(x * STEPS)), steps = new Float64Array(first);
-  let neighbours;
+  const planes = bytes.subarray(4 * first), total = planes.length / 3;
+  let at = 0, was = moments[0].places.map((x) => Math.round(x * STEPS)), neighbours;
   for (let m = 1; m < moments.length; m++) {
     const { vertices, state } = moments[m], before = was.length / 3;
     if (m === 1 || state !== moments[m - 1].state) neighbours = neighboursIn(states[state].corners, vertices);
-    const goesOn = guesses[m - 1] & GOES_ON, asNeighbour = guesses[m - 1] & AS_NEIGHBOUR;
-    const now = new Float64Array(3 * vertices), next = new Float64Array(3 * vertices);
+    const now = new Float64Array(3 * vertices);
     for (let axis = 0; axis < 3; axis++) {
-      // How far the plain guess was off.
-      const off = new Float64Array(vertices);
       for (let v = 0; v < vertices; v++, at++) {
-        let left = unfolded(planes[at] + 256 * planes[total + at] + 65536 * planes[2 * total + at]);
-        const i = 3 * v + axis, beside = neighbours[v];
-        if (v < before) {
-          if (asNeighbour && beside !== v && beside < before) left += off[beside];
-          off[v] = left;
-          now[i] = was[i] + (goesOn ? steps[i] : 0) + left;
-          next[i] = now[i] - was[i];
-        } else {
-          now[i] = left + (beside !== v ? now[3 * beside + axis] : 0);
-          next[i] = beside !== v ? next[3 * beside + axis] : 0;
-        }
+        const i = 3 * v + axis, beside = 3 * neighbours[v] + axis;
+        const start = (vertex) => (v < before ? was[vertex] : 0);
+        const off = unfolded(planes[at] + 256 * planes[total + at] + 65536 * planes[2 * total + at]);
+        now[i] = start(i) + off + (beside !== i ? now[beside] - start(beside) : 0);
       }
     }
     moments[m].places = now.map((x) => x / STEPS);
     was = now;
-    steps = next;
   }
 }
 
