@@ -19,10 +19,12 @@ pub(crate) fn cases_of(all: u64) -> u64 {
 /// `usual` random scripts, or as many as `TEARMESH_CASES` gives. They are the same on every
 /// machine.
 pub(crate) fn scripts(usual: u64) -> impl Iterator<Item = Script> {
-    (0..cases(usual)).map(|seed| {
-        let mut random = Random(seed);
-        let length = 20 + (400.0 * random.next()) as usize;
-        let bytes = (0..length).map(|_| (256.0 * random.next()) as u8);
-        Script::from_bytes(&bytes.collect::<Vec<u8>>())
-    })
+    (0..cases(usual)).map(script)
+}
+
+/// The random script of this seed.
+pub(crate) fn script(seed: u64) -> Script {
+    let mut random = Random(seed);
+    let length = 20 + random.below(400);
+    Script::from_bytes(&random.bytes(length))
 }

@@ -178,9 +178,7 @@ fn engine_buffers(
         .collect::<BTreeSet<_>>()
         .into_iter()
         .collect();
-    for i in (1..order.len()).rev() {
-        order.swap(i, (random.next() * (i + 1) as f64) as usize);
-    }
+    random.shuffle(&mut order);
     let number: BTreeMap<_, u32> = order.iter().copied().zip(0..).collect();
     let places = order.iter().map(|(v, _)| {
         let p = positions.at(*v);

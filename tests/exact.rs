@@ -415,7 +415,7 @@ fn random_cuts_of_all_methods_can_be_mended() {
     let mut random = Random(59);
     let mut done = crate::cut_mend::Done::default();
     for _ in 0..4000 {
-        let bytes: Vec<u8> = (0..120).map(|_| (random.next() * 256.0) as u8).collect();
+        let bytes = random.bytes(120);
         let result = std::panic::catch_unwind(|| crate::cut_mend::Case::from_bytes(&bytes).check());
         let Ok(one) = result else {
             panic!("{bytes:?}: {:?}", crate::cut_mend::Case::from_bytes(&bytes));

@@ -32,7 +32,7 @@ struct Work {
 impl Work {
     fn new(seed: u64) -> Work {
         let mut random = Random(seed);
-        let size = 1 + (3.0 * random.next()) as u32;
+        let size = 1 + random.below(3) as u32;
         let (mesh, _) = match seed % 5 {
             0 => shapes::fan(3 + size, seed.is_multiple_of(2)),
             1 => shapes::tube(3 + size, size),
@@ -47,22 +47,18 @@ impl Work {
         }
     }
 
-    fn below(&mut self, n: usize) -> usize {
-        ((self.random.next() * n as f64) as usize).min(n - 1)
-    }
-
     fn half_edge(&mut self) -> HalfEdgeId {
         let torn = |&h: &HalfEdgeId| self.mesh.ghost_pair(h).is_some();
         let torn: Vec<HalfEdgeId> = self.mesh.half_edges().filter(torn).collect();
         if torn.is_empty() || self.random.next() < 0.5 {
-            let h = self.below(self.mesh.half_edge_count());
+            let h = self.random.below(self.mesh.half_edge_count());
             return HalfEdgeId::new(h).expect("I1: ids fit");
         }
-        torn[self.below(torn.len())]
+        torn[self.random.below(torn.len())]
     }
 
     fn edit(&mut self) {
-        match self.below(8) {
+        match self.random.below(8) {
             0..=2 => self.split(),
             3 | 4 => self.insert(),
             5 => self.merge(),
@@ -74,7 +70,7 @@ impl Work {
         let h = self.half_edge();
         let v = self.mesh.origin(h);
         let faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
-        let mask = self.below(1 << faces.len().min(10));
+        let mask = self.random.below(1 << faces.len().min(10));
         let moving = (0..faces.len()).filter(|i| mask >> (i % 10) & 1 == 1);
         let moving: Vec<FaceId> = moving.map(|i| faces[i]).collect();
         let done = split::vertex(&mut self.mesh, v, &moving, &mut self.edits).is_ok();
@@ -87,9 +83,9 @@ impl Work {
         }
         let mut plan = Plan::new();
         let mut on_torn = false;
-        for _ in 0..=self.below(3) {
+        for _ in 0..=self.random.below(3) {
             let h = self.half_edge();
-            if self.below(3) == 0 {
+            if self.random.below(3) == 0 {
                 let weights = [0; 3].map(|_| 0.1 + self.random.next());
                 plan.in_face(h.face(), weights);
             } else {
@@ -105,10 +101,10 @@ impl Work {
 
     fn merge(&mut self) {
         let roots = self.mesh.roots();
-        let v = self.below(roots.len());
+        let v = self.random.below(roots.len());
         let copies = (0..roots.len()).filter(|&w| w != v && roots[w] == roots[v]);
         let copies: Vec<usize> = copies.collect();
-        if let Some(&w) = copies.get(self.below(copies.len().max(1))) {
+        if let Some(&w) = copies.get(self.random.below(copies.len().max(1))) {
             let [v, w] = [v, w].map(vertex);
             let weights = [1.0 + self.random.next(), self.random.next()];
             let done = mend::merge(&mut self.mesh, v, w, weights, &mut self.edits).is_ok();
@@ -223,7 +219,7 @@ fn followers_by_the_normal_form_keep_what_the_records_say() {
         let mut vertices = PerVertex::new(plain.vertices.clone());
         let mut corners = PerCorner::new(plain.corners.clone());
         let mut faces = PerFace::new(plain.faces.clone());
-        let (length, start) = (4 + work.below(28), work.below(28));
+        let (length, start) = (4 + work.random.below(28), work.random.below(28));
         let mut foreign = None;
         for step in 0..length {
             let before = work.edits.cursor();
@@ -231,7 +227,7 @@ fn followers_by_the_normal_form_keep_what_the_records_say() {
             for edit in work.edits.since(before) {
                 plain.follow(&edit);
             }
-            if work.below(4) == 0 || step + 1 == length {
+            if work.random.below(4) == 0 || step + 1 == length {
                 let ours = (&mut vertices, &mut corners, &mut faces);
                 work.edits.replay(&mut (ours, &mut positions));
                 assert_eq!(vertices.as_slice(), plain.vertices, "seed {seed}: vertices");
@@ -246,7 +242,7 @@ fn followers_by_the_normal_form_keep_what_the_records_say() {
                     ForeignLists::replay(foreign, &work.edits);
                     foreign.assert_are(&plain, seed);
                 }
-                if work.below(3) == 0 {
+                if work.random.below(3) == 0 {
                     work.edits.clear();
                 }
             }

@@ -30,30 +30,26 @@ struct Case<'c> {
 
 /// A number from `count` on: the next one, one soon after, the last one or any.
 fn beyond(random: &mut Random, count: usize, limit: usize) -> usize {
-    let any = count + (random.next() * (limit - count) as f64) as usize;
-    let soon = count + (random.next() * 20.0) as usize;
-    [count, soon, any.min(limit - 1), limit - 1][(random.next() * 4.0) as usize]
-}
-
-fn below(random: &mut Random, bound: usize) -> usize {
-    (random.next() * bound as f64) as usize
+    let any = count + random.below(limit - count);
+    let soon = count + random.below(20);
+    [count, soon, any.min(limit - 1), limit - 1][random.below(4)]
 }
 
 /// Every operation and every query, with a foreign id.
 fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
     let mesh = &world.mesh;
-    let own = VertexId::new(below(random, mesh.vertex_count())).expect("a vertex");
-    let corner = HalfEdgeId::new(below(random, mesh.half_edge_count())).expect("a half-edge");
+    let own = VertexId::new(random.below(mesh.vertex_count())).expect("a vertex");
+    let corner = HalfEdgeId::new(random.below(mesh.half_edge_count())).expect("a half-edge");
     let v = VertexId::new(beyond(random, mesh.vertex_count(), VertexId::LIMIT)).expect("an id");
     let h = beyond(random, mesh.half_edge_count(), HalfEdgeId::LIMIT);
     let h = HalfEdgeId::new(h).expect("an id");
     let f = FaceId::new(beyond(random, mesh.face_count(), FaceId::LIMIT)).expect("an id");
     let plane = Plane::new(Point::origin(), Vector::new(1.0, 2.0, 3.0)).expect("a normal");
     let mut moving: Vec<FaceId> = mesh.faces_of(own).collect();
-    moving.truncate(below(random, moving.len() + 1));
-    moving.insert(below(random, moving.len() + 1), f);
-    let weights = [[1.0; 2], [-1.0; 2]][below(random, 2)];
-    let t = [0.5, 0.0][below(random, 2)];
+    moving.truncate(random.below(moving.len() + 1));
+    moving.insert(random.below(moving.len() + 1), f);
+    let weights = [[1.0; 2], [-1.0; 2]][random.below(2)];
+    let t = [0.5, 0.0][random.below(2)];
 
     let mut cases = Vec::new();
     let mut add = |id: &dyn ToString, name, run: Box<dyn Fn(&mut World)>| {
@@ -284,7 +280,7 @@ fn foreign_ids_are_named_and_change_nothing() {
     let mut tried = 0;
     for seed in 0..cases_of(CASES) {
         let mut random = Random(seed);
-        let bytes: Vec<u8> = (0..60).map(|_| (256.0 * random.next()) as u8).collect();
+        let bytes = random.bytes(60);
         let world = Script::from_bytes(&bytes).run(|_, _| {});
         for case in cases(&world, &mut random) {
             println!("script {seed}: {} of {}", case.name, case.id);

@@ -158,9 +158,7 @@ fn tear(faces: u32, closed: bool, order: &str, clock: &mut Clock) {
         "descending" => all.reverse(),
         "shuffled" => {
             let mut random = Random(7);
-            for i in 1..all.len() {
-                all.swap(i, (random.next() * (i + 1) as f64) as usize);
-            }
+            random.shuffle(&mut all);
         }
         _ => {}
     }
@@ -270,9 +268,7 @@ fn the_papers_methods_at_a_hub_are_those_of_by_plane() {
         let (mesh, flat) = shapes::fan(faces, case % 4 < 2);
         // In any order, so that a walk round the hub begins anywhere.
         let mut triangles: Vec<[u32; 3]> = mesh.indices().as_chunks().0.to_vec();
-        for i in 1..triangles.len() {
-            triangles.swap(i, (random.next() * (i + 1) as f64) as usize);
-        }
+        random.shuffle(&mut triangles);
         let mesh = Mesh::build(mesh.vertex_count(), &triangles).expect("a fan");
         let mut points = flat.as_slice().to_vec();
         let steps = [0.0, 2.0, 1000.0][case / 6 % 3];

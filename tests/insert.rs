@@ -31,28 +31,24 @@ fn area(mesh: &Mesh, place: &Positions) -> f64 {
 }
 
 /// A number from 0 to `bound` - 1.
-fn below(random: &mut Random, bound: usize) -> usize {
-    (random.next() * bound as f64) as usize
-}
-
 /// Some points at random: on edges, often several on one, and in faces.
 fn random_plan(mesh: &Mesh, random: &mut Random) -> Plan {
     let mut plan = Plan::new();
-    for _ in 0..=below(random, 6) {
-        if below(random, 3) == 0 {
-            let f = FaceId::new(below(random, mesh.face_count())).expect("a face");
-            for _ in 0..=below(random, 3) {
+    for _ in 0..=random.below(6) {
+        if random.below(3) == 0 {
+            let f = FaceId::new(random.below(mesh.face_count())).expect("a face");
+            for _ in 0..=random.below(3) {
                 let weights = [(); 3].map(|()| 0.05 + random.next());
                 plan.in_face(f, weights);
             }
         } else {
-            let h = HalfEdgeId::new(below(random, mesh.half_edge_count())).expect("a half-edge");
-            for _ in 0..=below(random, 3) {
+            let h = HalfEdgeId::new(random.below(mesh.half_edge_count())).expect("a half-edge");
+            for _ in 0..=random.below(3) {
                 plan.on_edge(h, 0.02 + 0.96 * random.next());
             }
-            if below(random, 4) == 0 {
+            if random.below(4) == 0 {
                 // Near a corner, on both of its edges: a child there may be next to nothing.
-                let mut near = || 2f64.powi(-2 - below(random, 1000) as i32);
+                let mut near = || 2f64.powi(-2 - random.below(1000) as i32);
                 plan.on_edge(h, near());
                 plan.on_edge_backward(h.prev(), near());
             }
@@ -76,7 +72,7 @@ fn random_edits_keep_every_invariant_and_the_surface() {
             let mut corners = PerCorner::new(place(&mesh, &positions));
             let mut edits = Edits::new();
             for _ in 0..12 {
-                match below(&mut random, 4) {
+                match random.below(4) {
                     0 => {
                         let plan = random_plan(&mesh, &mut random);
                         let before = mesh.clone();
@@ -100,8 +96,7 @@ fn random_edits_keep_every_invariant_and_the_surface() {
                         }
                     }
                     1 => {
-                        let root =
-                            VertexId::new(below(&mut random, mesh.vertex_count())).expect("one");
+                        let root = VertexId::new(random.below(mesh.vertex_count())).expect("one");
                         let root = mesh.root(root);
                         let copies: Vec<_> =
                             mesh.vertices().filter(|&v| mesh.root(v) == root).collect();
@@ -112,13 +107,12 @@ fn random_edits_keep_every_invariant_and_the_surface() {
                         }
                     }
                     _ => {
-                        let v =
-                            VertexId::new(below(&mut random, mesh.vertex_count())).expect("one");
+                        let v = VertexId::new(random.below(mesh.vertex_count())).expect("one");
                         let all: Vec<FaceId> = mesh.faces_of(v).collect();
                         let some: Vec<_> = all
                             .iter()
                             .copied()
-                            .filter(|_| below(&mut random, 2) == 0)
+                            .filter(|_| random.below(2) == 0)
                             .collect();
                         if split::vertex(&mut mesh, v, &some, &mut edits).is_ok() {
                             splits += 1;
@@ -217,7 +211,7 @@ fn points_that_nearly_coincide_make_no_child_without_area() {
         let before = mesh.clone();
         let [h, g] = shared_edge(&mesh);
         let t = random.next().max(1e-9);
-        let steps = below(&mut random, 5) as i64 - 2;
+        let steps = random.below(5) as i64 - 2;
         let nearly = f64::from_bits((1.0 - t).to_bits().wrapping_add_signed(steps));
         let mut plan = Plan::new();
         plan.on_edge(h, t);

@@ -304,7 +304,7 @@ fn dented((mesh, smooth): (Mesh, Positions), random: &mut Random) -> (Mesh, Posi
 /// Rays past random places of a mesh: parallel ones, or two from one eye.
 fn random_rays(positions: &Positions, random: &mut Random) -> Option<[Ray; 2]> {
     let points = positions.as_slice();
-    let mut pick = || points[(random.next() * points.len() as f64) as usize];
+    let mut pick = || points[random.below(points.len())];
     let (p, q) = (pick(), pick());
     let size = points
         .iter()

@@ -7,6 +7,10 @@ mod apart;
 mod cases;
 mod cut_mend;
 mod cuts;
+#[path = "support/delaunay.rs"]
+mod delaunay;
+#[path = "support/digest.rs"]
+mod digest;
 mod engine;
 mod exact;
 mod exhaustive;
@@ -29,7 +33,7 @@ mod pieces;
 mod planes;
 mod polygons;
 mod properties;
-#[path = "data/random.rs"]
+#[path = "support/random.rs"]
 mod random;
 mod rational;
 mod rays;

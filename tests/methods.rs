@@ -7,8 +7,9 @@
 
 use tearmesh::{CutMethod, CutReport, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
+use crate::delaunay;
 use crate::pieces::pieces_by_vertices;
-use crate::random::{self, Random};
+use crate::random::Random;
 
 const METHODS: [CutMethod; 3] = [
     CutMethod::Uniform,
@@ -97,8 +98,8 @@ fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Counts; 3] {
 }
 
 fn delaunay(count: usize, seed: u64) -> (Mesh, Positions) {
-    let points = random::points(count, 30, 0.6 / (count as f64).sqrt(), &mut Random(seed));
-    let triangles: Vec<[u32; 3]> = random::delaunay(&points)
+    let points = delaunay::points(count, 30, 0.6 / (count as f64).sqrt(), &mut Random(seed));
+    let triangles: Vec<[u32; 3]> = delaunay::triangles(&points)
         .into_iter()
         .map(|t| t.map(|i| i as u32))
         .collect();

@@ -174,10 +174,10 @@ impl Counts {
     fn shoot(&mut self, lattice: &Lattice, random: &mut Random, rays: u64) {
         let faces = lattice.mesh.face_count();
         for _ in 0..rays {
-            let face = ((random.next() * faces as f64) as usize).min(faces - 1);
+            let face = random.below(faces);
             let [a, b, c] =
                 [0, 1, 2].map(|i| lattice.points[lattice.mesh.indices()[3 * face + i] as usize]);
-            let mut weights = [0, 1, 2].map(|_| (random.next() * 8.0) as i64);
+            let mut weights = [0, 1, 2].map(|_| random.below(8) as i64);
             if weights == [0; 3] {
                 weights[0] = 1;
             }
@@ -185,7 +185,7 @@ impl Counts {
             // The place has the denominator `sum`, so a ray in whole numbers can go through it.
             let far =
                 |random: &mut Random| [0, 1, 2].map(|_| whole_number(random, 2 * lattice.size));
-            let origin = match (random.next() * 8.0) as u32 {
+            let origin = match random.below(8) {
                 0 => a,                                           // On the mesh.
                 1 => [0, 1, 2].map(|i| a[i] + 3 * (b[i] - a[i])), // In the plane of the face.
                 _ => far(random),
@@ -246,10 +246,7 @@ fn no_ray_leaves_a_closed_surface_between_its_faces() {
     for _ in 0..rays {
         let origin = Point::new(0.05, 0.07, 0.02)
             + Vector::new(random.next(), random.next(), random.next()) * 0.1;
-        let h = mesh
-            .half_edges()
-            .nth((random.next() * 24.0) as usize)
-            .expect("one of 24");
+        let h = mesh.half_edges().nth(random.below(24)).expect("one of 24");
         let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
         // Through an edge, or a corner, as nearly as numbers allow.
         let t = if random.next() < 0.5 {

@@ -78,8 +78,8 @@ fn folded(heights: &[i32], random: &mut Random) -> (Mesh, impl Fn([f64; 3]) -> P
     let (mesh, _) = shapes::grid_with_diagonals(heights.len() as u32 - 1, 2, |x, y| {
         rises[(2 * x + y) as usize]
     });
-    let shear = [0; 2].map(|_: i32| f64::from((5.0 * random.next()) as i32 - 2));
-    let turn = (3.0 * random.next()) as usize;
+    let shear = [0; 2].map(|_: i32| f64::from(random.below(5) as i32 - 2));
+    let turn = random.below(3);
     let place = move |[x, y, z]: [f64; 3]| {
         let mut sheared = [x + shear[0] * z, y + shear[1] * z, z];
         sheared.rotate_right(turn);
@@ -99,8 +99,8 @@ fn planes_through_folds_and_flat_strips_leave_the_pieces_that_the_folds_foretell
     let mut random = Random(101);
     let (mut through_faces, mut through_folds) = (0, 0);
     for _ in 0..600 {
-        let count = 3 + (8.0 * random.next()) as usize;
-        let heights: Vec<i32> = (0..count).map(|_| (3.0 * random.next()) as i32).collect();
+        let count = 3 + random.below(8);
+        let heights: Vec<i32> = (0..count).map(|_| random.below(3) as i32).collect();
         let (mesh, place) = folded(&heights, &mut random);
         let points = (0..=2).flat_map(|j| {
             let row = heights.iter().enumerate();
@@ -108,7 +108,7 @@ fn planes_through_folds_and_flat_strips_leave_the_pieces_that_the_folds_foretell
             row.map(at).collect::<Vec<_>>()
         });
         let positions = Positions::new(points.collect::<Vec<_>>()).expect("whole numbers");
-        let level = f64::from((5.0 * random.next()) as i32) / 2.0;
+        let level = f64::from(random.below(5) as i32) / 2.0;
         let above = |&h: &i32| f64::from(h) - level;
         let pieces = 1 + changes(heights.iter().map(above));
         through_faces += usize::from(
@@ -137,7 +137,7 @@ fn lines_through_vertices_of_a_square_leave_two_pieces_or_touch_it() {
     let mut random = Random(103);
     let mut divided = 0;
     for _ in 0..600 {
-        let n = 2 + (5.0 * random.next()) as u32;
+        let n = 2 + random.below(5) as u32;
         let seed = random.next();
         let (mesh, positions) = shapes::grid_with_diagonals(n, n, |x, y| {
             (f64::from(7 * x + 3 * y) * seed).fract() < 0.5

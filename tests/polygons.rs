@@ -11,7 +11,7 @@ use crate::straight_polylines::sheets;
 
 /// The corners of a polygon about a point, in order round it, well inside the unit square.
 fn polygon(random: &mut Random) -> Vec<[f64; 2]> {
-    let count = 3 + (4.0 * random.next()) as usize;
+    let count = 3 + random.below(4);
     let centre = [0.0; 2].map(|_: f64| 0.45 + 0.1 * random.next());
     let turn = random.next();
     let corner = |i: usize| {

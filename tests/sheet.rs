@@ -25,8 +25,8 @@ fn a_sheet_does_what_its_parts_do() {
         let sheet = sheet.with(corners.clone()).with_masses(0.3);
         let mut sheet = sheet.expect("a grid has an area");
         for _ in 0..8 {
-            let kind = (4.0 * random.next()) as usize;
-            let number = (mesh.vertex_count() as f64 * random.next()) as usize;
+            let kind = random.below(4);
+            let number = random.below(mesh.vertex_count());
             let v = VertexId::new(number).expect("a vertex of the mesh");
             let first = edits.cursor();
             match kind {

@@ -52,8 +52,7 @@ const FORGOTTEN: [(&str, Forgotten, usize); 3] = [
 ];
 
 fn random_script(random: &mut Random) -> Script {
-    let bytes: Vec<u8> = (0..600).map(|_| (random.next() * 256.0) as u8).collect();
-    Script::from_bytes(&bytes)
+    Script::from_bytes(&random.bytes(600))
 }
 
 /// The faces of the mesh with which a script begins.
@@ -109,7 +108,7 @@ fn nothing_can_be_left_out_of_what_comes_back() {
     for _ in 0..cases(10_000) / 100 {
         let script = random_script(&mut random);
         // No property of a mesh: any that operations have together will do.
-        let wanted = (random.next() * 6.0) as usize;
+        let wanted = random.below(6);
         let kinds = |script: &Script| {
             let kinds = script.operations.iter().map(std::mem::discriminant);
             kinds.fold(Vec::new(), |mut kinds, kind| {

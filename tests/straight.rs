@@ -6,12 +6,13 @@ use std::f64::consts::TAU;
 
 use tearmesh::{CutReport, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
+use crate::delaunay;
 use crate::oracle::naive_cut;
 use crate::oracle::spoil::{BUGS, Bug, spoil};
 use crate::oracle::straight::{
     Check, Cut, Facts, Fault, Surface, is_generic, judge, least_fraction,
 };
-use crate::random::{self, Random};
+use crate::random::Random;
 
 /// Two rays: an origin and a direction each.
 pub(crate) type Rays = [([f64; 3], [f64; 3]); 2];
@@ -52,8 +53,8 @@ pub(crate) fn jittered(n: u32, random: &mut Random) -> Surface {
 }
 
 pub(crate) fn delaunay(count: usize, random: &mut Random) -> Surface {
-    let points = random::points(count, 9, 0.6 / (count as f64).sqrt(), random);
-    let faces = random::delaunay(&points).into_iter();
+    let points = delaunay::points(count, 9, 0.6 / (count as f64).sqrt(), random);
+    let faces = delaunay::triangles(&points).into_iter();
     Surface {
         faces: faces.map(|t| t.map(|i| i as u32)).collect(),
         points: points.into_iter().map(|[x, y]| [x, y, 0.0]).collect(),

@@ -76,7 +76,7 @@ pub(crate) fn random_corners(random: &mut Random) -> Vec<[f64; 2]> {
     let mut corner = [0.3 + 0.4 * random.next(), 0.3 + 0.4 * random.next()];
     let mut heading = TAU * random.next();
     let mut corners = vec![corner];
-    for _ in 0..2 + (2.0 * random.next()) as usize {
+    for _ in 0..2 + random.below(2) {
         let (sin, cos) = heading.sin_cos();
         let size = 0.15 + 0.3 * random.next();
         corner = [corner[0] + size * cos, corner[1] + size * sin];

@@ -64,11 +64,11 @@ fn an_overstretched_edge_tears_by_the_rule_of_the_paper() {
             let mut positions = Positions::new(points).expect("finite");
             let mut masses: Vec<Option<f64>> = mesh
                 .vertices()
-                .map(|_| [None, Some(0.25), Some(0.5), Some(0.5)][(random.next() * 4.0) as usize])
+                .map(|_| [None, Some(0.25), Some(0.5), Some(0.5)][random.below(4)])
                 .collect();
             let mut edits = Edits::new();
             for _ in 0..30 {
-                let h = (random.next() * mesh.half_edge_count() as f64) as usize;
+                let h = random.below(mesh.half_edge_count());
                 let h = HalfEdgeId::new(h).expect("a half-edge");
                 let triangles: Vec<[usize; 3]> = mesh
                     .faces()

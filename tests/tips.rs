@@ -101,7 +101,7 @@ fn two_triangles(random: &mut Random) -> Surface {
 fn in_face(sheet: &Surface, face: usize, random: &mut Random) -> [f64; 2] {
     let mut weights = [0.0; 3].map(|_: f64| random.next());
     if random.next() < 0.5 {
-        weights[(3.0 * random.next()) as usize] *= 0.1;
+        weights[random.below(3)] *= 0.1;
     }
     let sum: f64 = weights.iter().sum();
     let corners = sheet.faces[face].map(|v| sheet.points[v as usize]);
@@ -120,9 +120,12 @@ fn for_slits(count: usize, mut visit: impl FnMut(&Surface, [[f64; 2]; 2])) {
             pair = two_triangles(&mut random);
             &pair
         };
-        let pick = |random: &mut Random| (sheet.faces.len() as f64 * random.next()) as usize;
-        let one = pick(&mut random);
-        let other = if i % 2 == 0 { one } else { pick(&mut random) };
+        let one = random.below(sheet.faces.len());
+        let other = if i % 2 == 0 {
+            one
+        } else {
+            random.below(sheet.faces.len())
+        };
         let ends = [one, other].map(|face| in_face(sheet, face, &mut random));
         if ends[0] != ends[1] {
             visit(sheet, ends);
@@ -220,7 +223,7 @@ fn rays_exactly_on_the_boundary_cut_off_a_piece() {
     let mut random = Random(89);
     let mut wrong = Vec::new();
     for _ in 0..400 {
-        let n = 2 + (7.0 * random.next()) as u32;
+        let n = 2 + random.below(7) as u32;
         let sheet = crate::straight::surface(&shapes::grid(n, n));
         let mut hundredth = || (1.0 + (99.0 * random.next()).floor()) / 100.0;
         let ends = [[hundredth(), 1.0], [hundredth(), 0.0]];
@@ -266,7 +269,7 @@ fn rays_barely_beyond_the_boundary_cut_off_a_piece() {
     for snap in [0.0, 0.02, Scissor::SNAP, 0.2] {
         let mut wrong = Vec::new();
         for _ in 0..600 {
-            let n = 3 + (6.0 * random.next()) as u32;
+            let n = 3 + random.below(6) as u32;
             let sheet = crate::straight::surface(&shapes::grid(n, n));
             // More than an edge from the corner, and near a vertex as often as not.
             let mut along = || {

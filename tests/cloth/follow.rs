@@ -218,11 +218,10 @@ enum Done {
 
 /// One random edit.
 fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) -> Done {
-    let mut below = |n: usize| ((random.next() * n as f64) as usize).min(n - 1);
-    match below(6) {
+    match random.below(6) {
         0 | 1 => {
-            let v = VertexId::new(below(mesh.vertex_count())).expect("a vertex");
-            let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| below(2) == 0).collect();
+            let v = VertexId::new(random.below(mesh.vertex_count())).expect("a vertex");
+            let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| random.below(2) == 0).collect();
             match split::vertex(mesh, v, &faces, edits) {
                 Ok(_) => Done::Split,
                 Err(_) => Done::Nothing,
@@ -232,11 +231,14 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
             let mut plan = Plan::new();
             let h = mesh
                 .half_edges()
-                .nth(below(mesh.half_edge_count()))
+                .nth(random.below(mesh.half_edge_count()))
                 .expect("a half-edge");
-            plan.on_edge(h, 0.2 + 0.6 * below(1000) as f64 / 1000.0);
-            if below(2) == 0 {
-                let f = mesh.faces().nth(below(mesh.face_count())).expect("a face");
+            plan.on_edge(h, 0.2 + 0.6 * random.below(1000) as f64 / 1000.0);
+            if random.below(2) == 0 {
+                let f = mesh
+                    .faces()
+                    .nth(random.below(mesh.face_count()))
+                    .expect("a face");
                 plan.in_face(f, [0.2, 0.3, 0.5]);
             }
             match plan.apply(mesh, edits) {
@@ -247,9 +249,9 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
         3 => {
             let h = mesh
                 .half_edges()
-                .nth(below(mesh.half_edge_count()))
+                .nth(random.below(mesh.half_edge_count()))
                 .expect("a half-edge");
-            let t = 0.01 + 0.2 * below(1000) as f64 / 1000.0;
+            let t = 0.01 + 0.2 * random.below(1000) as f64 / 1000.0;
             slide::toward(mesh, mesh.origin(h), mesh.target(h), t, edits).expect("a slide");
             Done::Slide
         }
@@ -258,7 +260,7 @@ fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) 
             if stitches.is_empty() {
                 return Done::Nothing;
             }
-            let stitch = stitches[below(stitches.len())];
+            let stitch = stitches[random.below(stitches.len())];
             let weights = [stitch.kept(), stitch.gone()].map(|v| cloth.masses().at(v));
             match mend::merge(mesh, stitch.kept(), stitch.gone(), weights, edits) {
                 Ok(_) => Done::Merge,

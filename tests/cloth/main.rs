@@ -24,8 +24,8 @@ mod parts;
 #[path = "../../tools/lab/src/plain_verlet.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod plain_verlet;
-#[path = "../data/random.rs"]
-#[allow(dead_code, reason = "shared with the tests of the library")]
+#[path = "../support/random.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
 mod random;
 mod reaction;
 #[path = "../../tools/lab/src/rk4.rs"]

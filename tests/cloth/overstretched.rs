@@ -22,7 +22,7 @@ struct Pulled {
 impl Pulled {
     fn new(seed: u64) -> Pulled {
         let mut random = Random(seed);
-        let cells = 3 + (random.next() * 6.0) as u32;
+        let cells = 3 + random.below(6) as u32;
         let (mesh, positions) = sheet(cells, cells, seed);
         let fabric = Fabric::new(20.0 + 200.0 * random.next());
         let mut cloth = cloth(&mesh, &positions, fabric);

@@ -15,8 +15,6 @@ use tearmesh_cloth::{
     energy,
 };
 
-use crate::random::Random;
-
 /// The acceleration of gravity, in m/s².
 pub(crate) const G: f64 = 9.81;
 
@@ -114,11 +112,4 @@ pub(crate) fn implicit(method: Method) -> Implicit {
         tolerance: 1e-9,
         ..Settings::default()
     })
-}
-
-/// Puts a list into random order (Fisher and Yates).
-pub(crate) fn shuffle<T>(list: &mut [T], random: &mut Random) {
-    for i in (1..list.len()).rev() {
-        list.swap(i, (random.next() * (i + 1) as f64) as usize);
-    }
 }

@@ -4,7 +4,6 @@ use tearmesh::{Mesh, Point, Positions, Vector};
 use tearmesh_cloth::{Fabric, TearReport, Tearing, Threshold};
 
 use crate::parts::cloths::{Torn, sheet};
-use crate::parts::shuffle;
 use crate::random::Random;
 
 /// The mesh with its vertices and triangles in another order and its triangles turned.
@@ -17,7 +16,7 @@ struct Renamed {
 
 fn shuffled(count: usize, random: &mut Random) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
-    shuffle(&mut order, random);
+    random.shuffle(&mut order);
     order
 }
 
@@ -27,7 +26,7 @@ fn rename(mesh: &Mesh, positions: &Positions, random: &mut Random) -> Renamed {
     let mut triangles = vec![[0_u32; 3]; faces.len()];
     let mut corners = vec![0; mesh.half_edge_count()];
     for (f, triangle) in mesh.indices().chunks_exact(3).enumerate() {
-        let turn = (random.next() * 3.0) as usize;
+        let turn = random.below(3);
         for (corner, &v) in triangle.iter().enumerate() {
             let to = (corner + turn) % 3;
             triangles[faces[f]][to] = vertices[v as usize] as u32;

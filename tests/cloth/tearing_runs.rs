@@ -287,24 +287,27 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
     let mut counts = [0; 7];
     let mut grabbed: Option<usize> = None;
     for step in 0..steps {
-        let mut below = |n: usize| ((random.next() * n as f64) as usize).min(n - 1);
         let before = edits.cursor();
-        match below(24) {
+        match random.below(24) {
             0 | 1 => {
                 if let Some(v) = grabbed.take() {
                     cloth.system_mut().release(v.min(mesh.vertex_count() - 1));
                 }
-                let v = below(mesh.vertex_count());
+                let v = random.below(mesh.vertex_count());
                 let (x, now) = (cloth.positions()[v], cloth.system().elapsed_s());
-                let mut by = || 0.5 * (below(1000) as f64 / 1000.0 - 0.5);
+                let mut by = || 0.5 * (random.below(1000) as f64 / 1000.0 - 0.5);
                 let to = x + Vector::new(by(), by(), by());
                 let path = Path::new([(now, x), (now + 0.2, to)]).expect("a path");
                 cloth.system_mut().grab(v, path);
                 (grabbed, counts[0]) = (Some(v), counts[0] + 1);
             }
             2 => {
-                let v = VertexId::new(below(mesh.vertex_count())).expect("a vertex");
-                let normal = Vector::new(below(9) as f64 - 4.0, below(9) as f64 - 4.0, 0.5);
+                let v = VertexId::new(random.below(mesh.vertex_count())).expect("a vertex");
+                let normal = Vector::new(
+                    random.below(9) as f64 - 4.0,
+                    random.below(9) as f64 - 4.0,
+                    0.5,
+                );
                 let plane = Plane::new(cloth.positions()[v.index()], normal).expect("a plane");
                 if split::by_plane(&mut mesh, v, &plane, &cloth, &mut edits).is_some() {
                     counts[1] += 1;
@@ -312,13 +315,13 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
             }
             3 if mesh.face_count() < faces_max => {
                 let mut plan = Plan::new();
-                let h = HalfEdgeId::new(below(mesh.half_edge_count())).expect("a half-edge");
-                plan.on_edge(h, 0.3 + 0.4 * below(100) as f64 / 100.0);
+                let h = HalfEdgeId::new(random.below(mesh.half_edge_count())).expect("a half-edge");
+                plan.on_edge(h, 0.3 + 0.4 * random.below(100) as f64 / 100.0);
                 counts[2] += usize::from(plan.apply(&mut mesh, &mut edits).is_ok());
             }
             4 => {
-                let h = HalfEdgeId::new(below(mesh.half_edge_count())).expect("a half-edge");
-                let t = 0.01 + 0.1 * below(100) as f64 / 100.0;
+                let h = HalfEdgeId::new(random.below(mesh.half_edge_count())).expect("a half-edge");
+                let t = 0.01 + 0.1 * random.below(100) as f64 / 100.0;
                 let [v, toward] = [mesh.origin(h), mesh.target(h)];
                 counts[3] += usize::from(slide::toward(&mesh, v, toward, t, &mut edits).is_ok());
             }
@@ -326,7 +329,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
                 let stitches = mend::stitches(&mesh, |_| true);
                 for _ in 0..stitches.len().min(4) {
                     let stitches = mend::stitches(&mesh, |_| true);
-                    let Some(stitch) = stitches.get(below(stitches.len().max(1))) else {
+                    let Some(stitch) = stitches.get(random.below(stitches.len().max(1))) else {
                         break;
                     };
                     let ends = [stitch.kept(), stitch.gone()];
@@ -339,7 +342,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 7] {
             _ => {}
         }
         let is_edited = edits.cursor() != before;
-        if is_edited && below(2) == 0 {
+        if is_edited && random.below(2) == 0 {
             edits.replay(&mut (&mut cloth, &mut tear));
         }
         let report = tear.apply(&mut mesh, &mut cloth, &mut edits);

@@ -8,6 +8,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{fs, io};
 
+#[path = "../support/delaunay.rs"]
+mod delaunay;
+#[path = "../support/random.rs"]
+#[allow(dead_code, reason = "shared with the tests")]
 mod random;
 
 use random::Random;
@@ -52,12 +56,12 @@ fn flag() -> String {
 
 /// A flat sheet of random points in the unit square, triangulated by Delaunay.
 fn sheet() -> String {
-    let points = random::points(600, 20, 0.015, &mut Random(2014));
+    let points = delaunay::points(600, 20, 0.015, &mut Random(2014));
     let mut obj = String::from("# an irregular sheet\n");
     for [x, y] in &points {
         vertex(&mut obj, [*x, *y, 0.0]);
     }
-    for [a, b, c] in random::delaunay(&points) {
+    for [a, b, c] in delaunay::triangles(&points) {
         writeln!(obj, "f {} {} {}", a + 1, b + 1, c + 1).expect("a string grows");
     }
     obj

@@ -186,8 +186,8 @@ fn a_chosen_sheet_of_a_stack_is_torn_as_if_it_were_alone() {
     let mut random = Random(29);
     let mut seen: [Seen; 3] = Default::default();
     for _ in 0..400 {
-        let n = 5 + (6.0 * random.next()) as u32;
-        let count = 2 + (3.0 * random.next()) as u32;
+        let n = 5 + random.below(6) as u32;
+        let count = 2 + random.below(3) as u32;
         let (sheet, flat) = shapes::grid_with_diagonals(n, n, |x, y| (x * y) % 3 == 1);
         let (mut points, mut triangles) = (Vec::new(), Vec::new());
         for layer in 0..count {

@@ -4,8 +4,9 @@
 use tearmesh::{FaceId, Point, VertexId, mend, split};
 use tearmesh_obj::Document;
 
+use super::digest;
 use super::random::Random;
-use super::torn_damage::{hash, hash_of_faces};
+use super::torn_damage::hash_of_faces;
 use super::torn_record::{Work, assert_is_read_again, files};
 use super::{read, rewritten, text};
 
@@ -18,7 +19,10 @@ const ITEMS: &str = "#~ split 5 2 1\n#~ split 6 3 1\n#~ apart 5 1 0 0 1.25 0.5 0
 
 fn file(version: u8, items: &str) -> String {
     let faces = hash_of_faces(&[6, 0, 1, 2, 5, 4, 3]);
-    let (count, sum) = (items.lines().count(), hash(items.as_bytes()));
+    let (count, sum) = (
+        items.lines().count(),
+        digest::after(digest::EMPTY, items.bytes()),
+    );
     format!(
         "{BODY}#tearmesh record {version} v 6 f 2 vt 0 0 vn 0 0 faces {faces:016x}\n{items}\
          #tearmesh end {count} {sum:016x}\n"

@@ -9,10 +9,6 @@ use super::random::Random;
 use super::torn_record::Work;
 use super::{read, text};
 
-fn below(random: &mut Random, bound: usize) -> usize {
-    (random.next() * bound as f64) as usize
-}
-
 /// A random file of several strips of triangles, an object each.
 struct Sheets {
     file: String,
@@ -22,12 +18,12 @@ struct Sheets {
 
 impl Sheets {
     fn random(random: &mut Random) -> Sheets {
-        let has_values = below(random, 2) == 0;
-        let heads_first = below(random, 4) == 0;
+        let has_values = random.below(2) == 0;
+        let heads_first = random.below(4) == 0;
         let (mut heads, mut file) = (String::new(), String::new());
         let (mut vertices, mut textures) = (0, 0);
-        for object in 0..1 + below(random, 4) {
-            let order = if heads_first { 0 } else { below(random, 3) };
+        for object in 0..1 + random.below(4) {
+            let order = if heads_first { 0 } else { random.below(3) };
             let statements = Sheets::vertices(object, has_values, random);
             let (count, of_texture) = (statements.len(), if has_values { 4 } else { 0 });
             let vt = |i: usize| format!("vt 0.{} {object}\n", i + 1);
@@ -48,7 +44,7 @@ impl Sheets {
                 format!("f {} {} {}\n", corner(a), corner(b), corner(c))
             });
             let faces: Vec<String> = faces.collect();
-            let name = ["", "# between\n", "g part\n"][below(random, 3)];
+            let name = ["", "# between\n", "g part\n"][random.below(3)];
             let title = format!("o object{object}\n");
             match order {
                 // All vertices, or those of the object, before the faces.
@@ -77,13 +73,13 @@ impl Sheets {
 
     /// `v`, each with the lines that say something of it.
     fn vertices(object: usize, has_values: bool, random: &mut Random) -> Vec<String> {
-        let statements = (0..4 + below(random, 7)).map(|i| {
+        let statements = (0..4 + random.below(7)).map(|i| {
             let colour = if has_values { " 0.5 0.25 1" } else { "" };
             let mut lines = format!("v {} {} {object}{colour}\n", i / 2, i % 2);
-            if below(random, 4) == 0 {
+            if random.below(4) == 0 {
                 lines += &format!("nl {i}\n");
             }
-            if below(random, 6) == 0 {
+            if random.below(6) == 0 {
                 lines += &format!("# behind {i}\n");
             }
             lines
@@ -424,7 +420,7 @@ fn the_body_of_a_torn_file_is_as_predicted_and_mending_gives_the_input() {
         let mut followed = Followed::new(&work.mesh);
         assert_eq!(uncut, predicted(&sheets, &work, &followed), "seed {seed}");
         // Vertices change their ids where many are split and merged.
-        for _ in 0..below(&mut random, if seed % 3 == 0 { 40 } else { 8 }) {
+        for _ in 0..random.below(if seed % 3 == 0 { 40 } else { 8 }) {
             let seen = work.edits.cursor();
             if sheets.has_values {
                 work.tear_only(&mut random);

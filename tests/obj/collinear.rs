@@ -92,7 +92,6 @@ fn regression_a_quad_with_a_corner_nearly_on_its_side_is_cut_there() {
 /// A shape in the plane with more corners on its sides, turned somehow in space, moved, scaled,
 /// and rounded to six digits behind the point.
 fn shape(random: &mut Random) -> Vec<Place> {
-    let below = |random: &mut Random, bound: usize| (random.next() * bound as f64) as usize;
     let shapes: [&[[f64; 2]]; 5] = [
         &[[0.0, 0.0], [1.0, 0.0], [0.2, 0.9]],
         &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
@@ -107,14 +106,14 @@ fn shape(random: &mut Random) -> Vec<Place> {
             [0.0, 2.0],
         ],
     ];
-    let mut flat = shapes[below(random, shapes.len())].to_vec();
-    for _ in 0..1 + below(random, 10 - flat.len()) {
-        let side = below(random, flat.len());
+    let mut flat = shapes[random.below(shapes.len())].to_vec();
+    for _ in 0..1 + random.below(10 - flat.len()) {
+        let side = random.below(flat.len());
         let (a, b) = (flat[side], flat[(side + 1) % flat.len()]);
-        let t = [0.5, 1.0 / 3.0, random.next()][below(random, 3)];
+        let t = [0.5, 1.0 / 3.0, random.next()][random.below(3)];
         flat.insert(side + 1, [0, 1].map(|i| a[i] + t * (b[i] - a[i])));
     }
-    let turn = below(random, flat.len());
+    let turn = random.below(flat.len());
     flat.rotate_left(turn);
     let axis = [(); 3].map(|()| random.next() - 0.5);
     let other = [(); 3].map(|()| random.next() - 0.5);
@@ -122,7 +121,7 @@ fn shape(random: &mut Random) -> Vec<Place> {
     let u = unit(axis);
     let v = unit(cross(u, other));
     let origin = [(); 3].map(|()| 4.0 * random.next());
-    let scale = [1.0, 3.0, 0.1][below(random, 3)];
+    let scale = [1.0, 3.0, 0.1][random.below(3)];
     let place = |[x, y]: [f64; 2]| [0, 1, 2].map(|i| origin[i] + scale * (x * u[i] + y * v[i]));
     let rounded = |place: Place| place.map(|x| (x * 1e6).round() / 1e6);
     flat.into_iter().map(place).map(rounded).collect()

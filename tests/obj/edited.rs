@@ -7,10 +7,6 @@ use super::random::Random;
 use super::torn_record::{Work, files};
 use super::{read, text};
 
-fn below(random: &mut Random, bound: usize) -> usize {
-    (random.next() * bound as f64) as usize
-}
-
 /// The lines of a file, to be edited, and its vertices, looked up as a person would.
 struct Lines(Vec<String>);
 
@@ -107,16 +103,16 @@ fn the_surface_stays_whatever_was_moved() {
         let statements = lines.all("v");
         let inserted = lines.inserted();
         let mut moved: BTreeMap<usize, String> = BTreeMap::new();
-        for _ in 0..below(&mut random, 3) {
+        for _ in 0..random.below(3) {
             let vertex = match inserted.len() {
-                0 => below(&mut random, statements.len()),
-                count if random.next() < 0.6 => inserted[below(&mut random, count)] - 1,
-                _ => below(&mut random, statements.len()),
+                0 => random.below(statements.len()),
+                count if random.next() < 0.6 => inserted[random.below(count)] - 1,
+                _ => random.below(statements.len()),
             };
-            let far = [1e-7, 0.125, 3.0][below(&mut random, 3)];
+            let far = [1e-7, 0.125, 3.0][random.below(3)];
             let line = &mut lines.0[statements[vertex]];
             let mut words: Vec<String> = line.split(' ').map(str::to_owned).collect();
-            let axis = 1 + below(&mut random, 3);
+            let axis = 1 + random.below(3);
             let number: f64 = words[axis].parse().expect("a number");
             words[axis] = (number + far).to_string();
             *line = words.join(" ");
@@ -159,7 +155,7 @@ fn other_numbers_at_an_inserted_vertex_are_kept() {
         if inserted.is_empty() {
             continue;
         }
-        let vertex = inserted[below(&mut random, inserted.len())];
+        let vertex = inserted[random.below(inserted.len())];
         let at_vertex = |corner: &str| corner.split('/').next() == Some(&vertex.to_string());
         let with = |lines: &Lines, which: usize| -> Option<(usize, String)> {
             let faces = lines.all("f").into_iter();
@@ -173,7 +169,7 @@ fn other_numbers_at_an_inserted_vertex_are_kept() {
             let mut corners = corners.filter(|(_, corner)| at_vertex(corner));
             corners.find(|(_, corner)| corner.split('/').nth(which).is_some_and(|i| !i.is_empty()))
         };
-        let kind = ["v", "vt", "vn"][below(&mut random, 3)];
+        let kind = ["v", "vt", "vn"][random.below(3)];
         match kind {
             "v" => {
                 let statement = lines.all("v")[vertex - 1];

@@ -50,8 +50,8 @@ fn seeds_survive_random_deeds() {
     for bytes in inputs("obj_roundtrip") {
         let file = bytes.split(|&byte| byte == 0).next().expect("a file");
         for _ in 0..150 {
-            let count = (random.next() * 40.0) as usize;
-            let deeds: Vec<u8> = (0..count).map(|_| (random.next() * 256.0) as u8).collect();
+            let count = random.below(40);
+            let deeds = random.bytes(count);
             meshes += usize::from(same_bytes::check_file(file, &deeds));
         }
     }

@@ -9,6 +9,8 @@ mod coincident;
 mod collinear;
 mod corpus;
 mod differential;
+#[path = "../support/digest.rs"]
+mod digest;
 mod edited;
 mod fuzz;
 mod memory;
@@ -16,8 +18,8 @@ mod mesh;
 mod normals;
 mod numbers;
 mod objects;
-#[path = "../data/random.rs"]
-#[allow(dead_code, reason = "shared with the tests of the library")]
+#[path = "../support/random.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
 mod random;
 mod raw;
 mod refuse;

@@ -12,6 +12,8 @@ use std::fs::File;
 use std::io::{Write as _, stderr};
 use std::process::Command;
 
+use super::digest;
+
 use tearmesh_obj::{Document, Repair};
 
 const CHILD: &str = "TEARMESH_MEMORY_OF";
@@ -106,7 +108,7 @@ fn fans_joined(count: usize) -> Vec<u8> {
         }
     }
     let hash = super::torn_damage::hash_of_faces(&corners);
-    let items_hash = super::torn_damage::hash(items.as_bytes());
+    let items_hash = digest::after(digest::EMPTY, items.bytes());
     let (vertices, copies) = (3 * count, count - 1);
     file += &format!(
         "{faces}#tearmesh record 1 v {vertices} f {count} vt 0 0 vn 0 0 faces {hash:016x}\n\

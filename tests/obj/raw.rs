@@ -7,6 +7,7 @@ use obj::raw::object::{Group, Polygon, Range};
 use tearmesh_obj::Document;
 
 use super::differential::{self, Outcome};
+use super::random::Random;
 use super::{positions, read, text, write_as};
 
 fn raw(file: &str) -> RawObj {
@@ -313,19 +314,15 @@ fn documents_are_those_of_the_reader() {
         "l 1/1 2/2\n",
         "mtllib m.mtl\n",
     ];
-    let mut state = 1_u32;
-    let mut next = move |count: usize| {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (state >> 16) as usize % count
-    };
+    let mut random = Random(1);
     let mut same = 0;
     for _ in 0..3000 {
         let mut file = head.to_owned();
-        for _ in 0..1 + next(6) {
-            for _ in 0..next(4) {
-                file += between[next(between.len())];
+        for _ in 0..1 + random.below(6) {
+            for _ in 0..random.below(4) {
+                file += between[random.below(between.len())];
             }
-            file += faces[next(faces.len())];
+            file += faces[random.below(faces.len())];
         }
         same += usize::from(agrees(file.as_bytes()));
     }

@@ -10,10 +10,6 @@ use super::random::Random;
 use super::torn_record::{Work, files};
 use super::{read, rewritten, text};
 
-fn below(random: &mut Random, bound: usize) -> usize {
-    (random.next() * bound as f64) as usize
-}
-
 fn vertex(v: usize) -> VertexId {
     VertexId::new(v).expect("small")
 }
@@ -23,7 +19,7 @@ impl Work<'_> {
     pub(crate) fn cut_sliding(&mut self, random: &mut Random) -> Vec<usize> {
         let points = self.positions.as_slice();
         let near = |random: &mut Random| {
-            let middle = points[below(random, points.len())];
+            let middle = points[random.below(points.len())];
             middle + Vector::new(random.next() - 0.5, random.next() - 0.5, 0.0) * 0.2
         };
         let [p, q]: [Point; 2] = [near(random), near(random)];
@@ -393,9 +389,9 @@ fn slides_among_all_other_edits_are_undone_to_the_byte() {
                 &file,
                 1 + seed % 3,
                 |work| {
-                    for _ in 0..1 + below(&mut random, 3) {
+                    for _ in 0..1 + random.below(3) {
                         // A cut slides vertices before it divides anything, as ours do.
-                        for _ in 0..below(&mut random, 4) {
+                        for _ in 0..random.below(4) {
                             slid += usize::from(work.slide_anywhere(&mut random));
                         }
                         work.tear(&mut random, 5, true);
@@ -412,7 +408,7 @@ fn slides_among_all_other_edits_are_undone_to_the_byte() {
 impl Work<'_> {
     /// Slides any vertex whose copies are all where it is, along any edge; whether there was one.
     fn slide_anywhere(&mut self, random: &mut Random) -> bool {
-        let h = below(random, self.mesh.half_edge_count());
+        let h = random.below(self.mesh.half_edge_count());
         let h = HalfEdgeId::new(h).expect("a half-edge");
         let ends = [self.mesh.origin(h), self.mesh.target(h)];
         let roots = self.mesh.roots();

@@ -3,21 +3,16 @@
 use tearmesh::{Edits, FaceId, Mesh, VertexId, mend, slide};
 use tearmesh_obj::{Diagnostic, Document, Level};
 
+use super::digest;
 use super::random::Random;
 use super::torn_record::{Work, files};
 use super::{positions, read, rewritten, text};
-
-/// FNV-1a of 64 bits.
-pub(crate) fn hash(bytes: &[u8]) -> u64 {
-    let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
-}
 
 /// The hash of faces: the number of vertices, then the corners.
 pub(crate) fn hash_of_faces(numbers: &[u64]) -> u64 {
     let mut bytes = numbers[0].to_le_bytes().to_vec();
     bytes.extend(numbers[1..].iter().flat_map(|&v| (v as u32).to_le_bytes()));
-    hash(&bytes)
+    digest::after(digest::EMPTY, bytes)
 }
 
 /// Two triangles torn apart at vertices 2 and 3, with a vertex on the edge 3-4 of the second.
@@ -29,7 +24,10 @@ const HEADER: &str = "#tearmesh record 1 v 7 f 3 vt 0 0 vn 0 0 faces ";
 fn record(items: &str) -> String {
     let corners = [7, 0, 1, 2, 6, 5, 4, 6, 4, 3];
     let faces = hash_of_faces(&corners);
-    let (count, items_hash) = (items.lines().count(), hash(items.as_bytes()));
+    let (count, items_hash) = (
+        items.lines().count(),
+        digest::after(digest::EMPTY, items.bytes()),
+    );
     format!("{HEADER}{faces:016x}\n{items}#tearmesh end {count} {items_hash:016x}\n")
 }
 
@@ -235,7 +233,7 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
     let lonely = format!(
         "{lonely}#tearmesh record 1 v 4 f 1 vt 0 0 vn 0 0 faces {faces:016x}\n{items}\
          #tearmesh end 1 {:016x}\n",
-        hash(items.as_bytes())
+        digest::after(digest::EMPTY, items.bytes())
     );
     let message = "this record is not used: it splits vertices without faces";
     warns(&lonely, "W-OBJ-RECORD", (6, 1), message);
@@ -245,7 +243,7 @@ fn what_is_wrong_with_a_record_is_said_by_line_and_column() {
 #[test]
 fn regression_faces_that_a_file_has_not_take_no_memory() {
     let items = "#~ parent 1 4000000000 1 2 3\n#~ again 0 1 2 3 3999999999\n";
-    let hash = hash(items.as_bytes());
+    let hash = digest::after(digest::EMPTY, items.bytes());
     let file = format!(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
          #tearmesh record 4 v 3 f 4000000000 vt 0 0 vn 0 0 faces {hash:016x}\n{items}\
@@ -565,7 +563,7 @@ fn damaged_records_do_no_harm() {
                     .filter(|(_, b)| b.is_ascii_digit())
                 {
                     let mut line = lines[i].to_owned().into_bytes();
-                    line[at] = b'0' + (digit - b'0' + 1 + (random.next() * 8.0) as u8) % 10;
+                    line[at] = b'0' + (digit - b'0' + 1 + random.below(8) as u8) % 10;
                     let line = String::from_utf8(line).expect("ASCII");
                     let mut changed = lines.clone();
                     changed[i] = &line;
@@ -580,7 +578,7 @@ fn damaged_records_do_no_harm() {
                     let end = format!(
                         "#tearmesh end {} {:016x}",
                         lines.len() - 2,
-                        hash(items.as_bytes())
+                        digest::after(digest::EMPTY, items.bytes())
                     );
                     *changed.last_mut().expect("an end") = &end;
                     let file = format!("{body}{}\n", changed.join("\n"));

@@ -14,10 +14,6 @@ use super::random::Random;
 use super::{positions, read, rewritten, text};
 
 /// A number from 0 to `bound` - 1.
-fn below(random: &mut Random, bound: usize) -> usize {
-    (random.next() * bound as f64) as usize
-}
-
 /// A document under the scissors.
 pub(crate) struct Work<'d> {
     pub(crate) mesh: Mesh,
@@ -59,18 +55,18 @@ impl<'d> Work<'d> {
     }
 
     fn vertex(&self, random: &mut Random) -> VertexId {
-        VertexId::new(below(random, self.mesh.vertex_count())).expect("a vertex")
+        VertexId::new(random.below(self.mesh.vertex_count())).expect("a vertex")
     }
 
     /// Some points on edges and in faces.
     fn insert(&mut self, random: &mut Random) {
         let mut plan = Plan::new();
-        for _ in 0..=below(random, 5) {
-            if below(random, 3) == 0 {
-                let f = FaceId::new(below(random, self.mesh.face_count())).expect("a face");
+        for _ in 0..=random.below(5) {
+            if random.below(3) == 0 {
+                let f = FaceId::new(random.below(self.mesh.face_count())).expect("a face");
                 plan.in_face(f, [(); 3].map(|()| 0.1 + random.next()));
             } else {
-                let h = below(random, self.mesh.half_edge_count());
+                let h = random.below(self.mesh.half_edge_count());
                 let h = HalfEdgeId::new(h).expect("a half-edge");
                 plan.on_edge(h, 0.1 + 0.8 * random.next());
             }
@@ -82,7 +78,7 @@ impl<'d> Work<'d> {
     pub(crate) fn split(&mut self, random: &mut Random) {
         let v = self.vertex(random);
         let mut faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
-        faces.retain(|_| below(random, 2) == 0);
+        faces.retain(|_| random.below(2) == 0);
         let _refused = split::vertex(&mut self.mesh, v, &faces, &mut self.edits);
         self.follow();
     }
@@ -92,8 +88,8 @@ impl<'d> Work<'d> {
         let of_root = |&v: &VertexId| self.mesh.root(v) == root;
         let copies: Vec<VertexId> = self.mesh.vertices().filter(of_root).collect();
         if copies.len() > 1 {
-            let one = below(random, copies.len() - 1);
-            let other = one + 1 + below(random, copies.len() - one - 1);
+            let one = random.below(copies.len() - 1);
+            let other = one + 1 + random.below(copies.len() - one - 1);
             let [one, other] = [copies[one], copies[other]];
             let merged = mend::merge(&mut self.mesh, one, other, [1.0, 1.0], &mut self.edits);
             merged.expect("both have one root");
@@ -103,7 +99,7 @@ impl<'d> Work<'d> {
 
     pub(crate) fn tear(&mut self, random: &mut Random, steps: usize, merges: bool) {
         for _ in 0..steps {
-            match below(random, 6) {
+            match random.below(6) {
                 0 => self.insert(random),
                 1 if merges => self.merge(random),
                 _ => self.split(random),
@@ -113,7 +109,7 @@ impl<'d> Work<'d> {
 
     /// Splits something, or merges it again.
     pub(crate) fn tear_only(&mut self, random: &mut Random) {
-        match below(random, 4) {
+        match random.below(4) {
             0 => self.merge(random),
             _ => self.split(random),
         }
@@ -367,11 +363,7 @@ fn a_part_is_simplified_and_the_rest_still_can_be() {
             let document = read(&bytes);
             let mut work = Work::on(&document);
             work.tear(&mut random, 30, false);
-            let chosen: Vec<bool> = work
-                .mesh
-                .vertices()
-                .map(|_| below(&mut random, 3) > 0)
-                .collect();
+            let chosen: Vec<bool> = work.mesh.vertices().map(|_| random.below(3) > 0).collect();
             work.sew(&mend::stitches(&work.mesh, |v| chosen[v.index()]));
             let simple = work.torn.simplified(&work.mesh, &work.positions);
             let Some(simple) = unedited(simple) else {
@@ -616,7 +608,7 @@ fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
                 let mut edits = Edits::new();
                 let mut near = || {
                     let [x, y, z] = [(); 3].map(|()| random.next() - 0.5);
-                    let middle = at.as_slice()[below(&mut random, at.len())];
+                    let middle = at.as_slice()[random.below(at.len())];
                     middle + Vector::new(x, y, z) * 0.9
                 };
                 let [eye, p, q] = [near() + Vector::new(0.0, 0.0, 3.0), near(), near()];

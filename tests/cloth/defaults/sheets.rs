@@ -3,7 +3,6 @@
 use tearmesh::{Masses, Mesh, Point, Positions, shapes};
 use tearmesh_cloth::System;
 
-use crate::parts::shuffle;
 use crate::random::Random;
 
 /// The stiffness of every edge, in N/m, and the mass of a square metre, in kg.
@@ -25,7 +24,7 @@ impl Order {
         match self {
             Order::Mesh => {}
             Order::Reversed => list.reverse(),
-            Order::Shuffled => shuffle(list, &mut Random(5)),
+            Order::Shuffled => Random(5).shuffle(list),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Random points and their Delaunay triangles, the same on every machine.
 
+use super::random::Random;
+
 /// `count` points in the unit square: `border` of them evenly along each side, the others
 /// random and at least `apart` from each other. Not as even as a mesher would do it, but
 /// without needles.
@@ -27,7 +29,7 @@ pub(crate) fn points(count: usize, border: u32, apart: f64, random: &mut Random)
 }
 
 /// Delaunay triangles by Bowyer and Watson's insertion, counter-clockwise; O(n²).
-pub(crate) fn delaunay(points: &[[f64; 2]]) -> Vec<[usize; 3]> {
+pub(crate) fn triangles(points: &[[f64; 2]]) -> Vec<[usize; 3]> {
     let n = points.len();
     let mut all = points.to_vec();
     all.extend([[-50.0, -40.0], [50.0, -40.0], [0.5, 60.0]]);
@@ -59,18 +61,4 @@ fn in_circle(triangle: [[f64; 2]; 3], p: [f64; 2]) -> bool {
     let square = |q: [f64; 2]| q[0] * q[0] + q[1] * q[1];
     let minor = |q: [f64; 2], r: [f64; 2]| q[0] * r[1] - q[1] * r[0];
     square(a) * minor(b, c) + square(b) * minor(c, a) + square(c) * minor(a, b) > 0.0
-}
-
-/// A small generator (splitmix64), so that the sheet is the same for ever.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    /// A number from 0 to 1.
-    pub(crate) fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
