@@ -7,6 +7,7 @@ use serde_json::Value;
 use tearmesh_cli::Exit;
 
 use crate::harness::{Folder, in_memory, seen};
+use crate::random::Random;
 
 /// A file as its lines have it: where each `v` says that it is, where the record says so, and faces.
 struct Plain {
@@ -217,13 +218,7 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
 #[test]
 fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
     let folder = Folder::new();
-    let mut state = 17_u64;
-    let mut random = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random(17);
     let mut tally = Counts {
         is_welded: true,
         ..Counts::default()
@@ -234,7 +229,13 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
         }
         let name = ["flag", "sheet", "sleeve", "quilt"][case % 4];
         let mesh = folder.read(&format!("{name}.obj")).into_bytes();
-        let mut point = || format!("{},{}", 2.0 * random() - 0.7, 2.0 * random() - 0.7);
+        let mut point = || {
+            format!(
+                "{},{}",
+                2.0 * random.next() - 0.7,
+                2.0 * random.next() - 0.7
+            )
+        };
         let pair = |a: String, b: String| format!("--rays {a},9:0,0,-1 {b},9:0,0,-1");
         let (first, second) = (pair(point(), point()), pair(point(), point()));
         let method = [
@@ -319,13 +320,7 @@ fn real_files_with_a_gap_are_what_they_were() {
 #[test]
 fn pieces_that_part_wholly_move_as_they_are() {
     let folder = Folder::new();
-    let mut state = 5_u64;
-    let mut random = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random(5);
     for case in 0..30 {
         let n = 3 + case % 8;
         let mut text = String::new();
@@ -335,14 +330,14 @@ fn pieces_that_part_wholly_move_as_they_are() {
         for i in 0..n * n {
             let a = i / n * (n + 1) + i % n + 1;
             let [b, c, d] = [a + 1, a + n + 2, a + n + 1];
-            text += &match random() < 0.5 {
+            text += &match random.next() < 0.5 {
                 true => format!("f {a} {b} {c}\nf {a} {c} {d}\n"),
                 false => format!("f {a} {b} {d}\nf {b} {c} {d}\n"),
             };
         }
         folder.write("grid.obj", text);
-        let middle = n as f64 * (0.3 + 0.4 * random());
-        let [x, y] = [random() - 0.5, random() - 0.5];
+        let middle = n as f64 * (0.3 + 0.4 * random.next());
+        let [x, y] = [random.next() - 0.5, random.next() - 0.5];
         let plane = format!(
             "--plane {middle},{middle},0:{x},{y},0 --snap {}",
             [0.0, 0.05][case % 2]

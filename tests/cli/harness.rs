@@ -6,6 +6,8 @@ use std::process::{Command, Output, Stdio};
 
 use tearmesh_cli::{Exit, Streams, run};
 
+use crate::digest;
+
 /// The repository.
 pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -62,8 +64,8 @@ impl Folder {
         names
     }
 
-    /// Adds the names and bytes of all files to a digest.
-    pub(crate) fn digest(&self, digest: &mut u64) {
+    /// The digest of the names and bytes of all files, after what has this digest.
+    pub(crate) fn digest(&self, digest: u64) -> u64 {
         let mut paths = vec![self.folder.path().to_owned()];
         let mut next = 0;
         while let Some(path) = paths.get(next).cloned() {
@@ -74,11 +76,12 @@ impl Folder {
             }
         }
         paths.sort();
-        for path in paths.iter().filter(|path| path.is_file()) {
+        let files = paths.iter().filter(|path| path.is_file());
+        files.fold(digest, |digest, path| {
             let name = path.strip_prefix(self.folder.path()).expect("in here");
             let bytes = fs::read(path).expect("a file");
-            digested(digest, name.to_string_lossy().bytes().chain(bytes));
-        }
+            digest::after(digest, name.to_string_lossy().bytes().chain(bytes))
+        })
     }
 
     /// The command, ready to run in this folder, without a terminal.
@@ -113,13 +116,6 @@ impl Folder {
             }
         }
         command.output().expect("the command runs")
-    }
-}
-
-/// Adds bytes to a number that stands for all before them (FNV-1a).
-pub(crate) fn digested(digest: &mut u64, bytes: impl Iterator<Item = u8>) {
-    for byte in bytes {
-        *digest = (*digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     }
 }
 

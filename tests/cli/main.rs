@@ -7,6 +7,8 @@ mod cache;
 mod charts;
 mod check;
 mod cut;
+#[path = "../support/digest.rs"]
+mod digest;
 mod edited;
 mod files;
 mod frames;
@@ -27,6 +29,9 @@ mod pictures;
 mod pieces;
 mod places;
 mod play;
+#[path = "../support/random.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
+mod random;
 mod shell;
 mod step;
 mod tear;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use crate::harness::{Folder, seen};
+use crate::random::Random;
 
 /// A file as its lines have it: `v`, `vt`, and of each face the texture coordinates at its corners.
 #[derive(Default)]
@@ -81,23 +82,22 @@ fn largest_error(map: &Value, before: &[Vec<f64>], after: &[Vec<f64>]) -> f64 {
 /// faces of one half have others.
 fn weighted_flag(folder: &Folder, seam: bool) -> String {
     let mut text = String::new();
-    let (mut state, mut places) = (7_u64, Vec::new());
-    let mut random = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let (mut random, mut places) = (Random(7), Vec::new());
     let flag = folder.read("flag.obj");
     for line in flag.lines() {
         if let Some(place) = line.strip_prefix("v ") {
             let numbers: Vec<&str> = place.split_whitespace().collect();
             places.push(numbers[0].parse::<f64>().expect("x"));
-            text += &format!("v {} {} {}\n", numbers[..3].join(" "), random(), random());
+            text += &format!(
+                "v {} {} {}\n",
+                numbers[..3].join(" "),
+                random.next(),
+                random.next()
+            );
         }
     }
     for _ in 0..2 * places.len() {
-        text += &format!("vt {} {}\n", random(), random());
+        text += &format!("vt {} {}\n", random.next(), random.next());
     }
     for line in flag.lines().filter_map(|line| line.strip_prefix("f ")) {
         let corners = line
