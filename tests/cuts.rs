@@ -12,12 +12,16 @@ use crate::oracle::straight::judge;
 use crate::random::Random;
 use crate::straight::{built, cases, down, is_worst_of_faces, surface};
 
-const METHODS: [CutMethod; 4] = [
+/// All ways to cut, first the one that adds faces.
+pub(crate) const METHODS: [CutMethod; 4] = [
     CutMethod::Exact,
     CutMethod::Partition,
     CutMethod::Uniform,
     CutMethod::Alternating,
 ];
+
+/// The ways to cut along edges, that add no face.
+pub(crate) const ALONG_EDGES: [CutMethod; 3] = [METHODS[1], METHODS[2], METHODS[3]];
 
 /// A mesh that was whole, after a cut.
 struct Made {

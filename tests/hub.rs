@@ -10,6 +10,7 @@ use tearmesh::{
     VertexId, mend, shapes, split,
 };
 
+use crate::cuts::METHODS;
 use crate::random::Random;
 
 /// Steps and the nanoseconds a face that each took.
@@ -80,13 +81,6 @@ fn scissor(a: [f64; 2], b: [f64; 2]) -> Scissor {
     let ray = |[x, y]: [f64; 2]| Ray::new(Point::new(x, y, 5.0), down).expect("a ray");
     Scissor::new(ray(a), ray(b)).expect("two rays")
 }
-
-const METHODS: [CutMethod; 4] = [
-    CutMethod::Exact,
-    CutMethod::Partition,
-    CutMethod::Uniform,
-    CutMethod::Alternating,
-];
 
 /// Cuts a fan in all ways, and mends it.
 fn cut(faces: u32, closed: bool, clock: &mut Clock) {

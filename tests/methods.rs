@@ -7,15 +7,10 @@
 
 use tearmesh::{CutMethod, CutReport, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
-use crate::delaunay;
+use crate::cuts::ALONG_EDGES;
 use crate::pieces::pieces_by_vertices;
 use crate::random::Random;
-
-const METHODS: [CutMethod; 3] = [
-    CutMethod::Uniform,
-    CutMethod::Alternating,
-    CutMethod::Partition,
-];
+use crate::straight::{built, delaunay};
 
 /// How many random cuts each mesh gets.
 const CUTS: usize = 40;
@@ -53,7 +48,7 @@ impl Counts {
     }
 }
 
-/// Random through cuts of the unit square by each method, in the order of [`METHODS`].
+/// Random through cuts of the unit square by each method, in the order of [`ALONG_EDGES`].
 fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Counts; 3] {
     let mut tallies = [Counts::default(), Counts::default(), Counts::default()];
     let mut random = Random(7);
@@ -65,7 +60,7 @@ fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Counts; 3] {
             Ray::new(Point::new(x + t * cos, y + t * sin, 5.0), down).expect("a ray")
         };
         let scissor = Scissor::new(ray(-5.0), ray(5.0)).expect("a plane");
-        for (method, tally) in METHODS.into_iter().zip(&mut tallies) {
+        for (method, tally) in ALONG_EDGES.into_iter().zip(&mut tallies) {
             let (mut mesh, mut positions) = sheet.clone();
             let report = scissor.cut_measured(method, &mut mesh, &mut positions, &mut Edits::new());
             assert_eq!(mesh.check(), []);
@@ -76,7 +71,7 @@ fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Counts; 3] {
             tally.divided += usize::from(pieces.len() == 2);
         }
     }
-    for (method, tally) in METHODS.into_iter().zip(&tallies) {
+    for (method, tally) in ALONG_EDGES.into_iter().zip(&tallies) {
         let mean = |sum: usize| sum as f64 / CUTS as f64;
         println!(
             "{name:9} {:11} divided in two {:2}/{CUTS}, separated {:2}, crumbs in {:2} ({}), lost {:2}, \
@@ -95,17 +90,6 @@ fn tallies(name: &str, sheet: &(Mesh, Positions)) -> [Counts; 3] {
         );
     }
     tallies
-}
-
-fn delaunay(count: usize, seed: u64) -> (Mesh, Positions) {
-    let points = delaunay::points(count, 30, 0.6 / (count as f64).sqrt(), &mut Random(seed));
-    let triangles: Vec<[u32; 3]> = delaunay::triangles(&points)
-        .into_iter()
-        .map(|t| t.map(|i| i as u32))
-        .collect();
-    let mesh = Mesh::build(points.len(), &triangles).expect("Delaunay triangles form a disk");
-    let positions = Positions::new(points.iter().map(|p| [p[0], p[1], 0.0]).collect::<Vec<_>>());
-    (mesh, positions.expect("finite"))
 }
 
 fn jittered(n: u32, seed: u64) -> (Mesh, Positions) {
@@ -134,9 +118,9 @@ fn the_papers_methods_are_no_kinder_than_the_paper_says() {
     for (name, sheet, alternating_divides) in [
         ("grid", shapes::grid(30, 30), 38..=CUTS),
         ("jittered", jittered(30, 3), 34..=CUTS),
-        ("random", delaunay(900, 5), 20..=36),
+        ("random", built(&delaunay(900, 30, &mut Random(5))), 20..=36),
     ] {
-        let [uniform, alternating, partition] = tallies(name, &sheet);
+        let [partition, uniform, alternating] = tallies(name, &sheet);
         // "The mesh not being completely divided."
         assert!(
             uniform.divided <= 2 && uniform.separated == 0,
@@ -171,7 +155,7 @@ fn figure_4_a_waving_flag_is_cut_between_two_picked_points() {
     let eye = Point::new(0.2, -0.3, 3.0);
     let pick = |x: f64, y: f64| Ray::new(eye, Point::new(x, y, 0.0) - eye).expect("a ray");
     let segment = Scissor::new(pick(0.31, 0.2), pick(0.36, 0.8)).expect("one eye");
-    for method in METHODS {
+    for method in ALONG_EDGES {
         let (mut mesh, mut positions) = (
             mesh.clone(),
             Positions::new(points.clone()).expect("finite"),
@@ -206,7 +190,7 @@ fn figure_4_a_waving_flag_is_cut_between_two_picked_points() {
 
 #[test]
 fn the_report_knows_the_worst_face_and_the_mean_edge() {
-    let (mut mesh, mut positions) = delaunay(300, 9);
+    let (mut mesh, mut positions) = built(&delaunay(300, 30, &mut Random(9)));
     let down = Vector::new(0.0, 0.0, -1.0);
     let ray = |x: f64, y: f64| Ray::new(Point::new(x, y, 5.0), down).expect("a ray");
     let scissor = Scissor::new(ray(0.3, -1.0), ray(0.6, 2.0)).expect("a plane");

@@ -69,7 +69,7 @@ fn a_neck_narrower_than_the_snap_is_reported() {
 fn through_cuts_of_slit_sheets_leave_the_pieces_of_an_ideal_cut_and_those_on_necks() {
     let mut random = Random(71);
     let mut sheets = vec![surface(&shapes::tube(12, 6)), surface(&shapes::grid(9, 9))];
-    sheets.extend([jittered(10, &mut random), delaunay(150, &mut random)]);
+    sheets.extend([jittered(10, &mut random), delaunay(150, 9, &mut random)]);
     let (mut cuts, mut first_found, mut necks) = (0, None, 0);
     for case in 0..1200 {
         let mut sheet = sheets[case % sheets.len()].clone();

@@ -52,8 +52,9 @@ pub(crate) fn jittered(n: u32, random: &mut Random) -> Surface {
     sheet
 }
 
-pub(crate) fn delaunay(count: usize, random: &mut Random) -> Surface {
-    let points = delaunay::points(count, 9, 0.6 / (count as f64).sqrt(), random);
+/// Random points in the unit square with so many on each side, and their triangles.
+pub(crate) fn delaunay(count: usize, border: u32, random: &mut Random) -> Surface {
+    let points = delaunay::points(count, border, 0.6 / (count as f64).sqrt(), random);
     let faces = delaunay::triangles(&points).into_iter();
     Surface {
         faces: faces.map(|t| t.map(|i| i as u32)).collect(),
@@ -96,7 +97,7 @@ pub(crate) fn surfaces() -> Vec<(&'static str, Surface)> {
         ("triangle", surface(&shapes::triangle())),
         ("grid", surface(&shapes::grid(9, 9))),
         ("jittered", jittered(10, &mut random)),
-        ("random", delaunay(150, &mut random)),
+        ("random", delaunay(150, 9, &mut random)),
         ("torn", torn),
         ("sleeve", surface(&shapes::tube(12, 6))),
         ("sphere", sphere(2)),

@@ -67,7 +67,7 @@ pub(crate) fn sheets() -> Vec<Surface> {
     vec![
         surface(&tearmesh::shapes::grid(8, 8)),
         jittered(9, &mut random),
-        delaunay(140, &mut random),
+        delaunay(140, 9, &mut random),
     ]
 }
 

@@ -2,13 +2,8 @@
 //! each may tear, and sheets that are apart what it tears there.
 
 use super::*;
+use crate::cuts::ALONG_EDGES;
 use tearmesh::HalfEdgeId;
-
-const METHODS: [CutMethod; 3] = [
-    CutMethod::Partition,
-    CutMethod::Uniform,
-    CutMethod::Alternating,
-];
 
 /// What was seen of one method.
 #[derive(Debug, Default)]
@@ -90,7 +85,7 @@ fn other_methods_stay_with_the_chosen_chains() {
                 all.copied().collect()
             };
             let (corners, of_others) = (corners(&kept), corners(&other_chains));
-            for (method, seen) in METHODS.into_iter().zip(&mut seen) {
+            for (method, seen) in ALONG_EDGES.into_iter().zip(&mut seen) {
                 let (after, torn) = torn_by(method, &first, mesh, positions);
                 let (_, of_all) = torn_by(method, &all, mesh, positions);
                 // The last vertex between the rays may have the plane in none of the faces of the chain.
@@ -233,7 +228,7 @@ fn a_chosen_sheet_of_a_stack_is_torn_as_if_it_were_alone() {
             continue;
         }
         let alone = mesh.pieces(&mesh.components());
-        for (method, seen) in METHODS.into_iter().zip(&mut seen) {
+        for (method, seen) in ALONG_EDGES.into_iter().zip(&mut seen) {
             let first = all.clone().layers(CutLayers::First);
             let (_, torn) = torn_by(method, &first, &mesh, &positions);
             let (_, of_all) = torn_by(method, &all, &mesh, &positions);
