@@ -2,13 +2,13 @@
 //! and of which order they are.
 
 use tearmesh::{Masses, Point, Vector, shapes};
-use tearmesh_cloth::implicit::{self, Settings};
+use tearmesh_cloth::implicit;
 use tearmesh_cloth::{
     Cloth, Fabric, Implicit, Loads, Pbd, Provot, Solver, StepError, System, Unstable, Verlet, Wind,
     Xpbd, air, frequency_bound,
 };
 
-use crate::parts::gravity;
+use crate::parts::{gravity, implicit_to};
 use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 use crate::rk4::Rk4;
@@ -30,17 +30,10 @@ const METHODS: [Method; 8] = [
     ("PBD", 2.0, || Box::new(Pbd::default())),
     ("XPBD", 20.0, || Box::new(Xpbd::new(10, 1))),
     ("implicit", 2.0, || Box::new(Implicit::default())),
-    ("BDF2", 4.0 / 3.0, || Box::new(bdf2(1.0))),
+    ("BDF2", 4.0 / 3.0, || {
+        Box::new(implicit_to(implicit::Method::Bdf2, 1.0))
+    }),
 ];
-
-/// BDF2 at T m/s per s³.
-fn bdf2(tolerance: f64) -> Implicit {
-    Implicit::new(Settings {
-        method: implicit::Method::Bdf2,
-        tolerance,
-        ..Settings::default()
-    })
-}
 
 /// Wind across a sheet.
 fn wind(speed_m_per_s: f64, coefficient: f64) -> Wind {
@@ -389,7 +382,12 @@ fn bdf2_is_of_second_order_in_wind() {
         let (truth, _) = blown(&mut Rk4::new(), 1600, drag_per_s);
         for (tolerance, lengths) in [(1.0, [1.0; 2]), (10.0, [1.0; 2]), (1.0, [1.4, 0.6])] {
             let errors = [100, 200, 400, 800].map(|steps| {
-                let (at, evaluations) = blown_by(&mut bdf2(tolerance), steps, lengths, drag_per_s);
+                let (at, evaluations) = blown_by(
+                    &mut implicit_to(implicit::Method::Bdf2, tolerance),
+                    steps,
+                    lengths,
+                    drag_per_s,
+                );
                 assert_eq!(evaluations, u64::from(steps));
                 let apart = at.iter().zip(&truth).map(|(a, b)| (a - b).norm_squared());
                 apart.sum::<f64>().sqrt()

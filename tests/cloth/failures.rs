@@ -8,7 +8,7 @@ use tearmesh_cloth::{
 
 use crate::parts::nets::{chain, framed, pushed, row};
 use crate::parts::vibration::largest_frequency;
-use crate::parts::{gravity, limited, mechanical_j, near, residual_n, run};
+use crate::parts::{NamedMethod, gravity, limited, mechanical_j, near, residual_n, run};
 use crate::plain_verlet::PlainVerlet;
 use crate::rk4::Rk4;
 
@@ -54,13 +54,10 @@ fn class(mut system: System, solver: &mut dyn Solver, part: f64, unstable: Unsta
     }
 }
 
-/// A method by name.
-type Method = (&'static str, fn() -> Box<dyn Solver>);
-
 /// Rows F1, F2 and F4: every cell of step × stiffness × scene × method.
 #[test]
 fn the_blow_up_map() {
-    let methods: [Method; 3] = [
+    let methods: [NamedMethod; 3] = [
         ("Verlet", || Box::new(PlainVerlet::new())),
         ("Provot", || Box::new(Provot::unlimited())),
         ("RK4", || Box::new(Rk4::new())),

@@ -1,21 +1,16 @@
 //! What is stored, put in and lost, method by method, against answers on paper.
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{self, Settings};
+use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::Scene;
-use tearmesh_cloth::{Balance, Implicit, Loads, Path, Pbd, Provot, Solver, System, Verlet, Xpbd};
+use tearmesh_cloth::{Balance, Loads, Path, Pbd, Provot, Solver, System, Verlet, Xpbd};
 
+use crate::parts::implicit_to;
 use crate::parts::scenes::{play, staged};
 
 /// Methods whose springs have the stiffness that they were given, and PBD, whose have not.
 fn methods() -> [(&'static str, Box<dyn Solver>); 6] {
-    let by = |method| {
-        Implicit::new(Settings {
-            method,
-            tolerance: 1e-6,
-            ..Settings::default()
-        })
-    };
+    let by = |method| implicit_to(method, 1e-6);
     [
         ("verlet", Box::new(Verlet::new())),
         ("provot", Box::new(Provot::unlimited())),

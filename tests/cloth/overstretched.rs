@@ -2,12 +2,12 @@
 
 use tearmesh::{Edits, Mesh, Plane, Point, Vector, VertexId, shapes};
 use tearmesh_cloth::{
-    Cloth, Collider, Fabric, Implicit, Loads, Pbd, Provot, Solver, System, Tear, Tearing,
-    Threshold, Unstable, Verlet, Xpbd, recommended_step_s,
+    Cloth, Collider, Fabric, Loads, System, Tear, Tearing, Threshold, Unstable, Xpbd,
+    recommended_step_s,
 };
 
+use crate::parts::METHODS;
 use crate::parts::cloths::{cloth, sheet};
-use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 
 /// A sheet that hangs by its top and is pulled about; what may tear it, and how it is stepped.
@@ -76,18 +76,6 @@ impl Pulled {
         self.mesh.edges().filter(|&h| over(h)).count()
     }
 }
-
-type Make = fn() -> Box<dyn Solver>;
-
-const METHODS: [(&str, Make); 7] = [
-    ("Verlet", || Box::new(Verlet::new())),
-    ("plain Verlet", || Box::new(PlainVerlet::new())),
-    ("XPBD", || Box::new(Xpbd::default())),
-    ("PBD", || Box::new(Pbd::default())),
-    ("Provot", || Box::new(Provot::default())),
-    ("Provot without a limiter", || Box::new(Provot::unlimited())),
-    ("implicit", || Box::new(Implicit::default())),
-];
 
 #[test]
 fn a_pass_without_a_root_finds_every_overstretched_edge() {

@@ -11,9 +11,12 @@ use tearmesh::Vector;
 use tearmesh::geometry::length;
 use tearmesh_cloth::implicit::{Method, Settings, Stats};
 use tearmesh_cloth::{
-    ConstraintId, Implicit, LimiterStats, Loads, Provot, Quality, Solver, System, Unstable, Xpbd,
-    energy,
+    ConstraintId, Implicit, LimiterStats, Loads, Pbd, Provot, Quality, Solver, System, Unstable,
+    Verlet, Xpbd, energy,
 };
+
+use crate::plain_verlet::PlainVerlet;
+use crate::rk4::Rk4;
 
 /// The acceleration of gravity, in m/s².
 pub(crate) const G: f64 = 9.81;
@@ -107,9 +110,34 @@ pub(crate) fn mechanical_j(system: &System) -> f64 {
 
 /// The implicit solver, with each linear equation solved to about rounding.
 pub(crate) fn implicit(method: Method) -> Implicit {
+    implicit_to(method, 1e-9)
+}
+
+/// The implicit solver, with each linear equation solved to so many m/s per s³.
+pub(crate) fn implicit_to(method: Method, tolerance: f64) -> Implicit {
     Implicit::new(Settings {
         method,
-        tolerance: 1e-9,
+        tolerance,
         ..Settings::default()
     })
 }
+
+/// The implicit solver, with the tolerance that users have unless they choose another.
+pub(crate) fn implicit_by_default(method: Method) -> Implicit {
+    implicit_to(method, Settings::default().tolerance)
+}
+
+/// A method by name.
+pub(crate) type NamedMethod = (&'static str, fn() -> Box<dyn Solver>);
+
+/// Every method.
+pub(crate) const METHODS: [NamedMethod; 8] = [
+    ("Verlet", || Box::new(Verlet::new())),
+    ("plain Verlet", || Box::new(PlainVerlet::new())),
+    ("RK4", || Box::new(Rk4::new())),
+    ("Provot", || Box::new(Provot::default())),
+    ("Provot without a limiter", || Box::new(Provot::unlimited())),
+    ("PBD", || Box::new(Pbd::default())),
+    ("XPBD", || Box::new(Xpbd::default())),
+    ("implicit", || Box::new(Implicit::default())),
+];

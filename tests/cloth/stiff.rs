@@ -12,7 +12,9 @@ use tearmesh_cloth::{
 
 use crate::parts::cloths::cloth;
 use crate::parts::nets::{chain, row};
-use crate::parts::{gravity, implicit, mechanical_j, solved, strain_max};
+use crate::parts::{
+    gravity, implicit, implicit_by_default, implicit_to, mechanical_j, solved, strain_max,
+};
 
 /// R1: k = 40 N/m, m = 0.01 kg, Δt = 0.01 s. Backward Euler keeps this part of the amplitude.
 #[test]
@@ -308,10 +310,7 @@ fn stretch_beyond_the_limit_is_a_blow_up() {
             let before = (system.positions().to_vec(), system.velocities().to_vec());
             let mut explicit = system.clone();
             let verlet = explicit.step(&mut Verlet::new(), 1e-4).map(|_| ());
-            let mut solver = Implicit::new(Settings {
-                method,
-                ..Settings::default()
-            });
+            let mut solver = implicit_by_default(method);
             let step = system.step(&mut solver, 1e-4).map(|_| ());
             println!("{name}, {method:?}: {step:?}, Verlet {verlet:?}");
             let (Err(StepError::BlowUp { at, .. }), Err(StepError::BlowUp { at: other, .. })) =
@@ -435,11 +434,7 @@ fn pushed_chains_never_have_more_energy_than_they_were_given() {
         {
             let mut chain = pushed.clone();
             let tolerance = 10.0;
-            let mut solver = Implicit::new(Settings {
-                method,
-                tolerance,
-                ..Settings::default()
-            });
+            let mut solver = implicit_to(method, tolerance);
             for step in 0..300 {
                 let name = || format!("{links} links, {seed}, {method:?}, {times}, step {step}");
                 let done = chain.step(&mut solver, times * 2.0 / omega);

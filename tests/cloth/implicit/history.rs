@@ -2,17 +2,15 @@
 
 use super::matrix::crumpled;
 use super::{G, Scene, step};
+use crate::parts::implicit_by_default;
 use tearmesh::{Edits, Masses, Plane, Point, Vector, VertexId, mend, shapes, split};
-use tearmesh_cloth::implicit::{Method, Settings, Stats};
+use tearmesh_cloth::implicit::{Method, Stats};
 use tearmesh_cloth::{
     Abilities, Cloth, Fabric, Failure, Implicit, Loads, Solver, StepError, System, Unstable, Verlet,
 };
 
 fn bdf2() -> Implicit {
-    Implicit::new(Settings {
-        method: Method::Bdf2,
-        ..Settings::default()
-    })
+    implicit_by_default(Method::Bdf2)
 }
 
 /// A sheet in motion, with drag and gravity.

@@ -2,10 +2,10 @@
 
 use super::dense::{clamped, jacobian, solve};
 use super::{Scene, forces, spring, step};
-use crate::parts::implicit;
+use crate::parts::{implicit, implicit_by_default, implicit_to};
 use crate::random::Random;
 use tearmesh::{Edits, Masses, Point, Vector, shapes, split};
-use tearmesh_cloth::implicit::{Method, Settings};
+use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{Bending, Buckling, Cloth, Fabric, Implicit, Weave};
 
 /// A sheet with triangles, springs along its rows and bends two apart, crumpled.
@@ -176,10 +176,7 @@ fn what_is_held_and_stands_still_does_so_to_the_last_bit() {
         *x += Vector::new(0.1, 0.7, 1.0 / 3.0);
     }
     let mut system = scene.system();
-    let mut solver = Implicit::new(Settings {
-        method: Method::Bdf2,
-        ..Settings::default()
-    });
+    let mut solver = implicit_by_default(Method::Bdf2);
     for turn in 0..50 {
         let h = if turn % 3 == 0 { 0.003 } else { 0.002 };
         step(&mut system, &mut solver, h).expect("a step");
@@ -212,11 +209,7 @@ fn each_free_piece_keeps_its_momentum_to_rounding_at_any_tolerance() {
             scene.triangles.push(t);
         }
         scene.held[n] = true;
-        let mut solver = Implicit::new(Settings {
-            method,
-            tolerance: 1e3,
-            ..Settings::default()
-        });
+        let mut solver = implicit_to(method, 1e3);
         let momentum = |v: &[Vector]| -> Vector { (0..n).map(|i| v[i] * scene.masses[i]).sum() };
         let mut system = scene.system();
         let start = momentum(system.velocities());
@@ -242,10 +235,7 @@ fn the_same_input_gives_the_same_bytes_on_every_machine() {
     scene.held[0] = true;
     let run = || {
         let mut system = scene.system();
-        let mut solver = Implicit::new(Settings {
-            method: Method::Bdf2,
-            ..Settings::default()
-        });
+        let mut solver = implicit_by_default(Method::Bdf2);
         for _ in 0..30 {
             step(&mut system, &mut solver, 1.0 / 120.0).expect("a step");
         }

@@ -2,7 +2,7 @@
 //! falls with Δt no error of the solver shows (F13).
 
 use super::{Scene, forces, order, spring, step};
-use crate::parts::G;
+use crate::parts::{G, implicit_by_default};
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::Implicit;
 use tearmesh_cloth::implicit::{Method, Settings};
@@ -108,10 +108,7 @@ fn bdf2_keeps_its_order_when_the_step_changes() {
     let truth = reference(&scene, 0.2, 2000);
     let run = |steps: u32| {
         let mut system = scene.system();
-        let mut solver = Implicit::new(Settings {
-            method: Method::Bdf2,
-            ..Settings::default()
-        });
+        let mut solver = implicit_by_default(Method::Bdf2);
         // Two lengths of step by turns, 1.4 and 0.6.
         let length = |step: u32| 0.2 / f64::from(steps) * [1.4, 0.6][step as usize % 2];
         for turn in 0..steps {

@@ -3,9 +3,10 @@
 use super::dense::solve;
 use super::matrix::crumpled;
 use super::{G, Scene, forces, norm, step};
+use crate::parts::implicit_to;
 use tearmesh::Vector;
-use tearmesh_cloth::implicit::{Method, Settings, StepError};
-use tearmesh_cloth::{Implicit, System};
+use tearmesh_cloth::System;
+use tearmesh_cloth::implicit::{Method, StepError};
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
 
@@ -20,14 +21,6 @@ const STEPS: [(f64, u32); 5] = [
     (1e-3, 5000),
     (1e-4, 50_000),
 ];
-
-fn implicit(method: Method, tolerance: f64) -> Implicit {
-    Implicit::new(Settings {
-        method,
-        tolerance,
-        ..Settings::default()
-    })
-}
 
 /// R2 with drag: ten links of 50 N/m that hang.
 fn chain(gravity: f64) -> Scene {
@@ -80,7 +73,7 @@ fn what_hangs_falls_as_backward_euler_says_at_every_step() {
     for tolerance in TOLERANCES {
         for (dt_s, _) in STEPS {
             let mut system = chain(G).system();
-            let mut solver = implicit(Method::BackwardEuler, tolerance);
+            let mut solver = implicit_to(Method::BackwardEuler, tolerance);
             let mut worst = 0.0_f64;
             for depth in euler(dt_s, 20) {
                 step(&mut system, &mut solver, dt_s).expect("a step");
@@ -109,7 +102,7 @@ fn what_hangs_comes_to_rest_where_forces_balance_at_every_step() {
         for tolerance in TOLERANCES {
             for (dt_s, steps) in STEPS {
                 let mut system = chain(G).system();
-                let mut solver = implicit(method, tolerance);
+                let mut solver = implicit_to(method, tolerance);
                 for _ in 0..steps {
                     step(&mut system, &mut solver, dt_s).expect("a step");
                 }
@@ -133,7 +126,7 @@ fn what_is_stretched_by_however_little_contracts_at_every_step() {
                         .0
                         .iter_mut()
                         .for_each(|x| x.z *= 1.0 + strain);
-                    let mut solver = implicit(method, tolerance);
+                    let mut solver = implicit_to(method, tolerance);
                     for _ in 0..steps {
                         step(&mut system, &mut solver, dt_s).expect("a step");
                     }
@@ -152,7 +145,7 @@ fn what_is_stretched_by_however_little_contracts_at_every_step() {
 fn what_nothing_acts_on_stands_still_and_is_solved() {
     let mut system = chain(0.0).system();
     let before = system.positions().to_vec();
-    let mut solver = implicit(Method::Bdf2, 1.0);
+    let mut solver = implicit_to(Method::Bdf2, 1.0);
     for _ in 0..5 {
         let report = step(&mut system, &mut solver, 0.1).expect("a step");
         assert!(report.residual_max_m_per_s < 1e-12);
@@ -188,7 +181,7 @@ fn a_step_may_err_by_its_order_or_by_a_tenth_of_what_acts_whichever_is_less() {
         for (method, p) in [(Method::BackwardEuler, 1), (Method::Bdf2, 2)] {
             for dt_s in [1e-3, 0.01, 0.1, 1.0] {
                 let mut system = scene.system();
-                let mut solver = implicit(method, 100.0);
+                let mut solver = implicit_to(method, 100.0);
                 for turn in 0..3 {
                     let is_bdf2 = p == 2 && turn > 0;
                     let h = dt_s * if is_bdf2 { 2.0 / 3.0 } else { 1.0 };
