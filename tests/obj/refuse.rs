@@ -48,7 +48,7 @@ fn with_vertices(rest: &[u8]) -> Vec<u8> {
 }
 
 /// The bytes that [`u8::escape_ascii`] writes so.
-fn unescaped(written: &str) -> Vec<u8> {
+pub(crate) fn unescaped(written: &str) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut rest = written.bytes();
     while let Some(byte) = rest.next() {

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use tearmesh::Defect;
 use tearmesh_obj::{Document, Repair};
 
+use super::refuse::unescaped;
 use super::{positions, read, rewritten, text, write_as};
 
 const VERTICES: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\nv 2 2 2\n";
@@ -29,32 +30,28 @@ fn check(repair: Repair, faces: &str, expected: &[&str], written: &str) {
     assert_eq!(text(&rewritten(&bytes)), all, "written again");
 }
 
+/// Each block is a repair and the faces, then what is said, and the vertices and faces of the file then.
 #[test]
-fn each_fan_of_a_bow_tie_gets_a_vertex() {
-    for repair in [Repair::SeparateFans, Repair::All] {
-        check(
-            repair,
-            "f 1 2 3\nf 1 4 5\n",
-            &[
-                "line 1: vertex 1 joins 2 fans of faces that share no edge; the fan on line 8 gets \
-                 the new vertex 7  [W-OBJ-REPAIR-BOWTIE]",
-            ],
-            "v 0 0 0\nf 1 2 3\nf 7 4 5\n",
-        );
+fn files_of_the_table_are_repaired_with_these_words() {
+    let mut cases = 0;
+    let (mut repair, mut faces, mut expected) = (Repair::All, String::new(), Vec::new());
+    for line in include_str!("repairs.txt").lines() {
+        if let Some(words) = line.strip_prefix("    ") {
+            expected.push(words);
+        } else if let Some(written) = line.strip_prefix("  = ") {
+            check(repair, &faces, &expected, &text(&unescaped(written)));
+            expected.clear();
+            cases += 1;
+        } else if let Some((name, given)) = line.split_once(": ") {
+            repair = match name {
+                "fans" => Repair::SeparateFans,
+                "all" => Repair::All,
+                _ => continue, // A heading.
+            };
+            faces = text(&unescaped(given));
+        }
     }
-}
-
-#[test]
-fn the_fan_with_the_smallest_half_edge_keeps_the_vertex() {
-    // Round vertex 3 the faces on lines 7 and 9, then on 8, then on 10.
-    let fans = "line 3: vertex 3 joins 2 fans of faces that share no edge; the fan on line 8 gets the \
-                new vertex 7  [W-OBJ-REPAIR-BOWTIE]";
-    check(
-        Repair::SeparateFans,
-        "f 3 1 2\nf 4 5 3\nf 3 2 6\n",
-        &[fans],
-        "v 0 1 0\nf 3 1 2\nf 4 5 7\nf 3 2 6\n",
-    );
+    assert_eq!(cases, 10);
 }
 
 #[test]
@@ -63,93 +60,6 @@ fn three_fans_of_a_vertex_become_three_vertices() {
     let document = read(file.as_bytes()).repaired(Repair::SeparateFans);
     assert_eq!(document.triangles(), [[0, 1, 2], [7, 3, 4], [5, 6, 8]]);
     assert!(document.mesh().is_ok());
-}
-
-#[test]
-fn of_faces_on_the_same_vertices_the_first_stays() {
-    check(
-        Repair::All,
-        "f 1 2 3\nf 2 3 1\nf 3 2 1\n",
-        &[
-            "line 8: this face is dropped: it has the same vertices as one on line 7  [W-OBJ-REPAIR-DUPLICATE]",
-            "line 9: this face is dropped: it has the same vertices as one on line 7  [W-OBJ-REPAIR-DUPLICATE]",
-        ],
-        "f 1 2 3\n",
-    );
-    check(
-        Repair::All,
-        "f 1 2 3\n# between\nf 3 2 1\nf 2 1 4\n",
-        &[
-            "line 9: this face is dropped: it lies back to back with one on line 7  [W-OBJ-REPAIR-PILLOW]",
-        ],
-        "f 1 2 3\n# between\nf 2 1 4\n",
-    );
-}
-
-#[test]
-fn of_the_faces_on_an_edge_the_first_two_that_run_in_opposite_directions_stay() {
-    let dropped = "runs the same way as one on line 7 along the crowded edge 1-2";
-    check(
-        Repair::All,
-        "f 1 2 3\nf 1 2 4\nf 2 1 5\nf 2 1 6\n",
-        &[
-            &format!("line 8: this face is dropped: it {dropped}  [W-OBJ-REPAIR-EDGE]"),
-            "line 10: this face is dropped: it runs the same way as one on line 9 along the crowded \
-             edge 1-2  [W-OBJ-REPAIR-EDGE]",
-        ],
-        "f 1 2 3\nf 2 1 5\n",
-    );
-    check(
-        Repair::All,
-        "f 1 2 3\nf 1 2 4\nf 1 2 5\n",
-        &[
-            &format!("line 8: this face is dropped: it {dropped}  [W-OBJ-REPAIR-EDGE]"),
-            &format!("line 9: this face is dropped: it {dropped}  [W-OBJ-REPAIR-EDGE]"),
-        ],
-        "f 1 2 3\n",
-    );
-}
-
-#[test]
-fn a_face_that_is_dropped_takes_no_room_on_another_edge() {
-    // The third face leaves the edge 1-2, and with it 1-5, where the last face may then stay.
-    check(
-        Repair::All,
-        "f 1 2 3\nf 2 1 4\nf 1 2 5\nf 5 1 6\nf 1 5 4\n",
-        &[
-            "line 9: this face is dropped: it runs the same way as one on line 7 along the crowded \
-             edge 1-2  [W-OBJ-REPAIR-EDGE]",
-        ],
-        "f 1 2 3\nf 2 1 4\nf 5 1 6\nf 1 5 4\n",
-    );
-}
-
-#[test]
-fn a_dropped_face_may_leave_fans_which_are_separated_then() {
-    check(
-        Repair::All,
-        "f 1 2 3\nf 2 1 4\nf 1 2 5\nf 5 1 6\n",
-        &[
-            "line 9: this face is dropped: it runs the same way as one on line 7 along the crowded \
-             edge 1-2  [W-OBJ-REPAIR-EDGE]",
-            "line 1: vertex 1 joins 2 fans of faces that share no edge; the fan on line 10 gets the \
-             new vertex 7  [W-OBJ-REPAIR-BOWTIE]",
-        ],
-        "v 0 0 0\nf 1 2 3\nf 2 1 4\nf 5 7 6\n",
-    );
-}
-
-#[test]
-fn a_triangle_of_a_quad_is_dropped_alone() {
-    check(
-        Repair::All,
-        "vt 0\nvt 1\nvn 0 0 1\nf 1 2 3\nf 1/1 2/2/1 3//1 4/1\n",
-        &[
-            "line 11: a triangle of this face is dropped: it has the same vertices as one on line 10  \
-             [W-OBJ-REPAIR-DUPLICATE]",
-        ],
-        "vt 0\nvt 1\nvn 0 0 1\nf 1 2 3\nf 1/1 3//1 4/1\n",
-    );
 }
 
 #[test]
