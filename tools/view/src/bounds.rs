@@ -5,29 +5,23 @@ use tearmesh::{Mesh, Place, Point, Ray};
 
 /// The smallest box around the faces of a mesh whose sides are parallel to the coordinate axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// The corner with the smallest coordinates.
-    pub least: Point,
+    pub(crate) least: Point,
     /// The corner with the largest coordinates.
-    pub most: Point,
+    pub(crate) most: Point,
 }
 
 impl Bounds {
     /// Returns the box around the faces of a mesh, or `None` if the mesh has no face. Vertices without a
     /// face do not count.
-    ///
-    /// # Panics
-    ///
-    /// If a vertex of the mesh is unknown to `place`.
-    #[must_use]
-    pub fn of(mesh: &Mesh, place: &(impl Place + ?Sized)) -> Option<Bounds> {
+    pub(crate) fn of(mesh: &Mesh, place: &(impl Place + ?Sized)) -> Option<Bounds> {
         let with_face = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
         Bounds::around(with_face.map(|v| place.at(v)))
     }
 
     /// Returns the box around points, or `None` if there are no points.
-    #[must_use]
-    pub fn around(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
+    pub(crate) fn around(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
         let boxes = points.into_iter().map(|p| Bounds { least: p, most: p });
         boxes.reduce(|a, b| Bounds {
             // Adding zero turns −0 into 0.
@@ -41,7 +35,7 @@ impl Bounds {
     }
 
     /// Returns the end points of the twelve edges of the box.
-    pub fn edges(&self) -> impl Iterator<Item = [Point; 2]> {
+    pub(crate) fn edges(&self) -> impl Iterator<Item = [Point; 2]> {
         let ends = [self.least, self.most];
         let corner =
             move |bits: usize| Point::from([0, 1, 2].map(|axis| ends[bits >> axis & 1][axis]));

@@ -116,12 +116,6 @@ impl Camera {
         Ok([one?, other?])
     }
 
-    /// Returns the width and height of the picture, in pixels.
-    #[must_use]
-    pub fn size(&self) -> [f64; 2] {
-        self.size
-    }
-
     /// Returns a point in the coordinates of the camera. The coordinate z is the distance in front of the
     /// eye along the direction of view, and negative behind the eye. The ratio x / z is −1 at the left edge
     /// of the picture and 1 at the right edge; y / z is −1 at the lower edge and 1 at the upper edge.

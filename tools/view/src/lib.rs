@@ -32,7 +32,6 @@ mod strokes;
 mod surface;
 mod trace;
 
-pub use bounds::Bounds;
 pub use camera::{Camera, CameraError};
 pub use fit::{ANGLE_OF_VIEW, fit, fit_all};
 pub use page::{CutLine, MOMENTS_PER_S, Moment, Page, PageError, Plot};

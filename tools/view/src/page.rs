@@ -180,12 +180,6 @@ impl Page {
         self.plots.push(plot);
     }
 
-    /// Returns whether the page has no moment.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.shots.is_empty()
-    }
-
     /// Returns the number of moments.
     #[must_use]
     pub fn moment_count(&self) -> usize {
