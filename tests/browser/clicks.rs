@@ -7,19 +7,8 @@ use tearmesh_cli::Exit;
 use crate::chrome::Chrome;
 use crate::eye::Eye;
 use crate::folder::{Folder, done, three, typed};
+use crate::random::Random;
 use crate::screen::{apart, distance, is_trace};
-
-/// Random numbers, the same each time (Marsaglia's xorshift).
-struct Chance(u64);
-
-impl Chance {
-    fn between(&mut self, least: f64, most: f64) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        least + (most - least) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
-    }
-}
 
 /// How far the trace may be from the cut, in pixels, and half of the width of its line.
 const OFF: f64 = 2.0;
@@ -54,7 +43,7 @@ fn the_line_cuts_where_the_page_shows_it() {
         };
         [2.0 + fold * 5e-6, y * 2e-5, 1.0 + 1e-5 * (x + z)]
     });
-    let mut chance = Chance(2014);
+    let mut random = Random(2014);
     let names = [
         "flag in the wind.obj",
         "far.obj",
@@ -66,7 +55,7 @@ fn the_line_cuts_where_the_page_shows_it() {
         let (mesh, page) = (folder.name(name), folder.name("page.html"));
         done(&["tearmesh", "view", &mesh, "-o", &page]);
         chrome.open(&folder.path("page.html"));
-        cut_at_random(&mut chrome, &folder, &mesh, &mut chance, PAIRS);
+        cut_at_random(&mut chrome, &folder, &mesh, &mut random, PAIRS);
     }
     // The end of a simulation, which the page knows by what has changed from moment to moment.
     folder.write("sheet.obj", "sheet.obj", |p| p);
@@ -90,7 +79,7 @@ fn the_line_cuts_where_the_page_shows_it() {
     done(&[&tear[..], &slit, &["-o", &torn, "--view", &page]].concat());
     chrome.open(&folder.path("torn.html"));
     chrome.value("time.value = time.max; time.dispatchEvent(new Event('input'))");
-    cut_at_random(&mut chrome, &folder, &torn, &mut chance, PAIRS / 2);
+    cut_at_random(&mut chrome, &folder, &torn, &mut random, PAIRS / 2);
     chrome.was_quiet();
 }
 
@@ -99,7 +88,7 @@ fn cut_at_random(
     chrome: &mut Chrome,
     folder: &Folder,
     mesh: &str,
-    chance: &mut Chance,
+    random: &mut Random,
     pairs: usize,
 ) {
     chrome.press("box");
@@ -108,9 +97,9 @@ fn cut_at_random(
     let (mut hit, mut missed) = (0, 0);
     while hit < pairs {
         assert!(missed < 60, "{mesh}: nothing is hit");
-        let turned = [0; 2].map(|_| chance.between(200.0, 500.0));
+        let turned = [0; 2].map(|_| 200.0 + 300.0 * random.next());
         chrome.drag([150.0, 320.0], turned);
-        let points = [0; 2].map(|_| [chance.between(30.0, 650.0), chance.between(60.0, 560.0)]);
+        let points = [0; 2].map(|_| [30.0 + 620.0 * random.next(), 60.0 + 500.0 * random.next()]);
         chrome.value(&format!("front.checked = {}", hit % 2 == 1));
         match planned(chrome, folder, mesh, points) {
             true => hit += 1,

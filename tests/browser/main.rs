@@ -11,4 +11,7 @@ mod eye;
 mod folder;
 mod play;
 mod playing;
+#[path = "../support/random.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
+mod random;
 mod screen;

@@ -12,6 +12,7 @@ use tearmesh_play::{Player, Settings};
 
 use crate::chrome::Chrome;
 use crate::folder::{Folder, done, typed};
+use crate::random::Random;
 use crate::screen::is_seam;
 
 /// A page that is open, and the folder that it saves into.
@@ -297,18 +298,6 @@ fn fingers_pull_pin_and_turn() {
     played.chrome.was_quiet();
 }
 
-/// A hand and what it does, the same each time (Marsaglia's xorshift).
-struct Chance(u64);
-
-impl Chance {
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 const SCENES: [&str; 5] = ["rip", "hang", "flag", "trouser", "fall"];
 
 #[test]
@@ -320,8 +309,8 @@ fn every_scene_survives_whoever_plays_with_it() {
     played.choose("source", "16");
     for scene in SCENES {
         for seed in 1..=3 {
-            let mut chance = Chance(2014 + seed);
-            let mut place = || [60.0 + 560.0 * chance.unit(), 60.0 + 560.0 * chance.unit()];
+            let mut random = Random(2014 + seed);
+            let mut place = || [60.0 + 560.0 * random.next(), 60.0 + 560.0 * random.next()];
             played.choose("held", scene);
             played.pass(0.1);
             for _ in 0..3 {
