@@ -44,7 +44,7 @@ use self::record::write_record;
 use crate::document::Document;
 use crate::read::text::{attached_length, without_statements_of_vertex};
 use crate::record::Hash;
-use crate::store::Kind;
+use crate::store::{Kind, Run};
 use crate::torn::TornDocument;
 
 /// The numbers of statements that were written.
@@ -198,7 +198,7 @@ fn write(
         prepared,
         positions,
         moves_up,
-        streams: streams(torn.document()),
+        streams: Kind::INDEXED.map(Stream::new),
         hash: Hash::of_faces(vertices),
         out: Output::new(out),
     };
@@ -219,7 +219,7 @@ struct Writer<'d, W> {
     /// Whether what a face names is written before it.
     moves_up: bool,
     /// Of vertices, texture coordinates and normals.
-    streams: [Stream<'d>; 3],
+    streams: [Stream; 3],
     /// That of the faces written so far.
     hash: Hash,
     out: Output<'d, W>,
@@ -230,64 +230,86 @@ const TEXTURE: usize = 1;
 const NORMALS: usize = 2;
 
 /// How far the statements of a kind have been written. They may be ahead of the rest.
-#[derive(Default)]
-struct Stream<'d> {
-    /// The runs of the document: how many statements come up to the end of each, and the foreign ones
-    /// directly behind it.
-    runs: Vec<(u32, &'d [u8])>,
-    /// How many runs and statements of the document had their turn.
-    done_runs: usize,
+#[derive(Clone, Copy)]
+struct Stream {
+    kind: Kind,
+    /// The number of statements of the document that had their turn.
     done: u32,
     /// How many of those that are added were written, and how many statements in all.
     added: usize,
     written: u32,
+    /// The run to go on with, how many statements of this kind come before it, and
+    /// how many bytes of text.
+    run: usize,
+    before: u32,
+    text_before: usize,
 }
 
-/// The statements of vertices, texture coordinates and normals.
-fn streams(document: &Document) -> [Stream<'_>; 3] {
-    let mut streams: [Stream<'_>; 3] = Default::default();
-    let mut runs = document.runs().peekable();
-    while let Some((run, _)) = runs.next() {
-        if let Some(Stream { runs: own, .. }) = streams.get_mut(run.kind as usize) {
-            let behind = runs.peek().map_or(&[][..], |(_, lines)| lines);
-            let before = own.last().map_or(0, |&(end, _)| end);
-            let attached = &behind[..attached_length(behind)];
-            own.push((before + run.count, attached));
+impl Stream {
+    fn new(kind: Kind) -> Stream {
+        Stream {
+            kind,
+            done: 0,
+            added: 0,
+            written: 0,
+            run: 0,
+            before: 0,
+            text_before: 0,
         }
     }
-    streams
+
+    /// The next statements to write so that `count` had their turn, and then the run that they
+    /// complete, if they do.
+    fn advance(&mut self, runs: &[Run], count: u32) -> Option<(std::ops::Range<u32>, bool)> {
+        if self.done >= count {
+            return None;
+        }
+        loop {
+            let run = runs.get(self.run)?;
+            let end = self.before + run.count;
+            if run.kind == self.kind && self.done < end {
+                let first = self.done;
+                self.done = end.min(count);
+                return Some((first..self.done, self.done == end));
+            }
+            match run.kind {
+                Kind::Text => self.text_before += run.count as usize,
+                kind if kind == self.kind => self.before = end,
+                _ => {}
+            }
+            self.run += 1;
+        }
+    }
 }
 
 impl<W: Write> Writer<'_, W> {
     fn write(mut self) -> io::Result<()> {
         let document = self.document;
+        let runs = document.layout.runs();
         let mut counts = [0; 3];
         let mut polygons = 0;
-        let mut is_attached = false;
-        for (run, lines) in document.runs() {
+        let mut text = &document.text[..];
+        for (i, run) in runs.iter().enumerate() {
+            let count = run.count as usize;
             let which = match run.kind {
                 Kind::Polygon => {
-                    let all = polygons..polygons + run.count as usize;
-                    polygons = all.end;
-                    for polygon in all {
+                    for polygon in polygons..polygons + count {
                         self.write_polygon(polygon)?;
                     }
-                    is_attached = false;
+                    polygons += count;
                     continue;
                 }
                 Kind::Text => {
-                    let written = if is_attached {
-                        attached_length(lines)
-                    } else {
-                        0
-                    };
+                    let (lines, rest) = text.split_at(count);
+                    let written = i
+                        .checked_sub(1)
+                        .map_or(0, |before| attached_to(runs[before], lines));
+                    text = rest;
                     self.out.text(&lines[written..])?;
-                    is_attached = false;
                     continue;
                 }
                 kind => kind as usize,
             };
-            is_attached = true;
             counts[which] += run.count;
             self.write_statements(which, counts[which])?;
         }
@@ -298,7 +320,8 @@ impl<W: Write> Writer<'_, W> {
     /// Writes statements of a kind, with what is attached to them, so that `count` of the document
     /// had their turn; and behind each section what is added to it.
     fn write_statements(&mut self, which: usize, count: u32) -> io::Result<()> {
-        let order = &self.prepared.orders[which];
+        let (document, prepared) = (self.document, self.prepared);
+        let order = &prepared.orders[which];
         loop {
             let stream = &mut self.streams[which];
             let next = order.added().get(stream.added);
@@ -308,24 +331,15 @@ impl<W: Write> Writer<'_, W> {
                 continue;
             }
             let count = next.map_or(count, |added| added.behind.min(count));
-            let Some(&(end, attached)) = stream.runs.get(stream.done_runs) else {
+            let Some((range, completes_run)) = stream.advance(document.layout.runs(), count) else {
                 return Ok(());
             };
-            if stream.done >= count {
-                return Ok(());
-            }
-            let range = stream.done..end.min(count);
-            stream.done = range.end;
-            let completes_run = stream.done == end;
-            stream.done_runs += usize::from(completes_run);
+            let end = range.end;
             for element in range.filter_map(|statement| order.element(statement)) {
                 self.write_element(which, element)?;
             }
-            // What says something of a vertex that is gone is left out.
-            if completes_run && which == VERTICES && order.element(end - 1).is_none() {
-                self.out.text(&without_statements_of_vertex(attached))?;
-            } else if completes_run {
-                self.out.text(attached)?;
+            if completes_run {
+                self.write_attached(which, end)?;
             }
         }
     }
@@ -355,6 +369,29 @@ impl<W: Write> Writer<'_, W> {
             TEXTURE => self.out.statement(b"vt", torn.value(0, element), &[]),
             _ => self.out.statement(b"vn", torn.value(1, element), &[]),
         }
+    }
+
+    /// Writes the foreign statements directly after the run that a stream has completed. What says
+    /// something of a vertex that is gone is left out.
+    fn write_attached(&mut self, which: usize, end: u32) -> io::Result<()> {
+        let (prepared, stream) = (self.prepared, self.streams[which]);
+        let is_gone = which == VERTICES && prepared.orders[VERTICES].element(end - 1).is_none();
+        let runs = self.document.layout.runs();
+        if let Some(&Run {
+            kind: Kind::Text,
+            count,
+            ..
+        }) = runs.get(stream.run + 1)
+        {
+            let lines = &self.document.text[stream.text_before..][..count as usize];
+            let lines = &lines[..attached_to(runs[stream.run], lines)];
+            if is_gone {
+                self.out.text(&without_statements_of_vertex(lines))?;
+            } else {
+                self.out.text(lines)?;
+            }
+        }
+        Ok(())
     }
 
     fn write_polygon(&mut self, polygon: usize) -> io::Result<()> {
@@ -410,4 +447,12 @@ impl<W: Write> Writer<'_, W> {
 
 fn half_edges(face: u32) -> [u32; 3] {
     [3 * face, 3 * face + 1, 3 * face + 2]
+}
+
+/// How many bytes of the text after a run belong to its last statement.
+fn attached_to(run: Run, lines: &[u8]) -> usize {
+    match run.kind {
+        Kind::Vertex | Kind::Texture | Kind::Normal => attached_length(lines),
+        Kind::Polygon | Kind::Text => 0,
+    }
 }
