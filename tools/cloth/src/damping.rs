@@ -45,7 +45,6 @@ pub(crate) fn stiffness_in(dt_s: f64) -> f64 {
 
 /// The damping of the springs of a system: the result of [`System::damping`](crate::System::damping).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Damping {
     /// The time τ, in seconds.
     pub time_s: f64,

@@ -55,8 +55,7 @@ pub enum Stretch {
 
 impl Default for Fabric {
     /// Returns the cloth of the built-in scenes: a membrane of 1000 N/m, soft for cotton, so that a pull
-    /// shows; with damping of 1.6 ms, so that a tear runs on where undamped cloth bursts into crumbs, and
-    /// which a sheet that swings does not show.
+    /// shows; with damping of 1.6 ms, so that a tear runs on where undamped cloth bursts into crumbs.
     fn default() -> Fabric {
         Fabric {
             damping_s: 1.6e-3,
