@@ -472,8 +472,7 @@ impl System {
             return Err(SystemError::Loads { field, given });
         }
         self.model.damping_s = time_s;
-        self.guard.forget();
-        self.touched();
+        self.rebuilt();
         Ok(())
     }
 
