@@ -20,6 +20,7 @@ mod harness;
 mod in_process;
 #[cfg(unix)]
 mod killed;
+mod losses;
 mod map;
 mod memory;
 mod numbers;
