@@ -36,6 +36,17 @@ impl Families {
         family.filter(|&family| family != NONE)
     }
 
+    /// The faces from this one on that are within the same parent; one that is no part stands alone.
+    pub(crate) fn parts_from(&self, face: usize) -> Range<usize> {
+        let parent = |face: usize| self.of(face).map(|family| self.outermost(family));
+        let own = parent(face);
+        let mut end = face + 1;
+        while own.is_some() && parent(end) == own {
+            end += 1;
+        }
+        face..end
+    }
+
     /// Adds a family without faces.
     pub(crate) fn add(&mut self, family: Family) {
         push(&mut self.all, family);
@@ -77,16 +88,14 @@ impl Families {
 
     /// The parents and the faces that cover each, in the order of these.
     pub(crate) fn parents(&self) -> Vec<(u32, Range<u32>)> {
-        let mut parents: Vec<(u32, Range<u32>)> = Vec::new();
-        for face in 0..self.of_face.len() {
-            let Some(family) = self.of(face) else {
-                continue;
-            };
-            let (parent, face) = (self.outermost(family), face as u32);
-            match parents.last_mut() {
-                Some((last, faces)) if *last == parent => faces.end = face + 1,
-                _ => parents.push((parent, face..face + 1)),
+        let (mut parents, mut face) = (Vec::new(), 0);
+        while face < self.of_face.len() {
+            let faces = self.parts_from(face);
+            if let Some(family) = self.of(face) {
+                let range = faces.start as u32..faces.end as u32;
+                parents.push((self.outermost(family), range));
             }
+            face = faces.end;
         }
         parents
     }

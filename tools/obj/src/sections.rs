@@ -1,8 +1,8 @@
 //! Where the vertices of a document are divided into those of one object and those of the next.
 //!
 //! What a cut adds is written behind the statements of its kind in the section that it comes from, so
-//! that every object keeps its vertices. A section of vertices ends where a face is written, or
-//! an `o`; so does one of texture coordinates, and one of normals. A face that comes before what it
+//! that every object keeps its vertices. A section of vertices ends where a face is written (with all parts
+//! of it, if it is divided), or an `o`; so does one of texture coordinates, and one of normals. A face that comes before what it
 //! names has that moved up before it, as in all that is written (`write.rs`).
 //!
 //! Numbers behind a section change when something is added to it. Faces follow. Statements that
@@ -40,14 +40,25 @@ impl Sections {
         }
         // How many are written so far, some perhaps before their turn; and how many had theirs.
         let (mut written, mut had) = ([0; 3], [0; 3]);
+        let record = document.record.as_deref();
+        let families = record.map(|record| &record.families);
+        let mut end = 0;
         let mut polygons = 0;
         for (run, lines) in document.runs() {
             let count = run.count as usize;
             let which = match run.kind {
                 Kind::Polygon => {
                     for polygon in polygons..polygons + count {
-                        document.raise_to_needs(polygon, &mut written);
-                        sections.end_at(written);
+                        for triangle in document.polygons.triangles(polygon) {
+                            document.raise_to_needs(triangle, polygon, &mut written);
+                            if triangle == end {
+                                let parts = families.map(|families| families.parts_from(triangle));
+                                end = parts.map_or(triangle + 1, |parts| parts.end);
+                            }
+                            if triangle + 1 == end {
+                                sections.end_at(written);
+                            }
+                        }
                     }
                     polygons += count;
                     continue;
@@ -93,9 +104,11 @@ impl Document {
         keywords.find(|keyword| may_have_indices(keyword))
     }
 
-    /// Raises how many statements are written to what a polygon needs.
-    fn raise_to_needs(&self, polygon: usize, written: &mut [u32; 3]) {
-        for corner in self.polygon(polygon) {
+    /// Raises how many statements are written to what a triangle of a polygon needs.
+    fn raise_to_needs(&self, triangle: usize, polygon: usize, written: &mut [u32; 3]) {
+        for corner in 0..3 {
+            let corner = self.corner_of_polygon(triangle, corner, polygon);
+            let corner = self.polygons.corner(corner);
             let indices = [Some(corner.vertex), corner.texture, corner.normal];
             for (written, index) in written.iter_mut().zip(indices) {
                 *written = (*written).max(index.map_or(0, |index| index + 1));

@@ -3,10 +3,10 @@
 //! **Order.** Statements come in the order of the document, and polygons as their triangles. What the
 //! document has not is added behind the section that it comes from (`sections.rs`): a vertex that was
 //! split off or inserted behind the last `v` of its object and the foreign statements attached
-//! to that; new texture coordinates and normals likewise. So no line moves, and the numbers behind it count on. Where
-//! a face comes before what it names, the statements that it needs are moved up to just
-//! before it, each with the foreign statements attached to it: no face precedes its vertices. What
-//! `ARCSim` says of a vertex is kept like that, too, and not repeated for a copy of the vertex: what a
+//! to that; new texture coordinates and normals likewise. So no line moves, and the numbers behind it
+//! count on. Where a face comes before what it names, the statements that it and the other parts of a
+//! divided face need are moved up to just before it, each with the foreign statements attached to it:
+//! no face precedes its vertices. What `ARCSim` says of a vertex is kept like that, too, and not repeated for a copy of the vertex: what a
 //! label or a velocity means for two halves, this crate does not know.
 //!
 //! Why not all new vertices at the end of the file, so that no number ever changes? Other programs drop
@@ -198,6 +198,7 @@ fn write(
         prepared,
         positions,
         moves_up,
+        ready: 0,
         streams: Kind::INDEXED.map(Stream::new),
         hash: Hash::of_faces(vertices),
         out: Output::new(out),
@@ -218,6 +219,8 @@ struct Writer<'d, W> {
     positions: &'d Positions,
     /// Whether what a face names is written before it.
     moves_up: bool,
+    /// How many faces have all that they name before them, or were written.
+    ready: usize,
     /// Of vertices, texture coordinates and normals.
     streams: [Stream; 3],
     /// That of the faces written so far.
@@ -344,15 +347,6 @@ impl<W: Write> Writer<'_, W> {
         }
     }
 
-    /// Writes statements of a kind until the one with this number is written.
-    #[inline]
-    fn write_until(&mut self, which: usize, number: u32) -> io::Result<()> {
-        while self.moves_up && self.streams[which].written <= number {
-            self.write_statements(which, self.streams[which].done + 1)?;
-        }
-        Ok(())
-    }
-
     /// Writes a vertex of the mesh or a copy of one, a texture coordinate or a normal.
     #[inline]
     fn write_element(&mut self, which: usize, element: u32) -> io::Result<()> {
@@ -395,34 +389,44 @@ impl<W: Write> Writer<'_, W> {
     }
 
     fn write_polygon(&mut self, polygon: usize) -> io::Result<()> {
-        let (document, prepared, torn) = (self.document, self.prepared, self.torn);
-        let faces = prepared.slots.of(document.polygons.triangles(polygon));
-        let faces = &prepared.slots.faces[faces];
-        if torn.is_undivided() {
-            for corner in document.polygons.corners(polygon) {
-                let corner = document.polygons.corner(corner);
-                self.write_indices([corner.texture, corner.normal])?;
+        let (document, prepared) = (self.document, self.prepared);
+        for place in prepared.slots.of(document.polygons.triangles(polygon)) {
+            if place == self.ready {
+                self.move_up()?;
             }
-        } else {
-            for h in faces.iter().flat_map(|&face| half_edges(face)) {
-                self.write_indices(torn.corner(h as usize, polygon))?;
-            }
-        }
-        for h in faces.iter().flat_map(|&face| half_edges(face)) {
-            let vertex = prepared.separated.indices[h as usize];
-            self.write_until(VERTICES, prepared.orders[VERTICES].number(vertex))?;
-        }
-        for &face in faces {
-            self.write_triangle(half_edges(face), polygon)?;
+            self.write_triangle(half_edges(prepared.slots.faces[place]), polygon)?;
         }
         Ok(())
     }
 
-    /// Writes texture coordinates and normals as far as a corner needs them.
-    fn write_indices(&mut self, indices: [Option<u32>; 2]) -> io::Result<()> {
-        for (which, index) in [TEXTURE, NORMALS].into_iter().zip(indices) {
-            if let Some(index) = index {
-                self.write_until(which, self.prepared.orders[which].number(index))?;
+    /// Writes, kind after kind, what the next face names, with all parts of the divided face that it is
+    /// part of. So nothing depends on how that one is divided, nor on the rest of a polygon: read again,
+    /// each face is a polygon of its own.
+    fn move_up(&mut self) -> io::Result<()> {
+        let (prepared, torn) = (self.prepared, self.torn);
+        let orders = &prepared.orders;
+        let record = prepared.record.as_ref();
+        let places = record.map(|record| record.families.parts_from(self.ready));
+        let places = places.unwrap_or(self.ready..self.ready + 1);
+        self.ready = places.end;
+        let is_written =
+            |which: usize| self.streams[which].written as usize == orders[which].count();
+        if !self.moves_up || (0..3).all(is_written) {
+            return Ok(());
+        }
+        let mut needed = [0; 3];
+        let faces = prepared.slots.faces[places].iter();
+        for h in faces.flat_map(|&face| half_edges(face)) {
+            let vertex = prepared.separated.indices[h as usize];
+            let [texture, normal] = torn.corner_of(h as usize);
+            for (which, index) in [Some(vertex), texture, normal].into_iter().enumerate() {
+                let number = index.map_or(0, |index| orders[which].number(index) + 1);
+                needed[which] = number.max(needed[which]);
+            }
+        }
+        for which in [TEXTURE, NORMALS, VERTICES] {
+            while self.streams[which].written < needed[which] {
+                self.write_statements(which, self.streams[which].done + 1)?;
             }
         }
         Ok(())
