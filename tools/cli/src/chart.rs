@@ -75,7 +75,6 @@ fn pareto(args: &ParetoArgs) -> Pareto {
         stiffness_n_per_m: args.stiffness.clone(),
         mass_ratios: args.mass_ratio.clone(),
         visits_max: args.visits_max,
-        repeats: args.repeats,
     })
 }
 
@@ -145,7 +144,7 @@ fn work<E: Chart>(
     streams: &mut Streams<'_>,
 ) -> Result<Exit, Stop> {
     let files = check(draw)?;
-    let mut provenance = provenance(experiment, command);
+    let mut provenance = provenance::<E>(command);
     let (rows, missing) = match &draw.from {
         Some(path) => {
             provenance.command = format!("drawn from {}", path.display());
@@ -221,9 +220,7 @@ fn conducted<E: Experiment>(
     let bar = streams.bar(BAR as u64, "{wide_bar} {percent} % {eta}", !draw.quiet);
     let guard = Guard::new();
     let bounds = Bounds {
-        clock: experiment
-            .is_timed()
-            .then_some(&|| ThreadTime::now().as_duration()),
+        clock: E::IS_TIMED.then_some(&|| ThreadTime::now().as_duration()),
         stop: &|| guard.is_interrupted(),
     };
     let (rows, done) = conduct(experiment, threads, &bounds, |fraction| {
@@ -250,13 +247,13 @@ fn some_time(seconds: f64) -> String {
     }
 }
 
-fn provenance<E: Experiment>(experiment: &E, command: String) -> Provenance {
+fn provenance<E: Experiment>(command: String) -> Provenance {
     Provenance {
         command,
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: env!("TEARMESH_COMMIT").to_owned(),
         compiler: env!("TEARMESH_COMPILER").to_owned(),
-        processor: experiment.is_timed().then(processor),
+        processor: E::IS_TIMED.then(processor),
     }
 }
 

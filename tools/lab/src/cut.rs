@@ -90,10 +90,7 @@ impl Experiment for Cuts {
     type Row = Row;
 
     const IS_ALONE: bool = true;
-
-    fn is_timed(&self) -> bool {
-        true
-    }
+    const IS_TIMED: bool = true;
 
     fn plan(&self) -> Vec<Vec<Row>> {
         let keys = self.sheets.iter().flat_map(|sheet| {

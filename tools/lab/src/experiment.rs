@@ -24,10 +24,8 @@ pub trait Experiment: Sync {
     /// processor's cache.
     const IS_ALONE: bool = false;
 
-    /// Returns whether the experiment measures CPU time.
-    fn is_timed(&self) -> bool {
-        false
-    }
+    /// Whether the experiment measures CPU time.
+    const IS_TIMED: bool = false;
 
     /// Returns how many of so many threads are used; see [`IS_ALONE`](Experiment::IS_ALONE).
     fn threads(&self, most: NonZero<usize>) -> NonZero<usize> {

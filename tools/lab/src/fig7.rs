@@ -68,10 +68,7 @@ impl Experiment for Fig7 {
     type Row = Row;
 
     const IS_ALONE: bool = true;
-
-    fn is_timed(&self) -> bool {
-        true
-    }
+    const IS_TIMED: bool = true;
 
     fn plan(&self) -> Vec<Vec<Row>> {
         let key = |&cells: &u32| Row {

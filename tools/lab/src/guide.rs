@@ -123,9 +123,7 @@ impl Guide {
 impl Experiment for Guide {
     type Row = Row;
 
-    fn is_timed(&self) -> bool {
-        true
-    }
+    const IS_TIMED: bool = true;
 
     fn plan(&self) -> Vec<Vec<Row>> {
         let group = |stage: &Stage| (stage.topic, stage.cells);

@@ -6,7 +6,7 @@
 //! per method at its default settings.
 //!
 //! Errors are computed for several observables ([`Observable`]). Costs are visits of edges, which are the same
-//! on every machine, and CPU time if it is measured.
+//! on every machine; what a visit takes depends on the method, and [`guide`](crate::guide) measures CPU time.
 //!
 //! The rules for reading the numbers:
 //!
@@ -32,7 +32,6 @@ pub use self::scene::{
 pub(crate) use self::scene::{fastest_m_per_s, middle};
 
 use tearmesh_cloth::scene::ensemble::NOISE_M;
-use tearmesh_cloth::statistics::median;
 
 use self::observe::{Records, apart_m, error, extrapolated};
 use self::row::{Planned, Role};
@@ -56,8 +55,6 @@ pub struct Options {
     pub mass_ratios: Vec<f64>,
     /// The largest number of visits of edges per row. References have no limit.
     pub visits_max: u64,
-    /// The number of times that each run is repeated to measure its CPU time; `None` to measure no times.
-    pub repeats: Option<u32>,
 }
 
 /// The default limit of [`Options::visits_max`], a few seconds of CPU time.
@@ -117,27 +114,9 @@ fn pairs<'a, A, B>(a: &'a [A], b: &'a [B]) -> impl Iterator<Item = (&'a A, &'a B
 impl Experiment for Pareto {
     type Row = Row;
 
-    fn is_timed(&self) -> bool {
-        self.options.repeats.is_some()
-    }
-
     fn plan(&self) -> Vec<Vec<Row>> {
-        let visits_max = self.options.visits_max as f64;
-        // The first round also warms up. Repetitions of a run are not next to each other.
-        let rounds = self.options.repeats.unwrap_or(0);
-        let group = |(number, case): (usize, &Case)| {
-            let mut keys = plan(case, number);
-            let is_repeated = |key: &&Row| key.family.is_some() && key.planned.visits <= visits_max;
-            let repeated: Vec<Row> = keys.iter().filter(is_repeated).cloned().collect();
-            for round in 1..=rounds {
-                keys.extend(repeated.iter().cloned().map(|mut key| {
-                    key.planned.round = round;
-                    key
-                }));
-            }
-            keys
-        };
-        self.cases.iter().enumerate().map(group).collect()
+        let cases = self.cases.iter().enumerate();
+        cases.map(|(number, case)| plan(case, number)).collect()
     }
 
     fn guess_s(&self, key: &Row) -> f64 {
@@ -152,15 +131,7 @@ impl Experiment for Pareto {
     }
 
     fn assessed(&self, rows: Vec<Row>) -> Vec<Row> {
-        let case = &self.cases[rows[0].planned.case];
-        let (mut rows, later): (Vec<Row>, Vec<Row>) =
-            rows.into_iter().partition(|row| row.planned.round == 0);
-        for row in &mut rows {
-            let own = later.iter().filter(|other| other.run == row.run);
-            let times = own.filter_map(|other| other.cpu_median_s);
-            row.cpu_median_s = median(times.collect()).or(row.cpu_median_s);
-        }
-        compared(case, rows)
+        compared(&self.cases[rows[0].planned.case], rows)
     }
 }
 

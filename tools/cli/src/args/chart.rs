@@ -145,19 +145,6 @@ pub(crate) struct ParetoArgs {
     /// Give up a run after this many edge visits.
     #[arg(long, value_name = "N", default_value_t = VISITS_MAX)]
     pub(crate) visits_max: u64,
-
-    /// Measure CPU time, and draw errors against it.
-    #[arg(long)]
-    pub(crate) time: bool,
-
-    /// How often each run is repeated to measure its CPU time (default: 5); 0 takes the time of the only run.
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_if("time", "true", "5"),
-        requires = "time"
-    )]
-    pub(crate) repeats: Option<u32>,
 }
 
 fn ratio(text: &str) -> Result<f64, String> {

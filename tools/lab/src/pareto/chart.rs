@@ -24,21 +24,18 @@ const READING: &str = "A line joins the runs of a method that none of its other 
 
 impl Chart for Pareto {
     fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
-        let by_time = rows.iter().any(|row| row.cpu_median_s.is_some());
-        let unit = ["edge visits", "CPU time, s"][usize::from(by_time)];
-        let groups = groups(rows, by_time);
+        let groups = groups(rows);
         let is_there = |family: &Family| rows.iter().any(|row| row.family == Some(*family));
         let families = Family::all().filter(is_there);
         let entry = |family: Family| (family.mark(), family.name().to_owned());
         Figure {
-            title: title(&groups, unit),
-            about: format!(
-                "Relative error against {unit}, one panel per scene and observable. Down and to the left is \
-                 better."
-            ),
+            title: title(&groups),
+            about: "Relative error against edge visits, one panel per scene and observable. Down and to the left is \
+                    better."
+                .to_owned(),
             legend: families.map(entry).collect(),
             layout: (3, [390.0, 330.0]),
-            panels: groups.iter().map(|group| group.panel(unit)).collect(),
+            panels: groups.iter().map(|group| group.panel()).collect(),
             footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
         }
     }
@@ -47,7 +44,7 @@ impl Chart for Pareto {
         let mut text = String::from("the cheapest run for each tolerance, by edge visits\n");
         for case in cases(rows) {
             text += &format!("{} {}\n", case[0].scene, about(&case[0]));
-            for group in groups(case, false) {
+            for group in groups(case) {
                 let (name, line) = (group.observable.name(), group.tolerances());
                 text += &format!("  {name:<33} {line}\n");
             }
@@ -63,15 +60,14 @@ fn cases(rows: &[Row]) -> impl Iterator<Item = &[Row]> {
 /// The runs of a case by an observable.
 pub(super) struct Group<'a> {
     case: &'a [Row],
-    by_time: bool,
     pub(super) observable: Observable,
     pub(super) floor: Option<f64>,
     /// The runs that have an error.
     pub(super) runs: Vec<Ranked<'a>>,
 }
 
-/// The cases with each observable that they have, ranked by CPU time or by visits of edges.
-pub(super) fn groups(rows: &[Row], by_time: bool) -> Vec<Group<'_>> {
+/// The cases with each observable that they have.
+pub(super) fn groups(rows: &[Row]) -> Vec<Group<'_>> {
     let mut groups = Vec::new();
     for case in cases(rows) {
         let known = case.iter().filter(|row| row.observable.is_some());
@@ -80,10 +76,9 @@ pub(super) fn groups(rows: &[Row], by_time: bool) -> Vec<Group<'_>> {
         for of in known.chunk_by(|a, b| a.observable == b.observable) {
             groups.extend(of[0].observable.map(|observable| Group {
                 case,
-                by_time,
                 observable,
                 floor: of[0].error_floor,
-                runs: ranked(of, by_time),
+                runs: ranked(of),
             }));
         }
     }
@@ -91,14 +86,14 @@ pub(super) fn groups(rows: &[Row], by_time: bool) -> Vec<Group<'_>> {
 }
 
 /// The method that is the cheapest at an error of 1 % most often.
-fn title(groups: &[Group<'_>], unit: &str) -> String {
+fn title(groups: &[Group<'_>]) -> String {
     let compared = groups.iter().filter(|group| !group.observable.is_energy());
     let winners = compared.filter_map(|group| group.cheapest(TITLE_ERROR)?.row.family);
     let winners: Vec<Family> = winners.collect();
     let wins = |family: &Family| winners.iter().filter(|one| *one == family).count();
     match Family::all().rev().max_by_key(wins) {
         Some(best) if wins(&best) > 0 => format!(
-            "{} is the cheapest way to an error below 1 % in {} of {} panels, by {unit}",
+            "{} is the cheapest way to an error below 1 % in {} of {} panels, by edge visits",
             best.name(),
             wins(&best),
             winners.len(),
@@ -108,10 +103,10 @@ fn title(groups: &[Group<'_>], unit: &str) -> String {
 }
 
 impl Group<'_> {
-    fn panel(&self, unit: &str) -> Panel {
+    fn panel(&self) -> Panel {
         let (first, floor) = (&self.case[0], self.floor);
         let title = format!("{}: {}", first.scene, self.observable.name());
-        let axes = [unit, "relative error"].map(Axis::log);
+        let axes = ["edge visits", "relative error"].map(Axis::log);
         let mut panel = Panel::new(&title, &about(first), axes, Vec::new());
         if self.runs.is_empty() {
             panel.about = match (floor, first.noise_amplification) {
@@ -154,7 +149,7 @@ impl Group<'_> {
         let failed: Vec<&Row> = failed.filter(|row| row.status != Status::Ok).collect();
         let marks = failed.iter().filter_map(|row| {
             let hover = format!("{}: {} {}", row.run, row.status.name(), row.why);
-            Some((row.cost(self.by_time)?, row.family?.mark(), hover))
+            Some((row.cost()?, row.family?.mark(), hover))
         });
         (!failed.is_empty()).then(|| Strip {
             label: format!("{} failed", failed.len()),

@@ -12,7 +12,7 @@ const LEAST: f64 = 0.01;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ranked<'a> {
     pub(super) row: &'a Row,
-    /// Where it is drawn: the CPU time in seconds or the visits of edges, and the error.
+    /// Where it is drawn: the visits of edges, and the error.
     pub(super) at: [f64; 2],
     /// The largest error of this and all shorter steps of the method, which is compared with tolerances. So a
     /// lucky zero crossing of the error does not count.
@@ -26,9 +26,9 @@ pub(super) struct Ranked<'a> {
 
 /// Ranks the rows that have an error and a cost, given in descending order of the steps of each method. Compares all
 /// pairs.
-pub(super) fn ranked<'a>(rows: &[&'a Row], by_time: bool) -> Vec<Ranked<'a>> {
+pub(super) fn ranked<'a>(rows: &[&'a Row]) -> Vec<Ranked<'a>> {
     let known = rows.iter();
-    let known = known.filter_map(|row| Some((*row, row.error_total?, row.cost(by_time)?)));
+    let known = known.filter_map(|row| Some((*row, row.error_total?, row.cost()?)));
     let known: Vec<(&Row, f64, f64)> = known.collect();
     let mut ranked = Vec::new();
     for series in known.chunk_by(|a, b| a.0.method == b.0.method) {
@@ -94,7 +94,7 @@ mod tests {
             ..Row::default()
         };
         let rows: Vec<Row> = (0..).zip([4.0, 1e-9, 2.0, 1.0]).map(row).collect();
-        let ranked = ranked(&rows.iter().collect::<Vec<_>>(), false);
+        let ranked = ranked(&rows.iter().collect::<Vec<_>>());
         let converged = ranked.iter().map(|one| one.error_converged);
         assert_eq!(converged.collect::<Vec<_>>(), [4.0, 2.0, 2.0, 1.0]);
         let is_placed = ranked.iter().map(|one| one.place.is_some());

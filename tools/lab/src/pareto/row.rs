@@ -39,8 +39,6 @@ pub struct Row {
     pub dt_s: f64,
     /// The number of visits of edges, for all purposes.
     pub visits: Option<u64>,
-    /// The median CPU time of the repetitions in seconds, or the time of the only run.
-    pub cpu_median_s: Option<f64>,
     /// The distance of the two runs of the gate divided by the noise; `None` if there is no gate or it failed.
     pub noise_amplification: Option<f64>,
     /// The observable.
@@ -61,13 +59,11 @@ pub struct Row {
 }
 
 impl Row {
-    /// Returns the cost of the run: its CPU time in seconds or its visits of edges; `None` if it is not known, or
-    /// too little to be measured.
+    /// Returns the cost of the run, its visits of edges; `None` if it is not known, or took no step.
     #[must_use]
-    pub fn cost(&self, by_time: bool) -> Option<f64> {
-        let visits = self.visits.map(|visits| visits as f64);
-        let cost = if by_time { self.cpu_median_s } else { visits };
-        cost.filter(|cost| *cost > 0.0)
+    pub fn cost(&self) -> Option<f64> {
+        let visits = self.visits.filter(|visits| *visits > 0);
+        visits.map(|visits| visits as f64)
     }
 
     /// Returns whether the run is the default method at its default settings.
@@ -95,8 +91,6 @@ pub(super) struct Planned {
     /// The index of its case.
     pub(super) case: usize,
     pub(super) role: Role,
-    /// 0 for the run that is compared with others; later ones are only timed.
-    pub(super) round: u32,
     /// The number of steps to each checkpoint; `None` if the scene has no time of its own.
     pub(super) steps_to_checkpoint: Option<u64>,
     /// An estimate of its visits of edges.

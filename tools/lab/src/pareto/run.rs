@@ -3,12 +3,10 @@
 //!
 //! A run that does not get there has a status, the reason, and its cost up to then.
 
-use std::time::Duration;
-
 use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::{StepError, Unstable};
 
-use super::observe::{Probe, Records};
+use super::observe::Probe;
 use super::row::{Planned, Role, Row};
 use super::scene::{Case, REST_M_PER_S, Until, fastest_m_per_s};
 use crate::experiment::{Bounds, Status};
@@ -174,15 +172,12 @@ pub(super) fn run(case: &Case, key: &Row, visits_max: u64, bounds: &Bounds<'_>) 
         _ => method.unwrap_or_else(|| reference(case)).solver(),
     };
     let mut probe = Probe::new(case, &system, key.family);
-    let (mut cpu, mut visits) = (Duration::ZERO, 0);
-    let (mut status, mut why) = (Status::Restless, String::new());
+    let (mut status, mut why, mut visits) = (Status::Restless, String::new(), 0);
     for number in 1..=steps_max {
         if (bounds.stop)() {
             return None;
         }
-        let began = bounds.now();
         let step = system.step(&mut *solver, dt_s);
-        cpu += bounds.now().saturating_sub(began);
         let counted = system.counters().visits;
         visits = counted.project + counted.force + counted.detect;
         if let Err(error) = step {
@@ -222,11 +217,7 @@ pub(super) fn run(case: &Case, key: &Row, visits_max: u64, bounds: &Bounds<'_>) 
         status,
         why,
         visits: Some(visits),
-        cpu_median_s: bounds.clock.map(|_| cpu.as_secs_f64()),
-        records: match planned.round {
-            0 => probe.records(&system),
-            _ => Records::new(),
-        },
+        records: probe.records(&system),
         ..key.clone()
     })
 }

@@ -133,7 +133,6 @@ fn options(scenes: &[&str], cells: u32) -> Options {
         stiffness_n_per_m: Vec::new(),
         mass_ratios: Vec::new(),
         visits_max: 3_000_000,
-        repeats: None,
     }
 }
 
@@ -183,7 +182,7 @@ fn an_interrupted_table_has_a_row_for_each_run() {
     let planned = experiment.plan().concat().len();
     assert_eq!((done, rows.len()), (0, planned));
     let mut rows = rows.iter();
-    assert!(rows.all(|row| row.status == Status::Interrupted && row.cost(false).is_none()));
+    assert!(rows.all(|row| row.status == Status::Interrupted && row.cost().is_none()));
 }
 
 /// The runs on each front by visits of edges, which are the same on every machine. So a change of a method
@@ -195,7 +194,7 @@ fn fronts_are_those_of_the_record() {
     let options = options(&scenes, 5);
     let rows = made(Options { meshes, ..options }, workers());
     let mut found = String::new();
-    for group in chart::groups(&rows, false) {
+    for group in chart::groups(&rows) {
         if group.floor.is_some() {
             let on = group.runs.iter().filter(|one| one.is_on_front);
             let on: Vec<&str> = on.map(|one| &*one.row.run).collect();
