@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::{CutMethod, Point, Ray, Scissor, Vector, mend};
+use tearmesh::mend;
 use tearmesh_obj::CoincidentError;
 
 use super::random::Random;
-use super::torn_record::{Work, files};
+use super::work::{Work, files};
 use super::{read, text};
 
 /// A file as a program writes it that knows no comments.
@@ -40,25 +40,6 @@ fn edges_shared_by_place(file: &str) -> usize {
     faces.values().filter(|&&faces| faces == 2).count()
 }
 
-/// A cut somewhere in the box of these points, seen from above.
-fn scissor(points: &[Point], random: &mut Random) -> Scissor {
-    let box_of = |axis: usize| {
-        let all = points.iter().map(|p| p[axis]);
-        [
-            all.clone().fold(f64::INFINITY, f64::min),
-            all.fold(f64::NEG_INFINITY, f64::max),
-        ]
-    };
-    let [a, b] = [(); 2].map(|()| {
-        let [x, y] = [0, 1].map(|axis| {
-            let [least, most] = box_of(axis);
-            least + (most - least) * random.next()
-        });
-        Ray::new(Point::new(x, y, 9.0), -Vector::z()).expect("a ray")
-    });
-    Scissor::new(a, b).expect("a plane")
-}
-
 /// Straight cuts whose record is dropped: sewn by places, every edge is whole that two faces have.
 #[test]
 fn what_was_torn_is_sewn_without_a_record() {
@@ -68,29 +49,21 @@ fn what_was_torn_is_sewn_without_a_record() {
             let document = read(&bytes);
             let mut work = Work::on(&document);
             let mut random = Random(seed);
-            work.edit(|mesh, positions, edits| {
-                let scissor = scissor(positions.as_slice(), &mut random);
-                let cut = scissor.cut(CutMethod::Exact, mesh, positions, edits);
-                cut.expect("positions are in step");
-            });
+            work.cut_sliding(&mut random);
             let dropped = without_comments(&work.written());
             let document = read(dropped.as_bytes());
             assert!(!document.has_record());
             let mesh = document.mesh().expect("each fan has its own vertices");
             let pairs = document.coincident(&mesh);
-            let torn = work
-                .mesh
-                .half_edges()
-                .filter(|&h| work.mesh.ghost_pair(h).is_some());
-            assert_eq!(2 * pairs.edges(), torn.count(), "{name} {seed}");
+            let all = work.mesh.half_edges();
+            let torn = all.filter(|&h| work.mesh.ghost_pair(h).is_some()).count();
+            assert_eq!(2 * pairs.edges(), torn, "{name} {seed}");
             let (document, mesh) = document.torn_at(&pairs).expect("it was a surface");
             let mut work = Work::on(&document);
             assert_eq!(work.mesh, mesh);
             let all = mend::stitches(&work.mesh, |_| true);
             assert_eq!(all.len(), pairs.vertices());
-            work.edit(|mesh, positions, edits| {
-                mend::sew(mesh, positions, &all, |_| 1.0, 0.0, edits).expect("at one place")
-            });
+            work.sew(&all);
             let written = text(&work.written());
             assert!(!written.contains('#'), "nothing is left to record");
             let whole = read(written.as_bytes()).mesh().expect("a mesh");

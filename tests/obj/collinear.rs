@@ -2,7 +2,7 @@
 //! triangulations that there are.
 
 use super::random::Random;
-use super::read;
+use super::triangulate::{polygon, triangles};
 
 type Place = [f64; 3];
 
@@ -48,14 +48,6 @@ fn best_of_all(polygon: &[Place], normal: Place, [first, last]: [usize; 2]) -> f
 
 /// The least altitude of what the reader makes of a polygon, and the best there is.
 fn altitudes(polygon: &[Place]) -> [f64; 2] {
-    let mut file: String = polygon
-        .iter()
-        .map(|[x, y, z]| format!("v {x} {y} {z}\n"))
-        .collect();
-    file += "f";
-    for i in 0..polygon.len() {
-        file += &format!(" {}", i + 1);
-    }
     let sides = (1..polygon.len() - 1).map(|i| {
         cross(
             minus(polygon[i], polygon[0]),
@@ -63,10 +55,8 @@ fn altitudes(polygon: &[Place]) -> [f64; 2] {
         )
     });
     let normal = sides.fold([0.0; 3], |sum, one| [0, 1, 2].map(|i| sum[i] + one[i]));
-    let document = read(file.as_bytes());
     let of = |t: &[u32; 3]| altitude(t.map(|i| polygon[i as usize]), normal);
-    let least = document
-        .triangles()
+    let least = triangles(polygon)
         .iter()
         .map(of)
         .fold(f64::INFINITY, f64::min);
@@ -92,21 +82,14 @@ fn regression_a_quad_with_a_corner_nearly_on_its_side_is_cut_there() {
 /// A shape in the plane with more corners on its sides, turned somehow in space, moved, scaled,
 /// and rounded to six digits behind the point.
 fn shape(random: &mut Random) -> Vec<Place> {
-    let shapes: [&[[f64; 2]]; 5] = [
-        &[[0.0, 0.0], [1.0, 0.0], [0.2, 0.9]],
-        &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
-        &[[0.0, 0.0], [1.0, -0.2], [1.3, 0.8], [0.1, 1.1]],
-        &[[0.0, 0.0], [2.0, 1.0], [0.0, 2.0], [0.5, 1.0]],
-        &[
-            [0.0, 0.0],
-            [2.0, 0.0],
-            [2.0, 1.0],
-            [1.0, 1.0],
-            [1.0, 2.0],
-            [0.0, 2.0],
-        ],
+    let shapes = [
+        "0 0, 1 0, 0.2 0.9",
+        "0 0, 1 0, 1 1, 0 1",
+        "0 0, 1 -0.2, 1.3 0.8, 0.1 1.1",
+        "0 0, 2 1, 0 2, 0.5 1",
+        "0 0, 2 0, 2 1, 1 1, 1 2, 0 2",
     ];
-    let mut flat = shapes[random.below(shapes.len())].to_vec();
+    let mut flat = polygon(shapes[random.below(shapes.len())]);
     for _ in 0..1 + random.below(10 - flat.len()) {
         let side = random.below(flat.len());
         let (a, b) = (flat[side], flat[(side + 1) % flat.len()]);

@@ -17,7 +17,6 @@ mod memory;
 mod mesh;
 mod normals;
 mod numbers;
-mod objects;
 #[path = "../support/random.rs"]
 #[allow(dead_code, reason = "shared with other tests")]
 mod random;
@@ -28,11 +27,13 @@ mod round_trip;
 mod same_bytes;
 mod slides;
 mod spelling;
+mod tables;
 mod torn;
 mod torn_damage;
 mod torn_record;
 mod triangulate;
 mod undone;
+mod work;
 
 use proptest::test_runner::Config;
 use tearmesh::{Mesh, Positions};

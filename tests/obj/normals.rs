@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::random::Random;
-use super::torn_record::Work;
+use super::work::Work;
 use super::{read, text};
 
 /// A strip of triangles, each vertex with a normal of its own that all its corners have.

@@ -1,14 +1,13 @@
 //! Under which numbers vertices are written, and how they are found again.
 
 use tearmesh::{FaceId, VertexId, split};
-use tearmesh_obj::{Document, TornDocument};
+use tearmesh_obj::Document;
 
-use super::digest;
-use super::objects::{Style, added, skeleton};
+use super::bodies::Sheets;
 use super::random::Random;
-use super::torn_damage::hash_of_faces;
-use super::torn_record::Work;
-use super::{positions, read, rewritten, text};
+use super::tables::with_record;
+use super::work::Work;
+use super::{read, rewritten, text};
 
 /// Two objects, six faces round a vertex and a triangle.
 const WHEEL: &str = "o wheel\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0 0\nv -1 -1 0\nv 0 -1 0\nv 0 0 0\n\
@@ -32,48 +31,28 @@ fn copies_for_fans_stand_behind_their_object_and_are_counted() {
     let written = text(&with_bow_ties(&document).written());
     let tile = written.find("o tile").expect("the second object");
     let of_wheel = written[..tile].matches("\nv ").count();
-    assert_eq!(
-        of_wheel,
-        7 + 1 + 6,
-        "a new hub, and copies of both and of the rim"
-    );
-    assert!(written[tile..].starts_with("o tile\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 15 16 17\n"));
-    assert!(written.contains("#tearmesh record 2 v 17 "), "{written}");
-
+    assert_eq!(of_wheel, 14, "a new hub, and copies of both and of the rim");
     let again = read(written.as_bytes());
-    assert_eq!(again.vertex_statement_count(), 17);
-    assert_eq!(
-        again.positions().len(),
-        11,
-        "copies are one with their vertices"
-    );
+    let counts = [again.vertex_statement_count(), again.positions().len()];
+    assert_eq!(counts, [17, 11], "copies are one with their vertices");
     let numbers: Vec<usize> = (0..11).map(|v| again.number_of_vertex(v)).collect();
     assert_eq!(numbers, [1, 2, 3, 4, 5, 6, 7, 8, 15, 16, 17]);
     for (vertex, &number) in numbers.iter().enumerate() {
         assert_eq!(again.vertex_of_number(number), Some(vertex));
-        let line = written
-            .lines()
-            .nth(again.line_of_vertex(vertex) - 1)
-            .expect("a line");
+        let line = written.lines().nth(again.line_of_vertex(vertex) - 1);
         let [x, y, z] = <[f64; 3]>::from(again.positions()[vertex]);
-        assert_eq!(line, format!("v {x} {y} {z}"));
+        assert_eq!(line, Some(&*format!("v {x} {y} {z}")));
     }
     for item in written
         .lines()
         .filter_map(|line| line.strip_prefix("#~ fan "))
     {
-        let numbers = item
-            .split(' ')
-            .map(|number| number.parse().expect("a number"));
-        let [copy, of] = numbers.collect::<Vec<usize>>()[..] else {
-            panic!("{item} has two numbers")
-        };
+        let (copy, of) = item.split_once(' ').expect("two numbers");
+        let [copy, of] = [copy, of].map(|number| number.parse().expect("a number"));
         assert_eq!(again.vertex_of_number(copy), again.vertex_of_number(of));
     }
-    assert_eq!(
-        [0, 18].map(|number| again.vertex_of_number(number)),
-        [None; 2]
-    );
+    let none = [0, 18].map(|number| again.vertex_of_number(number));
+    assert_eq!(none, [None; 2]);
     assert_eq!(text(&rewritten(written.as_bytes())), written);
 }
 
@@ -86,21 +65,15 @@ fn where_statements_may_name_vertices_these_keep_their_numbers() {
         let document = read(file.as_bytes());
         let work = with_bow_ties(&document);
         let written = text(&work.written());
-        let vertices: Vec<&str> = written
-            .lines()
-            .filter(|line| line.starts_with("v "))
-            .collect();
-        let own: Vec<&str> = file.lines().filter(|line| line.starts_with("v ")).collect();
-        assert_eq!(vertices[..own.len()], own, "{statement}");
+        let vertices = |file: &str| {
+            let lines = file.lines().filter(|line| line.starts_with("v "));
+            lines.map(str::to_owned).collect::<Vec<_>>()
+        };
+        let (is, was) = (vertices(&written), vertices(&file));
+        assert!(is.starts_with(&was), "{statement}");
         assert!(written.contains(&format!("f 8 9 10\n{statement}\n#tearmesh record 1 ")));
         assert_eq!(text(&rewritten(written.as_bytes())), written, "{statement}");
-        let ids: Vec<usize> = work
-            .torn
-            .vertices_in_order()
-            .iter()
-            .map(|v| v.index())
-            .collect();
-        assert!(ids.is_sorted(), "{statement}");
+        assert!(work.in_order().is_sorted(), "{statement}");
     }
     for statement in ["nl 2", "nv 8 9 10", "g 8 9", "# l 8 9", "vp 8 9"] {
         let file = format!("{WHEEL}{statement}\n");
@@ -121,18 +94,11 @@ fn a_line_that_was_added_to_a_torn_file_keeps_what_it_names() {
     let written = text(&with_bow_ties(&document).written());
     let file = written.replace("f 15 16 17\n", "f 15 16 17\nl 15 16\n");
     let again = read(file.as_bytes());
-    let messages: Vec<String> = again
-        .diagnostics()
-        .iter()
-        .map(ToString::to_string)
-        .collect();
-    let told = messages.iter().any(|message| {
-        message.contains("this record is not used, since another program changed the file: `l` may")
-    });
-    assert!(told, "{messages:?}");
+    let why = "this record is not used, since another program changed the file: `l` may";
+    let mut said = again.diagnostics().iter();
+    assert!(said.any(|one| one.message.starts_with(why)));
     let plain = text(&rewritten(file.as_bytes()));
-    let body = file.split("#tearmesh").next().expect("a body");
-    assert_eq!(plain, body);
+    assert_eq!(file.split("#tearmesh").next(), Some(&*plain));
     // Where the new vertices are the last ones anyway, the record stays.
     let alone = WHEEL.split("o tile").next().expect("the first object");
     let document = read(alone.as_bytes());
@@ -147,12 +113,7 @@ fn a_file_of_version_1_is_read_and_mended() {
     let body = "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nv 5 0 0\nv 6 0 0\nv 5 1 0\n\
         v 1 0 0\nv 0 1 0\nf 9 8 4\no b\nf 5 6 7\n";
     let items = "#~ split 8 2 1\n#~ split 9 3 1\n";
-    let faces = hash_of_faces(&[9, 0, 1, 2, 8, 7, 3, 4, 5, 6]);
-    let file = format!(
-        "{body}#tearmesh record 1 v 9 f 3 vt 0 0 vn 0 0 faces {faces:016x}\n{items}\
-         #tearmesh end 2 {:016x}\n",
-        digest::after(digest::EMPTY, items.bytes())
-    );
+    let file = with_record(body, "1", "vt 0 0 vn 0 0", items);
     let document = read(file.as_bytes());
     assert!(
         document.diagnostics().is_empty(),
@@ -169,14 +130,35 @@ fn a_file_of_version_1_is_read_and_mended() {
     );
 }
 
+/// The lines of a file without its record, all neighbouring faces as one.
+fn skeleton(file: &str) -> Vec<&str> {
+    let body = file.split("#tearmesh").next().expect("a body");
+    let mut lines: Vec<&str> = Vec::new();
+    for line in body.lines() {
+        let line = if line.starts_with("f ") { "f" } else { line };
+        if line != "f" || lines.last() != Some(&"f") {
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// The lines that were added to those of a file, all of which stay in their order.
+fn added<'l>(was: &[&str], is: &[&'l str]) -> Option<Vec<&'l str>> {
+    let mut was = was.iter().peekable();
+    let added = is.iter().filter(|line| was.next_if_eq(line).is_none());
+    let added = added.copied().collect();
+    was.next().is_none().then_some(added)
+}
+
 /// The last cut is undone in another session, and the file is the one before it, to the byte; or a part
 /// of a cut is undone, and all lines of the file that was never cut are still in their places.
 #[test]
 fn mending_a_part_moves_no_line() {
     let (mut parts, mut whole) = (0, 0);
     for seed in 0..400 {
-        let mut random = Random(77_000 + seed as u64);
-        let file = text(&rewritten(Style::of_seed(seed).file().as_bytes()));
+        let mut random = Random(77_000 + seed);
+        let file = text(&rewritten(Sheets::random(&mut random).file.as_bytes()));
         let document = read(file.as_bytes());
         let mut work = Work::on(&document);
         work.tear(&mut random, 3, false);
@@ -202,36 +184,10 @@ fn mending_a_part_moves_no_line() {
         let [was, is] = [&file, &mended].map(|text| skeleton(text));
         let added = added(&was, &is);
         let added = added.unwrap_or_else(|| panic!("seed {seed}:\n{torn}\n->\n{mended}"));
-        let is_new = |line: &&str| {
-            ["v ", "vt ", "vn "]
-                .iter()
-                .any(|start| line.starts_with(start))
-        };
+        let is_new = |line: &&str| line.starts_with("v ") || line.starts_with("vt ");
         assert!(added.iter().all(is_new), "seed {seed}: {added:?}");
         parts += usize::from(mended.len() < torn.len());
     }
     println!("400 files: the last cut of {whole} undone, a part of it in {parts}");
     assert!(parts > 200 && whole > 300, "{parts} {whole}");
-}
-
-/// Frames number vertices by their ids, in whatever file of several objects.
-#[test]
-fn frames_number_vertices_by_id() {
-    let document = read(WHEEL.as_bytes());
-    let work = with_bow_ties(&document);
-    let mut frame = Vec::new();
-    let done = work
-        .torn
-        .write_unseparated(&work.mesh, &work.positions, &mut frame);
-    assert_eq!(done.expect("memory").vertices, 11);
-    let again = read(&frame);
-    assert_eq!(again.triangles(), work.mesh.indices().as_chunks::<3>().0);
-    assert_eq!(again.positions(), work.positions.as_slice());
-    // Written once more, they stand with their objects.
-    let torn = TornDocument::new(&again);
-    let mut file = Vec::new();
-    let mesh = again.mesh().expect("a torn mesh");
-    torn.write(&mesh, &positions(&again), &mut file)
-        .expect("memory");
-    assert_eq!(text(&rewritten(&file)), text(&file));
 }

@@ -1,4 +1,4 @@
-//! Every refusal: code, place, length, and words; most are in `refusals.txt`.
+//! Refusals: code, place, length, and words; most are in `files.txt`.
 
 use tearmesh_obj::{Document, Level, ReadError};
 
@@ -6,7 +6,7 @@ use tearmesh_obj::{Document, Level, ReadError};
 const VERTICES: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 /// Reads and gives the diagnostic in one line: `CODE line:column+length message | label | help`.
-fn refusal(bytes: &[u8]) -> String {
+pub(crate) fn refusal(bytes: &[u8]) -> String {
     let error = Document::read(bytes).err();
     let Some(ReadError::Refused(diagnostic)) = error else {
         panic!("not refused: {}", String::from_utf8_lossy(bytes));
@@ -47,47 +47,6 @@ fn with_vertices(rest: &[u8]) -> Vec<u8> {
     [VERTICES.as_bytes(), rest].concat()
 }
 
-/// The bytes that [`u8::escape_ascii`] writes so.
-pub(crate) fn unescaped(written: &str) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let mut rest = written.bytes();
-    while let Some(byte) = rest.next() {
-        bytes.push(match byte {
-            b'\\' => match rest.next().expect("an escape") {
-                b'n' => b'\n',
-                b'r' => b'\r',
-                b't' => b'\t',
-                b'x' => {
-                    let digits = [(); 2].map(|()| rest.next().expect("two digits") as char);
-                    u8::from_str_radix(&String::from_iter(digits), 16).expect("a byte")
-                }
-                itself => itself,
-            },
-            byte => byte,
-        });
-    }
-    assert_eq!(bytes.escape_ascii().to_string(), written);
-    bytes
-}
-
-/// Under each file, in one line, stands how its refusal begins.
-#[test]
-fn files_of_the_table_are_refused_with_these_words() {
-    let mut cases = 0;
-    let mut file = Vec::new();
-    for line in include_str!("refusals.txt").lines() {
-        if let Some(expected) = line.strip_prefix("    ") {
-            check(&file, expected);
-            cases += 1;
-        } else if let Some(rest) = line.strip_prefix("VERTICES + ") {
-            file = with_vertices(&unescaped(rest));
-        } else {
-            file = unescaped(line);
-        }
-    }
-    assert_eq!(cases, 96);
-}
-
 #[test]
 fn the_place_of_a_forward_reference_outlives_its_text() {
     // So many long lines that their texts are not all kept.
@@ -104,28 +63,11 @@ fn the_place_of_a_forward_reference_outlives_its_text() {
 }
 
 #[test]
-fn files_without_faces_and_in_other_encodings() {
-    let utf16: Vec<u8> = "v 0 0 0\n"
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
-    let utf16_marked: Vec<u8> = "\u{feff}v 0 0 0\n"
-        .encode_utf16()
-        .flat_map(u16::to_be_bytes)
-        .collect();
-    let mut binary_stl = vec![b' '; 80];
-    binary_stl[..3].copy_from_slice(b"abc");
-    binary_stl.extend([12, 0, 0, 0]);
+fn an_empty_file_has_no_face() {
     check(
         b"",
         "E-OBJ-EMPTY 1:1+0 this file has no face |  | a cut needs faces",
     );
-    check(
-        &utf16,
-        "E-OBJ-UTF16 1:1+1 this is a UTF-16 file | expected UTF-8 or ASCII | save it as UTF-8",
-    );
-    check(&utf16_marked, "E-OBJ-UTF16 1:1+1 this is a UTF-16 file");
-    check(&binary_stl, "E-OBJ-BINARY 1:82+1 this is binary data");
 }
 
 #[test]

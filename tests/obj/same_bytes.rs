@@ -22,8 +22,7 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
     let Ok(mut mesh) = document.mesh() else {
         return false;
     };
-    let points = document.positions().iter().copied();
-    let mut positions = Positions::new(points).expect("the reader refuses other coordinates");
+    let mut positions = positions(&document);
     let mut edits = Edits::new();
     for chunk in splits.chunks_exact(3).take(64) {
         let number = usize::from(chunk[0]) % mesh.vertex_count();
@@ -41,10 +40,8 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
     assert_eq!(mesh.check(), []);
 
     let written = write(&document, &mesh, &positions);
-    assert!(
-        write_torn(&torn, &mesh, &positions) == written,
-        "a follower tells no more of one cut than its mesh"
-    );
+    // A follower tells no more of one cut than its mesh.
+    assert_same(&write_torn(&torn, &mesh, &positions), &written);
     divide_and_mend(&document, mesh.clone(), positions.clone(), torn, splits);
     let again = Document::read(&written[..]).expect("what was written can be read");
     corners_are_the_same(&document, &mesh, &positions, &again);
@@ -59,16 +56,18 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
     }
     let same = again.mesh().expect("what was written is a mesh");
     assert_eq!(same.check(), []);
-    let points = again.positions().iter().copied();
-    let positions = Positions::new(points).expect("the reader refuses other coordinates");
-    let twice = write(&again, &same, &positions);
-    assert_eq!(
-        String::from_utf8_lossy(&twice),
-        String::from_utf8_lossy(&written),
-        "writing again gives the same text"
-    );
-    assert!(twice == written, "writing again gives the same bytes");
+    assert_same(&write(&again, &same, &self::positions(&again)), &written);
     true
+}
+
+fn positions(document: &Document) -> Positions {
+    let points = document.positions().iter().copied();
+    Positions::new(points).expect("the reader refuses other coordinates")
+}
+
+fn assert_same(one: &[u8], other: &[u8]) {
+    assert_eq!(String::from_utf8_lossy(one), String::from_utf8_lossy(other));
+    assert!(one == other, "the same bytes");
 }
 
 fn write(document: &Document, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
@@ -117,26 +116,19 @@ fn divide_and_mend(
     let written = write_torn(&torn, &mesh, &positions);
     let again = Document::read(&written[..]).expect("what was written can be read");
     let same = again.mesh().expect("what was written is a mesh");
-    let points = Positions::new(again.positions().iter().copied());
-    let points = points.expect("positions between those of a document");
+    let points = self::positions(&again);
     let twice = write_torn(&TornDocument::new(&again), &same, &points);
-    assert!(twice == written, "writing again gives the same bytes");
-
+    assert_same(&twice, &written);
     let later = mended(TornDocument::new(&again), same, points);
     let mended = mended(
         torn.starting_at(Cursor::START),
         mesh,
         positions.starting_at(Cursor::START),
     );
-    let uncut = document.mesh().expect("it was one before");
-    let points = Positions::new(document.positions().iter().copied());
-    let points = points.expect("the reader refuses other coordinates");
-    if document_is_whole(document) {
-        let uncut = write_torn(&TornDocument::new(document), &uncut, &points);
-        assert_eq!(
-            String::from_utf8_lossy(&mended),
-            String::from_utf8_lossy(&uncut)
-        );
+    if !document.has_record() {
+        let uncut = document.mesh().expect("it was one before");
+        let uncut = write(document, &uncut, &self::positions(document));
+        assert_same(&mended, &uncut);
     }
     if keeps_what_may_name_numbers(&mended) {
         let lines = |bytes: &[u8]| {
@@ -151,10 +143,7 @@ fn divide_and_mend(
         );
         return;
     }
-    assert_eq!(
-        String::from_utf8_lossy(&later),
-        String::from_utf8_lossy(&mended)
-    );
+    assert_same(&later, &mended);
 }
 
 /// Whether a file has a line that is kept as text and may name a vertex by its number. Numbers stay
@@ -197,24 +186,6 @@ fn slide_some(mesh: &Mesh, places: &[u8], edits: &mut Edits) {
     }
 }
 
-/// Whether the document itself has no record of cuts.
-fn document_is_whole(document: &Document) -> bool {
-    let mesh = document.mesh().expect("it was one before");
-    let roots = mesh.roots();
-    let torn = roots
-        .iter()
-        .enumerate()
-        .any(|(v, &root)| v != root as usize);
-    let points = Positions::new(document.positions().iter().copied());
-    let points = points.expect("the reader refuses other coordinates");
-    let written = write_torn(&TornDocument::new(document), &mesh, &points);
-    !torn && !written.starts_with(b"#tearmesh") && !has(&written, b"\n#tearmesh record")
-}
-
-fn has(bytes: &[u8], part: &[u8]) -> bool {
-    bytes.windows(part.len()).any(|window| window == part)
-}
-
 /// What is written once all is sewn and simplified.
 fn mended(mut torn: TornDocument<'_>, mut mesh: Mesh, mut positions: Positions) -> Vec<u8> {
     let mut edits = Edits::new();
@@ -235,9 +206,7 @@ fn mended(mut torn: TornDocument<'_>, mut mesh: Mesh, mut positions: Positions) 
         None => write_torn(&torn, &mesh, &positions),
         Some(simple) => {
             let mesh = simple.mesh().expect("a simplified mesh is one");
-            let points = Positions::new(simple.positions().iter().copied());
-            let points = points.expect("the reader refuses other coordinates");
-            write_torn(&TornDocument::new(&simple), &mesh, &points)
+            write(&simple, &mesh, &self::positions(&simple))
         }
     }
 }

@@ -1,82 +1,11 @@
 //! Vertices that cuts slid onto their plane: on record with what they were before, and put back to the
 //! bit when the cut is undone.
 
-use tearmesh::{
-    CutMethod, Edit, FaceId, HalfEdgeId, Point, Ray, Scissor, Vector, VertexId, insert::Plan, mend,
-    slide, split,
-};
+use tearmesh::mend;
 
 use super::random::Random;
-use super::torn_record::{Work, files};
+use super::work::{Work, files, undone_later, vertex};
 use super::{read, rewritten, text};
-
-fn vertex(v: usize) -> VertexId {
-    VertexId::new(v).expect("small")
-}
-
-impl Work<'_> {
-    /// Cuts somewhere, and slides vertices that are near the plane onto it; which ones slid.
-    pub(crate) fn cut_sliding(&mut self, random: &mut Random) -> Vec<usize> {
-        let points = self.positions.as_slice();
-        let near = |random: &mut Random| {
-            let middle = points[random.below(points.len())];
-            middle + Vector::new(random.next() - 0.5, random.next() - 0.5, 0.0) * 0.2
-        };
-        let [p, q]: [Point; 2] = [near(random), near(random)];
-        let down = Vector::new(0.0, 0.0, -1.0);
-        let rays = [p, q].map(|p| Ray::new(p - down * 50.0, down).expect("a ray"));
-        let Ok(scissor) = Scissor::new(rays[0], rays[1]) else {
-            return Vec::new();
-        };
-        let scissor = scissor.snap(0.2).snap_move(true);
-        self.edit(|mesh, positions, edits| {
-            let seen = edits.cursor();
-            let done = scissor.cut(CutMethod::Exact, mesh, positions, edits);
-            done.expect("positions are in step");
-            let slides = edits.since(seen).filter_map(|edit| match edit {
-                Edit::Slide(slide) => Some(slide.vertex.index()),
-                _ => None,
-            });
-            slides.collect()
-        })
-    }
-
-    fn slide(&mut self, from: usize, toward: usize, t: f64) {
-        self.edit(|mesh, _, edits| {
-            slide::toward(mesh, vertex(from), vertex(toward), t, edits).expect("an edge");
-        });
-    }
-
-    fn insert_on(&mut self, half_edge: usize) {
-        self.edit(|mesh, _, edits| {
-            let mut plan = Plan::new();
-            plan.on_edge(HalfEdgeId::new(half_edge).expect("small"), 0.375);
-            plan.apply(mesh, edits).expect("a point");
-        });
-    }
-
-    fn split_off(&mut self, from: usize, face: usize) {
-        self.edit(|mesh, _, edits| {
-            let faces = [FaceId::new(face).expect("small")];
-            split::vertex(mesh, vertex(from), &faces, edits).expect("a split");
-        });
-    }
-
-    /// What is written once all is sewn and simplified, in this session.
-    fn undone(mut self) -> String {
-        self.sew_all();
-        let simple = self.torn.simplified(&self.mesh, &self.positions);
-        let simple = simple.expect("what we wrote can be read").document;
-        let written = simple.map_or_else(|| self.written(), |simple| Work::on(&simple).written());
-        text(&written)
-    }
-}
-
-/// The file with every cut sewn and undone, by a session that reads it anew.
-fn undone_later(file: &[u8]) -> String {
-    let document = read(file);
-    Work::on(&document).undone()
-}
 
 /// Two objects, with all kinds of corners, and with colours, which slide along.
 const FLAG: &str = "o flag\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0.3 0 0 1\nv 1 1 0 1 1 1\n\
@@ -174,45 +103,13 @@ fn is_undone_after_sessions(
     assert_eq!(undone_later(&bytes), text(&rewritten(file)), "{name}");
 }
 
-/// Cuts that slide near vertices onto their plane, through files, all undone at last.
-#[test]
-fn cuts_that_slide_are_undone_to_the_byte() {
-    let (mut slid_in, mut slid) = (0, 0);
-    for (name, file) in files() {
-        for seed in 0..40 {
-            let mut random = Random(5000 + seed);
-            let mut count = 0;
-            is_undone_after_sessions(
-                &format!("{name}, seed {seed}"),
-                &file,
-                1 + seed % 3,
-                |work| {
-                    for _ in 0..1 + seed % 2 {
-                        count += work.cut_sliding(&mut random).len();
-                        work.torn.next_cut();
-                    }
-                },
-            );
-            slid_in += usize::from(count > 0);
-            slid += count;
-        }
-    }
-    println!("{slid} vertices slid in {slid_in} of 200 files, and are all back");
-    assert!(slid_in > 80, "{slid_in}");
-}
-
 /// What is written of a torn file once it is sewn and simplified, what of it stays for edits: inserted
 /// vertices, and slid ones; and how many of these are put back.
 fn simplified(file: &[u8]) -> (String, [usize; 3]) {
     let document = read(file);
     let mut work = Work::on(&document);
     work.sew_all();
-    let simple = work.torn.simplified(&work.mesh, &work.positions);
-    let simple = simple.expect("what we wrote can be read");
-    let counts = [simple.edited, simple.slid_edited, simple.slid_back];
-    let document = simple.document;
-    let written = document.map_or_else(|| work.written(), |simple| Work::on(&simple).written());
-    (text(&written), counts)
+    work.simplified()
 }
 
 /// Edits a line of a file.
@@ -275,63 +172,50 @@ fn a_slide_stays_while_its_cut_is_open() {
     work.split_off(1, 0);
     work.torn.next_cut();
     work.slide(0, 2, 0.5);
-    let file = work.written();
-    let again = read(&file);
-    let work = Work::on(&again);
-    let simple = work.torn.simplified(&work.mesh, &work.positions);
-    let simple = simple.expect("what we wrote can be read");
-    assert_eq!((simple.slid_back, simple.slid_edited), (1, 0));
-    let simple = simple.document.expect("one is back");
-    assert_eq!(simple.positions()[0], document.positions()[0]);
-    assert_eq!(simple.positions()[1], Point::new(1.0, 0.5, 0.0));
-    let left = Work::on(&simple);
-    assert_eq!(left.undone(), FLAG);
+    let (simple, counts) = work.simplified();
+    assert_eq!(counts, [0, 0, 1], "one is back");
+    assert!(
+        simple.starts_with("o flag\nv 0 0 0 1 0 0\nv 1 0.5 0 "),
+        "{simple}"
+    );
+    assert_eq!(undone_later(simple.as_bytes()), FLAG);
 }
 
 /// What was put beside a vertex where it slid to holds it there; and what was put beside it before, is
-/// held by the slide.
+/// held by the slide: nothing is taken out, and nothing counts as edited.
 #[test]
 fn slides_and_insertions_wait_for_each_other() {
     let document = read(FLAG.as_bytes());
-    // Inserted first, then slid; the slide is held by a split of the second cut.
-    let mut work = Work::on(&document);
-    work.insert_on(1);
-    work.torn.next_cut();
-    work.slide(1, 3, 0.5);
-    work.split_off(1, 0);
-    let before = text(&work.written());
-    let simple = work.torn.simplified(&work.mesh, &work.positions);
-    let simple = simple.expect("what we wrote can be read");
-    assert!(simple.document.is_none());
-    assert_eq!(
-        (simple.edited, simple.slid_edited),
-        (0, 0),
-        "nobody edited anything"
-    );
-    assert_eq!(undone_later(before.as_bytes()), FLAG);
-    // The same with the split on another side: what was inserted is as it was, beside a vertex that is
-    // not where it was then.
-    let mut work = Work::on(&document);
-    work.insert_on(1);
-    work.torn.next_cut();
-    work.slide(1, 3, 0.5);
-    work.split_off(1, 2);
-    let simple = work.torn.simplified(&work.mesh, &work.positions);
-    let simple = simple.expect("what we wrote can be read");
-    assert!(simple.document.is_none());
-    assert_eq!((simple.edited, simple.slid_edited), (0, 0));
-    assert_eq!(work.undone(), FLAG);
-    // Slid first, then inserted; what was inserted is held by a split.
-    let mut work = Work::on(&document);
-    work.slide(1, 3, 0.5);
-    work.torn.next_cut();
-    work.insert_on(1);
-    work.split_off(8, 0);
-    let simple = work.torn.simplified(&work.mesh, &work.positions);
-    let simple = simple.expect("what we wrote can be read");
-    assert!(simple.document.is_none());
-    assert_eq!((simple.edited, simple.slid_edited), (0, 0));
-    assert_eq!(work.undone(), FLAG);
+    let deeds: [fn(&mut Work<'_>); 3] = [
+        // Inserted first, then slid; the slide is held by a split of the second cut, on either side.
+        |work| {
+            work.insert_on(1);
+            work.torn.next_cut();
+            work.slide(1, 3, 0.5);
+            work.split_off(1, 0);
+        },
+        |work| {
+            work.insert_on(1);
+            work.torn.next_cut();
+            work.slide(1, 3, 0.5);
+            work.split_off(1, 2);
+        },
+        // Slid first, then inserted; what was inserted is held by a split.
+        |work| {
+            work.slide(1, 3, 0.5);
+            work.torn.next_cut();
+            work.insert_on(1);
+            work.split_off(8, 0);
+        },
+    ];
+    for (case, deed) in deeds.iter().enumerate() {
+        let mut work = Work::on(&document);
+        deed(&mut work);
+        let written = text(&work.written());
+        assert_eq!(work.simplified(), (written.clone(), [0; 3]), "case {case}");
+        assert_eq!(undone_later(written.as_bytes()), FLAG, "case {case}");
+        assert_eq!(work.undone(), FLAG, "case {case}");
+    }
 }
 
 /// A vertex slides along a seam of the texture, and takes other indices on either side; the parts of a
@@ -348,7 +232,7 @@ fn parts_of_a_face_may_disagree_while_a_vertex_is_slid() {
         work.slide(0, 1, 0.25);
         work
     };
-    let work = divided_and_slid();
+    let mut work = divided_and_slid();
     let indices: Vec<Option<u32>> = (0..3).map(|face| at_vertex(&work, face, 0)).collect();
     assert_eq!(
         indices.iter().flatten().count(),
@@ -361,9 +245,7 @@ fn parts_of_a_face_may_disagree_while_a_vertex_is_slid() {
     // While the slide is held, so are the parts.
     let mut work = divided_and_slid();
     work.split_off(0, 0);
-    let simple = work.torn.simplified(&work.mesh, &work.positions);
-    let simple = simple.expect("what we wrote can be read");
-    assert!(simple.document.is_none());
+    assert_eq!(work.simplified().0, text(&work.written()));
     assert_eq!(work.undone(), seam);
 }
 
@@ -403,24 +285,4 @@ fn slides_among_all_other_edits_are_undone_to_the_byte() {
     }
     println!("{slid} slides among other edits, all undone");
     assert!(slid > 500, "{slid}");
-}
-
-impl Work<'_> {
-    /// Slides any vertex whose copies are all where it is, along any edge; whether there was one.
-    fn slide_anywhere(&mut self, random: &mut Random) -> bool {
-        let h = random.below(self.mesh.half_edge_count());
-        let h = HalfEdgeId::new(h).expect("a half-edge");
-        let ends = [self.mesh.origin(h), self.mesh.target(h)];
-        let roots = self.mesh.roots();
-        let is_alone = roots
-            .iter()
-            .filter(|&&root| root == roots[ends[0].index()])
-            .count()
-            == 1;
-        if is_alone {
-            let t = 0.05 + 0.9 * random.next();
-            self.slide(ends[0].index(), ends[1].index(), t);
-        }
-        is_alone
-    }
 }
