@@ -45,7 +45,7 @@
 //!   same bytes.
 //! * Lines keep their order, unless a face precedes its vertices. New vertices follow the last vertex
 //!   of their object, so each object keeps its own vertices, and the numbers of later vertices
-//!   increase ([`TornDocument::vertices_in_order`]). If an uninterpreted statement may name a vertex
+//!   increase ([`TornDocument::statements_in_order`]). If an uninterpreted statement may name a vertex
 //!   by its number, all vertices keep their numbers, and the new ones follow the last vertex of the file.
 //! * A split duplicates a position, never a texture coordinate or a normal; each corner keeps
 //!   those it had.
@@ -174,7 +174,6 @@ mod record;
 mod repair;
 mod sections;
 mod simplify;
-mod slides;
 mod store;
 mod torn;
 mod triangulate;

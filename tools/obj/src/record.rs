@@ -9,7 +9,6 @@
 use tearmesh::Point;
 
 use crate::families::Families;
-use crate::slides::Slides;
 use crate::store::push;
 
 /// How the first and the last line of a record begin, and those between.
@@ -32,7 +31,8 @@ pub(crate) struct Record {
     /// Texture coordinates and normals that were inserted: the first of each run, and the one behind
     /// its last. Ascending, and apart.
     pub(crate) new_indices: [Vec<[u32; 2]>; 2],
-    pub(crate) slides: Slides,
+    /// In the order in which they were made.
+    pub(crate) slides: Vec<Slid>,
     /// Ascending.
     pub(crate) apart: Vec<Apart>,
     /// The `v` of the file that were copies, by their numbers there, and the vertices that they are;
@@ -81,41 +81,66 @@ pub(crate) fn is_in(runs: &[[u32; 2]], number: u32) -> bool {
 pub(crate) struct Inserted {
     pub(crate) vertex: u32,
     pub(crate) cut: u32,
-    pub(crate) at: At,
+    /// The roots that it was put between, and their weights. On an edge, which is between the first
+    /// two, the last weight is 0.
+    pub(crate) between: [u32; 3],
+    pub(crate) weights: [f64; 3],
 }
 
-/// Where a vertex was inserted, between roots.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum At {
-    Edge {
-        ends: [u32; 2],
-        t: f64,
-    },
-    Face {
-        corners: [u32; 3],
-        weights: [f64; 3],
-    },
-}
-
-impl At {
-    /// The roots that it names.
-    pub(crate) fn roots(&self) -> &[u32] {
-        match self {
-            At::Edge { ends, .. } => ends,
-            At::Face { corners, .. } => corners,
-        }
+impl Inserted {
+    pub(crate) fn is_on_edge(&self) -> bool {
+        self.weights[2] == 0.0
     }
 
-    pub(crate) fn map(self, f: impl Fn(u32) -> u32) -> At {
-        match self {
-            At::Edge { ends, t } => At::Edge {
-                ends: ends.map(f),
-                t,
-            },
-            At::Face { corners, weights } => At::Face {
-                corners: corners.map(f),
-                weights,
-            },
+    /// Renames the roots.
+    pub(crate) fn renumbered(self, id: impl Fn(u32) -> u32) -> Inserted {
+        Inserted {
+            vertex: id(self.vertex),
+            between: self.between.map(id),
+            ..self
+        }
+    }
+}
+
+/// A vertex that slid along an edge. That moves it and interpolates what it has: its extra numbers, and
+/// the texture coordinates and normals of its corners, which get indices of their own. No arithmetic undoes
+/// that to the last bit, so what was before is on record; and what was then tells whether anybody
+/// edited the vertex since.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Slid {
+    pub(crate) vertex: u32,
+    pub(crate) cut: u32,
+    /// What its `v` had before, and behind that as many numbers that it had then.
+    pub(crate) numbers: Vec<f64>,
+    pub(crate) exchanges: Vec<Exchange>,
+}
+
+/// A texture coordinate (0) or a normal (1) that corners of a vertex got for another when it slid.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Exchange {
+    pub(crate) which: usize,
+    pub(crate) new: u32,
+    pub(crate) old: u32,
+    /// What the new index names.
+    pub(crate) value: Vec<f64>,
+}
+
+impl Slid {
+    /// What its `v` had before.
+    pub(crate) fn before(&self) -> &[f64] {
+        &self.numbers[..self.numbers.len() / 2]
+    }
+
+    /// What its `v` had when it had slid.
+    pub(crate) fn after(&self) -> &[f64] {
+        &self.numbers[self.numbers.len() / 2..]
+    }
+
+    /// Renames the indices.
+    pub(crate) fn renumber_indices(&mut self, number: impl Fn(usize, u32) -> u32) {
+        for exchange in &mut self.exchanges {
+            let indices = [exchange.new, exchange.old];
+            [exchange.new, exchange.old] = indices.map(|index| number(exchange.which, index));
         }
     }
 }
@@ -186,11 +211,12 @@ impl Record {
             [split.vertex, split.from] = [split.vertex, split.from].map(&id);
         }
         for inserted in &mut self.inserted {
-            inserted.vertex = id(inserted.vertex);
-            inserted.at = inserted.at.map(&id);
+            *inserted = inserted.renumbered(&id);
         }
         self.families.renumber(&id);
-        self.slides = self.slides.filtered(|_, v| Some(id(v)), |_, index| index);
+        for slid in &mut self.slides {
+            slid.vertex = id(slid.vertex);
+        }
         for apart in &mut self.apart {
             apart.vertex = id(apart.vertex);
         }

@@ -15,8 +15,7 @@ use crate::diagnostic::ReadError;
 use crate::document::Document;
 use crate::polygons::Corner;
 use crate::read::text::without_statements_of_vertex;
-use crate::record::{Record, runs};
-use crate::slides::Exchange;
+use crate::record::{Exchange, Record, Slid, runs};
 use crate::store::Kind;
 use crate::torn::TornDocument;
 
@@ -143,7 +142,7 @@ struct Rest<'d> {
     families: Vec<Option<u32>>,
     /// For each vertex that stays and of which slides are undone, what its `v` has then, and which indices
     /// its corners exchange, in this order.
-    put_back: BTreeMap<u32, (&'d [f64], Vec<Exchange>)>,
+    put_back: BTreeMap<u32, (&'d [f64], Vec<&'d Exchange>)>,
 }
 
 impl<'d> Rest<'d> {
@@ -160,13 +159,12 @@ impl<'d> Rest<'d> {
                 }
             }
         }
-        let mut put_back: BTreeMap<u32, (&[f64], Vec<Exchange>)> = BTreeMap::new();
+        let mut put_back: BTreeMap<u32, (&[f64], Vec<&Exchange>)> = BTreeMap::new();
         for (slide, slid) in record.slides.iter().enumerate().rev() {
             if undo.is_back[slide] && !undo.goes(slid.vertex) {
                 let (numbers, exchanges) = put_back.entry(slid.vertex).or_default();
-                *numbers = record.slides.before(slide);
-                let of_slide = record.slides.exchanges(slide);
-                exchanges.extend(of_slide.map(|(exchange, _)| exchange));
+                *numbers = slid.before();
+                exchanges.extend(&slid.exchanges);
             }
         }
         Rest {
@@ -195,7 +193,7 @@ impl<'d> Rest<'d> {
 
     /// Whether a slide stays on record.
     fn has_slide(&self, slide: usize) -> bool {
-        let vertex = self.record.slides.get(slide).vertex;
+        let vertex = self.record.slides[slide].vertex;
         !self.undo.is_back[slide] && !self.undo.goes(vertex)
     }
 
@@ -227,9 +225,9 @@ impl<'d> Rest<'d> {
         }
         let slides = &self.record.slides;
         for slide in (0..slides.len()).filter(|&slide| self.has_slide(slide)) {
-            for (Exchange { which, new, old }, _) in slides.exchanges(slide) {
-                stays[1 + which][new as usize] = true;
-                stays[1 + which][old as usize] = true;
+            for exchange in &slides[slide].exchanges {
+                stays[1 + exchange.which][exchange.new as usize] = true;
+                stays[1 + exchange.which][exchange.old as usize] = true;
             }
         }
         stays
@@ -309,11 +307,12 @@ impl<'d> Rest<'d> {
             let staying = all.filter(|&index| stays[1 + which][index as usize]);
             runs(staying.map(|index| numbers[1 + which][index as usize]))
         });
-        let slides = &self.record.slides;
-        record.slides = slides.filtered(
-            |slide, vertex| self.has_slide(slide).then_some(vertex),
-            |which, index| numbers[1 + which][index as usize],
-        );
+        let mut slides = 0..;
+        let has_slide = |_: &Slid| slides.next().is_some_and(|slide| self.has_slide(slide));
+        record.slides.retain(has_slide);
+        for slid in &mut record.slides {
+            slid.renumber_indices(|which, index| numbers[1 + which][index as usize]);
+        }
         record.renumber(|vertex| numbers[0][vertex as usize]);
         record
     }

@@ -15,6 +15,8 @@ pub(crate) use self::corners::{length, normal_between, numbers_between};
 pub(crate) use self::slots::Slots;
 pub(crate) use self::turns::Turns;
 
+use std::borrow::Cow;
+
 use tearmesh::{
     Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mesh, Mix, Point,
     Positions, Slide, VertexId, VertexOp, mend::Stitch,
@@ -25,8 +27,7 @@ use self::corners::Corners;
 use self::extras::Extras;
 use crate::document::Document;
 use crate::families::Families;
-use crate::record::{Apart, At, Inserted, Record, SplitOff, is_in, is_same_point};
-use crate::slides::Slides;
+use crate::record::{Apart, Inserted, Record, Slid, SplitOff, is_in, is_same_point};
 
 /// A document together with all edits of its mesh. It is a [`Follower`] of the mesh's log, and
 /// writes the edited file.
@@ -86,16 +87,16 @@ pub struct TornDocument<'d> {
     cut_is_used: bool,
     ancestry: Ancestry,
     extras: Extras,
-    /// What was inserted, by class, ascending. `vertex` is the class, and those in `at` are.
+    /// What was inserted, by class, ascending: vertices are classes.
     inserted: Vec<Inserted>,
     /// What became of faces, and of their corners; `None` until the first insertion.
     corners: Option<Corners<'d>>,
     /// Divided faces.
     families: Families,
     /// Vertices that slid, by the nodes of the ancestry.
-    slides: Slides,
-    /// Where vertices are if nothing but the log moves them; `None` until the first edit.
-    places: Option<Positions>,
+    slides: Vec<Slid>,
+    /// Where vertices are if nothing but the log moves them.
+    places: Cow<'d, [Point]>,
     /// Where the `v` of vertices say that these are; `None` if none stands apart.
     shown: Option<Vec<Point>>,
 }
@@ -116,8 +117,8 @@ impl<'d> TornDocument<'d> {
             inserted: record.map_or(Vec::new(), |record| record.inserted.clone()),
             corners: None,
             families: record.map_or_else(Families::default, |record| record.families.clone()),
-            slides: record.map_or_else(Slides::default, |record| record.slides.clone()),
-            places: None,
+            slides: record.map_or(Vec::new(), |record| record.slides.clone()),
+            places: Cow::Borrowed(&document.positions),
             shown: record.and_then(|record| shown(document, record)),
         }
     }
@@ -273,9 +274,8 @@ impl<'d> TornDocument<'d> {
 
     /// Writes vertices where they are, although they were to be written apart.
     pub fn set_in_place(&mut self, is_in_place: impl Fn(VertexId) -> bool) {
-        let places = self.places.as_ref().map(Positions::as_slice);
-        let places = places.unwrap_or(&self.document.positions).iter();
-        let shown = self.shown.iter_mut().flatten().zip(places).enumerate();
+        let shown = self.shown.iter_mut().flatten();
+        let shown = shown.zip(self.places.iter()).enumerate();
         for (v, (shown, place)) in shown {
             if VertexId::new(v).is_some_and(&is_in_place) {
                 *shown = *place;
@@ -288,9 +288,7 @@ impl<'d> TornDocument<'d> {
         let Some(shown) = &self.shown else {
             return Vec::new();
         };
-        let places = self.places.as_ref().map(Positions::as_slice);
-        let places = places.unwrap_or(&self.document.positions).iter();
-        let mut all = places.zip(positions.as_slice());
+        let mut all = self.places.iter().zip(positions.as_slice());
         if !all.all(|(&place, &is)| is_same_point(place, is)) {
             return Vec::new();
         }
@@ -356,10 +354,21 @@ impl<'d> TornDocument<'d> {
                     before = None;
                 }
                 None => {
+                    let class = |v: VertexId| self.ancestry.class(v.index());
+                    let (between, weights) = match point.at {
+                        InsertLocation::Edge { ends, t } => {
+                            let [a, b] = ends.map(class);
+                            ([a, b, b], [1.0 - t, t, 0.0])
+                        }
+                        InsertLocation::Face { vertices, weights } => {
+                            (vertices.map(class), weights)
+                        }
+                    };
                     self.inserted.push(Inserted {
                         vertex: self.ancestry.class_count() as u32,
                         cut: self.cut,
-                        at: self.place(&point.at),
+                        between,
+                        weights,
                     });
                     self.ancestry.insert();
                     before = Some(point);
@@ -372,35 +381,27 @@ impl<'d> TornDocument<'d> {
         self.cut_is_used = true;
     }
 
-    /// Where vertices are if nothing but the log moves them.
-    fn places(&mut self) -> &mut Positions {
-        let document = self.document;
-        self.places.get_or_insert_with(|| {
-            let points = Positions::new(document.positions.iter().copied());
-            points.expect("the reader refuses other coordinates")
-        })
-    }
-
     /// All numbers of the `v` of a vertex, if nothing but the log moves it.
-    fn numbers(&mut self, v: VertexId) -> Vec<f64> {
-        let place: [f64; 3] = self.places().at(v).into();
+    fn numbers(&self, v: VertexId) -> Vec<f64> {
+        let place: [f64; 3] = self.places[v.index()].into();
         [&place, self.extra_numbers(v.index())].concat()
     }
 
     /// Follows a vertex that slid, and had these numbers before.
     fn slide(&mut self, slide: &Slide<'_>, before: &[f64]) {
         let numbers = [before, &self.numbers(slide.vertex)].concat();
-        let vertex = slide.vertex.index();
-        self.slides
-            .push(self.ancestry.node(vertex), self.cut, &numbers);
+        let mut exchanges = Vec::new();
         let document = self.document;
         if document.texture.len() + document.normals.len() > 0 {
             let corners = self.corners.get_or_insert_with(|| Corners::new(document));
-            for exchange in corners.slide(slide) {
-                let value = self.value(exchange.which, exchange.new).to_vec();
-                self.slides.push_exchange(exchange, &value);
-            }
+            exchanges = corners.slide(slide);
         }
+        self.slides.push(Slid {
+            vertex: self.ancestry.node(slide.vertex.index()),
+            cut: self.cut,
+            numbers,
+            exchanges,
+        });
         self.cut_is_used = true;
     }
 
@@ -412,8 +413,8 @@ impl<'d> TornDocument<'d> {
         for op in edit.vertex_ops() {
             op.apply(shown, Blend::blend);
         }
-        if let (Edit::Merge(merge), Some(places)) = (edit, &self.places) {
-            shown[merge.kept.index()] = places.at(merge.kept);
+        if let Edit::Merge(merge) = edit {
+            shown[merge.kept.index()] = self.places[merge.kept.index()];
         }
     }
 
@@ -432,20 +433,6 @@ impl<'d> TornDocument<'d> {
         }
         let since = sides.map(|[a, b]| self.ancestry.apart_since(a, b));
         Some(since[0].min(since[1]))
-    }
-
-    fn place(&self, at: &InsertLocation) -> At {
-        let class = |v: VertexId| self.ancestry.class(v.index());
-        match *at {
-            InsertLocation::Edge { ends, t } => At::Edge {
-                ends: ends.map(class),
-                t,
-            },
-            InsertLocation::Face { vertices, weights } => At::Face {
-                corners: vertices.map(class),
-                weights,
-            },
-        }
     }
 
     /// What the `v` of a vertex has behind z.
@@ -485,7 +472,9 @@ impl Follower for TornDocument<'_> {
             Edit::Slide(slide) => self.numbers(slide.vertex),
             Edit::Split(_) | Edit::Insert(_) | Edit::Merge(_) => Vec::new(),
         };
-        self.places().follow(edit);
+        for op in edit.vertex_ops() {
+            op.apply(self.places.to_mut(), Blend::blend);
+        }
         self.extras.follow(edit);
         self.follow_apart(edit);
         match edit {
@@ -520,13 +509,15 @@ impl TornDocument<'_> {
     }
 
     /// Vertices that slid, by their ids as they are now.
-    pub(crate) fn slides(&self) -> Slides {
-        if self.slides.is_empty() {
-            return Slides::default();
+    pub(crate) fn slides(&self) -> Vec<Slid> {
+        let mut slides = self.slides.clone();
+        if !slides.is_empty() {
+            let vertices = self.ancestry.clone().vertices_of_nodes();
+            for slid in &mut slides {
+                slid.vertex = vertices[slid.vertex as usize];
+            }
         }
-        let vertices = self.ancestry.clone().vertices_of_nodes();
-        let vertex = |_, node: u32| Some(vertices[node as usize]);
-        self.slides.filtered(vertex, |_, index| index)
+        slides
     }
 
     pub(crate) fn inserted(&self) -> &[Inserted] {
@@ -566,8 +557,7 @@ impl TornDocument<'_> {
             None => {
                 let (face, corner) = (half_edge / 3, half_edge % 3);
                 let of_polygon = self.document.corner_of_polygon(face, corner, polygon);
-                let corner = self.document.polygons.corner(of_polygon);
-                [corner.texture, corner.normal]
+                self.document.polygons.indices(of_polygon)
             }
         }
     }

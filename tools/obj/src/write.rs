@@ -135,8 +135,14 @@ impl TornDocument<'_> {
     }
 
     /// Returns the vertex of each `v` that [`TornDocument::write`] writes, in order. A vertex with several
-    /// fans is listed once for each fan. Without such vertices the result equals
-    /// [`TornDocument::vertices_in_order`].
+    /// fans is listed once for each fan. Vertex `i` of a mesh that is read from the written file is the
+    /// `i`-th of those that are listed, each counted once.
+    ///
+    /// The vertices of the document keep their order. A split-off vertex follows the last vertex of the
+    /// object of its root. An inserted vertex follows the last vertex of the object of the vertices that
+    /// it was inserted between. So if several objects have vertices of their own, the new vertices of the
+    /// first object precede all vertices of the second. New vertices of the same object are in the order
+    /// of their creation, and the further `v` of vertices with several fans follow them.
     ///
     /// # Panics
     ///

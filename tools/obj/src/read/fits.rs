@@ -5,7 +5,7 @@ use super::items::Items;
 use crate::diagnostic::{Diagnostic, Location};
 use crate::document::Document;
 use crate::families::{Families, Family};
-use crate::record::{Hash, are_last, runs};
+use crate::record::{Exchange, Hash, Slid, are_last, runs};
 use crate::store::push;
 
 /// Why a record, whose faces have this hash, is not one of this document.
@@ -137,24 +137,20 @@ pub(super) fn forget_corners(document: &mut Document, items: &mut Items, place: 
         counts.indices[0][1] as usize == document.texture.len(),
         counts.indices[1][1] as usize == document.normals.len(),
     ];
-    let slides = &record.slides;
-    let forgotten = |slide: usize| {
-        let mut exchanges = slides.exchanges(slide);
-        exchanges.any(|(exchange, _)| !is_known[exchange.which])
-    };
-    let all = 0..slides.len();
-    let mut vertices: Vec<u32> = all
-        .filter(|&slide| forgotten(slide))
-        .map(|slide| slides.get(slide).vertex)
-        .collect();
+    let is_lost = |exchange: &Exchange| !is_known[exchange.which];
+    let forgotten = record
+        .slides
+        .iter()
+        .filter(|slid| slid.exchanges.iter().any(is_lost));
+    let mut vertices: Vec<u32> = forgotten.map(|slid| slid.vertex).collect();
     vertices.sort_unstable();
     vertices.dedup();
     if vertices.is_empty() {
         return;
     }
     // What was before is no use without what came later.
-    let stays = |_, vertex: u32| vertices.binary_search(&vertex).is_err().then_some(vertex);
-    record.slides = slides.filtered(stays, |_, index| index);
+    let stays = |slid: &Slid| vertices.binary_search(&slid.vertex).is_err();
+    record.slides.retain(stays);
     let stay = match vertices.len() {
         1 => "1 vertex that slid stays where it is".to_owned(),
         many => format!("{many} vertices that slid stay where they are"),

@@ -7,10 +7,11 @@ use tearmesh::{COORDINATE_MAX, Point};
 
 use super::fault::{Fault, Parsed, quoted};
 use super::scan::Scan;
-use super::words::{CODE, damaged, nothing_more, numbers, out_of_range, whole};
+use super::words::{CODE, DAMAGED, damaged, index, nothing_more, numbers, out_of_range, whole};
 use crate::families::Family;
-use crate::record::{Apart, At, Inserted, Record, SplitOff, are_last, is_same_point, runs};
-use crate::slides::Exchange;
+use crate::record::{
+    Apart, Exchange, Inserted, Record, Slid, SplitOff, are_last, is_same_point, runs,
+};
 use crate::store::{NUMBERS_MAX, push};
 
 /// What a record says as far as it was read, by the numbers of the file.
@@ -39,103 +40,74 @@ pub(super) struct Counts {
     pub(super) indices: [[u32; 2]; 2],
 }
 
+/// Reads an item from behind its word on.
+type Read = fn(&mut Items, &mut Scan<'_>) -> Parsed<()>;
+
+/// The items: the word, the place in their order (`edge` and `face` have one, and so have slides), the
+/// version that has them first, and what reads them.
+const KINDS: [(&[u8], usize, i64, Read); 12] = [
+    (b"split", 0, 1, Items::split),
+    (b"fan", 1, 1, Items::fan),
+    (b"edge", 2, 1, Items::edge),
+    (b"face", 2, 1, Items::face),
+    (b"parent", 3, 1, Items::parent),
+    (b"vt", 4, 2, |items, scan| items.inserted_indices(0, scan)),
+    (b"vn", 5, 2, |items, scan| items.inserted_indices(1, scan)),
+    (b"slide", 6, 2, Items::slide),
+    (b"slide-vt", 6, 2, |items, scan| items.exchange(0, scan)),
+    (b"slide-vn", 6, 2, |items, scan| items.exchange(1, scan)),
+    (b"apart", 7, 3, Items::apart),
+    (b"again", 8, 4, Items::again),
+];
+
 impl Items {
-    /// Nothing, but for what the first line says.
-    pub(super) fn new(counts: Counts) -> Items {
-        Items {
-            counts,
-            ..Items::default()
-        }
-    }
-
-    /// The number of vertices of the file.
-    fn vertices(&self) -> i64 {
-        i64::from(self.counts.vertices)
-    }
-
     /// Whether a vertex of the file is a copy of another.
     pub(super) fn is_copy(&self, vertex: u32) -> bool {
-        self.fans
-            .binary_search_by_key(&vertex, |&[copy, _]| copy)
-            .is_ok()
+        let copy = self.fans.binary_search_by_key(&vertex, |&[copy, _]| copy);
+        copy.is_ok()
     }
 
     /// Takes the next line, from behind its mark on.
     pub(super) fn item(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        // `edge` and `face` are in one order, and so are slides. Version 1 has the first five,
-        // version 2 all but the last two, and version 3 all but the last.
-        const KINDS: [(&[u8], usize); 12] = [
-            (b"split", 0),
-            (b"fan", 1),
-            (b"edge", 2),
-            (b"face", 2),
-            (b"parent", 4),
-            (b"vt", 5),
-            (b"vn", 6),
-            (b"slide", 7),
-            (b"slide-vt", 7),
-            (b"slide-vn", 7),
-            (b"apart", 8),
-            (b"again", 9),
-        ];
-        scan.find_token();
-        let (start, word) = (scan.at(), scan.token());
+        let start = scan.token_start();
+        let word = scan.token();
         scan.skip(word.len());
-        let mut known = KINDS.iter().take(match self.counts.version {
-            1 => 5,
-            2 => 10,
-            3 => 11,
-            _ => KINDS.len(),
-        });
-        match known.find(|(kind, _)| *kind == word) {
-            Some(&(_, rank)) if rank >= self.kind => self.kind = rank,
+        let known = KINDS.iter().find(|(kind, ..)| *kind == word);
+        match known {
+            Some(&(_, place, since, read))
+                if place >= self.kind && since <= self.counts.version =>
+            {
+                self.kind = place;
+                read(self, scan)?;
+                nothing_more(scan)
+            }
             _ => {
-                return damaged(
-                    start..scan.at(),
-                    format!("this record has no line {} here", quoted(word)),
-                );
+                let message = format!("this record has no line {} here", quoted(word));
+                damaged(scan, start, message)
             }
         }
-        match word {
-            b"split" => self.split(scan)?,
-            b"fan" => self.fan(scan)?,
-            b"edge" => self.edge(scan)?,
-            b"face" => self.face(scan)?,
-            b"parent" => self.parent(scan)?,
-            b"slide" => return self.slide(scan),
-            b"slide-vt" => return self.exchange(0, scan),
-            b"slide-vn" => return self.exchange(1, scan),
-            b"apart" => return self.apart(scan),
-            b"again" => self.again(scan)?,
-            _ => self.inserted_indices(usize::from(word == b"vn"), scan)?,
-        }
-        nothing_more(scan)
     }
 
     fn split(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let last = self.record.splits.last().map_or(1, |last| last.vertex + 1);
-        let vertex = whole(scan, i64::from(last) + 1, self.vertices())? - 1;
-        let from = whole(scan, 1, i64::from(vertex))? - 1;
-        let cut = whole(scan, 1, i64::from(u32::MAX) - 1)?;
+        let vertex = index(scan, last, self.counts.vertices)?;
+        let from = index(scan, 0, vertex)?;
+        let cut = cut(scan, 1)?;
         push(&mut self.record.splits, SplitOff { vertex, from, cut });
         Ok(())
     }
 
     fn fan(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let least = self.fans.last().map_or(1, |&[copy, _]| i64::from(copy) + 1);
+        let last = self.fans.last().map_or(1, |&[copy, _]| copy + 1);
         let start = scan.token_start();
-        let copy = whole(scan, least + 1, self.vertices())? - 1;
-        let splits = &self.record.splits;
-        if splits
-            .binary_search_by_key(&copy, |split| split.vertex)
-            .is_ok()
-        {
-            return damaged(start..scan.at(), "a copy of this record was split off");
+        let copy = index(scan, last, self.counts.vertices)?;
+        if self.split_of(copy).is_some() {
+            return damaged(scan, start, "a copy of this record was split off");
         }
         let start = scan.token_start();
-        let of = whole(scan, 1, i64::from(copy))? - 1;
+        let of = index(scan, 0, copy)?;
         if self.is_copy(of) {
-            return damaged(start..scan.at(), "this record has a copy of a copy");
+            return damaged(scan, start, "this record has a copy of a copy");
         }
         push(&mut self.fans, [copy, of]);
         Ok(())
@@ -143,20 +115,25 @@ impl Items {
 
     fn edge(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let (vertex, cut) = self.inserted(scan)?;
-        let ends = [self.root(scan)?, self.root(scan)?];
+        let [a, b] = [self.root(scan)?, self.root(scan)?];
         let at = scan.token_start();
         let t = scan.number()?;
-        if !(t > 0.0 && t < 1.0) || ends[0] == ends[1] {
+        if !(t > 0.0 && t < 1.0) || a == b {
             return Err(out_of_range(at..scan.at(), 0, 1));
         }
-        let at = At::Edge { ends, t };
-        push(&mut self.record.inserted, Inserted { vertex, cut, at });
+        let inserted = Inserted {
+            vertex,
+            cut,
+            between: [a, b, b],
+            weights: [1.0 - t, t, 0.0],
+        };
+        push(&mut self.record.inserted, inserted);
         Ok(())
     }
 
     fn face(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let (vertex, cut) = self.inserted(scan)?;
-        let corners = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
+        let between = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
         let mut weights = [0.0; 3];
         for weight in &mut weights {
             let at = scan.token_start();
@@ -165,16 +142,21 @@ impl Items {
                 return Err(out_of_range(at..scan.at(), 0, 1));
             }
         }
-        let at = At::Face { corners, weights };
-        push(&mut self.record.inserted, Inserted { vertex, cut, at });
+        let inserted = Inserted {
+            vertex,
+            cut,
+            between,
+            weights,
+        };
+        push(&mut self.record.inserted, inserted);
         Ok(())
     }
 
     fn parent(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let faces = i64::from(self.counts.faces);
-        let least = self.parents.last().map_or(0, |(faces, _)| faces.end);
-        let first = whole(scan, i64::from(least) + 1, faces)? - 1;
-        let end = whole(scan, i64::from(first) + 1, faces)?;
+        let faces = self.counts.faces;
+        let last = self.parents.last().map_or(0, |(faces, _)| faces.end);
+        let first = index(scan, last, faces)?;
+        let end = index(scan, first, faces)? + 1;
         let corners = self.corners(scan)?;
         push(&mut self.parents, (first..end, corners));
         Ok(())
@@ -185,7 +167,7 @@ impl Items {
         let at = scan.token_start();
         let corners @ [a, b, c] = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
         if a == b || b == c || c == a {
-            return damaged(at..scan.at(), "a face of this record has a vertex twice");
+            return damaged(scan, at, "a face of this record has a vertex twice");
         }
         Ok(corners)
     }
@@ -194,44 +176,42 @@ impl Items {
     fn inserted_indices(&mut self, which: usize, scan: &mut Scan<'_>) -> Parsed<()> {
         let [_, all] = self.counts.indices[which];
         let runs = &mut self.record.new_indices[which];
-        let least = runs.last().map_or(0, |&[_, end]| i64::from(end) + 1);
-        let first = whole(scan, least + 1, i64::from(all))? - 1;
-        let end = whole(scan, i64::from(first) + 1, i64::from(all))?;
+        let last = runs.last().map_or(0, |&[_, end]| i64::from(end) + 1);
+        let first = index(scan, last, all)?;
+        let end = index(scan, first, all)? + 1;
         push(runs, [first, end]);
         Ok(())
     }
 
     /// A vertex that slid, with all numbers of its `v` before and then: to the end of the line.
     fn slide(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let at = scan.token_start();
-        let vertex = whole(scan, 1, self.vertices())? - 1;
-        if self.is_copy(vertex) {
-            return damaged(
-                at..scan.at(),
-                format!("vertex {} is a copy", u64::from(vertex) + 1),
-            );
-        }
+        let vertex = self.vertex(scan, 0, DAMAGED)?;
         let slides = &mut self.record.slides;
-        let last = slides.len().checked_sub(1).map(|last| slides.get(last).cut);
-        let cut = whole(scan, i64::from(last.unwrap_or(1)), i64::from(u32::MAX) - 1)?;
+        let cut = cut(scan, slides.last().map_or(1, |last| last.cut))?;
         let mut row = [0.0; 2 * NUMBERS_MAX];
         let start = scan.at();
         let count = numbers(scan, &mut row)?;
         let half = count / 2;
-        let places = || [0, half].into_iter().flat_map(|at| at..at + 3);
-        if count % 2 != 0 || half < 3 || slides.is_full() {
-            return damaged(
-                start..scan.at(),
-                "this record has a slide with different counts of numbers before and after",
-            );
+        if count % 2 != 0 || half < 3 {
+            let message =
+                "this record has a slide with different counts of numbers before and after";
+            return damaged(scan, start, message);
         }
-        if places().any(|at| row[at].abs() > COORDINATE_MAX) {
+        let mut places = [0, half].into_iter().flat_map(|at| at..at + 3);
+        if places.any(|at| row[at].abs() > COORDINATE_MAX) {
             return damaged(
-                start..scan.at(),
+                scan,
+                start,
                 "this record has a coordinate that is too large",
             );
         }
-        slides.push(vertex, cut, &row[..count]);
+        let slid = Slid {
+            vertex,
+            cut,
+            numbers: row[..count].to_vec(),
+            exchanges: Vec::new(),
+        };
+        push(slides, slid);
         Ok(())
     }
 
@@ -240,47 +220,43 @@ impl Items {
     fn exchange(&mut self, which: usize, scan: &mut Scan<'_>) -> Parsed<()> {
         let [_, all] = self.counts.indices[which];
         let start = scan.at();
-        let new = whole(scan, 1, i64::from(all))? - 1;
-        let old = whole(scan, 1, i64::from(all))? - 1;
+        let [new, old] = [index(scan, 0, all)?, index(scan, 0, all)?];
         let mut value = [0.0; 3];
         let count = numbers(scan, &mut value)?;
-        let slides = &mut self.record.slides;
-        if slides.is_empty() || slides.is_full() || count == 0 || new == old {
-            return damaged(
-                start..scan.at(),
-                "this record has corners here without a vertex that slid",
-            );
+        match self.record.slides.last_mut() {
+            Some(slid) if count > 0 && new != old => {
+                let value = value[..count].to_vec();
+                let exchange = Exchange {
+                    which,
+                    new,
+                    old,
+                    value,
+                };
+                push(&mut slid.exchanges, exchange);
+                Ok(())
+            }
+            _ => {
+                let message = "this record has corners here without a vertex that slid";
+                damaged(scan, start, message)
+            }
         }
-        slides.push_exchange(Exchange { which, new, old }, &value[..count]);
-        Ok(())
     }
 
     /// A vertex that stands apart: where it is, and where its `v` says.
     fn apart(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         let last = self.record.apart.last().map_or(0, |last| last.vertex + 1);
-        let at = scan.token_start();
-        let vertex = whole(scan, i64::from(last) + 1, self.vertices())? - 1;
-        if self.is_copy(vertex) {
-            return damaged(
-                at..scan.at(),
-                format!("vertex {} is a copy", u64::from(vertex) + 1),
-            );
-        }
+        let vertex = self.vertex(scan, last, DAMAGED)?;
         let start = scan.at();
         let mut row = [0.0; 6];
         let count = numbers(scan, &mut row)?;
         if count < row.len() || row.iter().any(|x| x.abs() > COORDINATE_MAX) {
-            return damaged(
-                start..scan.at(),
-                "this record has a vertex without two usable points",
-            );
+            let message = "this record has a vertex without two usable points";
+            return damaged(scan, start, message);
         }
         let [is, shown] = [0, 3].map(|i| Point::new(row[i], row[i + 1], row[i + 2]));
         if is_same_point(is, shown) {
-            return damaged(
-                start..scan.at(),
-                "this record writes a vertex apart at its own position",
-            );
+            let message = "this record writes a vertex apart at its own position";
+            return damaged(scan, start, message);
         }
         push(&mut self.record.apart, Apart { vertex, is, shown });
         Ok(())
@@ -292,16 +268,14 @@ impl Items {
         let corners = self.corners(scan)?;
         let number = self.again.len() as u32;
         push(&mut self.again, Family { corners, above });
-        let mut least = 1;
+        let mut last = 0;
         while scan.find_token() {
             let start = scan.at();
-            let face = whole(scan, least, i64::from(self.counts.faces))?;
-            least = i64::from(face) + 1;
-            if self.again_of.insert(face - 1, number).is_some() {
-                return damaged(
-                    start..scan.at(),
-                    "this record has a face in two that were divided again",
-                );
+            let face = index(scan, last, self.counts.faces)?;
+            last = face + 1;
+            if self.again_of.insert(face, number).is_some() {
+                let message = "this record has a face in two that were divided again";
+                return damaged(scan, start, message);
             }
         }
         Ok(())
@@ -313,29 +287,40 @@ impl Items {
         let vertex = self.root(scan)?;
         let last = self.record.inserted.last();
         if last.is_some_and(|last| last.vertex >= vertex) {
-            return damaged(at..scan.at(), "vertices of this record are not in order");
+            return damaged(scan, at, "vertices of this record are not in order");
         }
-        Ok((vertex, whole(scan, 1, i64::from(u32::MAX) - 1)?))
+        Ok((vertex, cut(scan, 1)?))
+    }
+
+    /// A vertex with a number above `last` that is no copy; `label` is said of one that is.
+    fn vertex(&self, scan: &mut Scan<'_>, last: u32, label: &str) -> Parsed<u32> {
+        let at = scan.token_start();
+        let vertex = index(scan, last, self.counts.vertices)?;
+        if self.is_copy(vertex) {
+            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
+            return Err(Fault::new(CODE, at..scan.at(), message, label));
+        }
+        Ok(vertex)
     }
 
     /// A vertex that was split from no other.
     fn root(&self, scan: &mut Scan<'_>) -> Parsed<u32> {
+        const EXPECTED: &str = "expected a root";
         let at = scan.token_start();
-        let vertex = whole(scan, 1, self.vertices())? - 1;
-        if self.is_copy(vertex) {
-            let message = format!("vertex {} is a copy", u64::from(vertex) + 1);
-            return Err(Fault::new(CODE, at..scan.at(), message, "expected a root"));
-        }
+        let vertex = self.vertex(scan, 0, EXPECTED)?;
+        let Some(split) = self.split_of(vertex) else {
+            return Ok(vertex);
+        };
+        let [vertex, from] = [split.vertex, split.from].map(|v| u64::from(v) + 1);
+        let message = format!("vertex {vertex} was split from {from}");
+        Err(Fault::new(CODE, at..scan.at(), message, EXPECTED))
+    }
+
+    /// How a vertex was split off, if it was.
+    fn split_of(&self, vertex: u32) -> Option<SplitOff> {
         let splits = &self.record.splits;
-        let split = splits.binary_search_by_key(&vertex, |split| split.vertex);
-        match split {
-            Err(_) => Ok(vertex),
-            Ok(split) => {
-                let from = u64::from(splits[split].from) + 1;
-                let message = format!("vertex {} was split from {from}", u64::from(vertex) + 1);
-                Err(Fault::new(CODE, at..scan.at(), message, "expected a root"))
-            }
-        }
+        let place = splits.binary_search_by_key(&vertex, |split| split.vertex);
+        place.ok().map(|place| splits[place])
     }
 
     /// What is wrong with the counts, now that all lines are there.
@@ -351,4 +336,9 @@ impl Items {
         });
         is_wrong.then_some("the counts of this record do not match its lines")
     }
+}
+
+/// The number of a cut.
+fn cut(scan: &mut Scan<'_>, least: u32) -> Parsed<u32> {
+    whole(scan, least, u32::MAX - 1)
 }

@@ -7,7 +7,7 @@ use super::apart::put_in_place;
 use super::copies::join;
 use super::fault::{Fault, Line, Parsed, locate};
 use super::fits::{forget_corners, misfit, settle};
-use super::items::{Counts, Items};
+use super::items::Items;
 
 use super::scan::Scan;
 use super::words::{CODE, damaged, exactly, hexadecimal, nothing_more, version, whole};
@@ -107,30 +107,21 @@ impl RecordReader {
             let fault = Fault::new(CODE, start..scan.at(), message, "begins here");
             return Err(fault.help("after joining files, cut the joined file again"));
         }
-        let version = version(scan)?;
-        let largest = i64::from(u32::MAX);
+        self.items.counts.version = version(scan)?;
+        let count = |scan: &mut Scan<'_>| whole(scan, 0, u32::MAX);
         exactly(scan, "v")?;
-        let vertices = whole(scan, 0, largest)?;
+        self.items.counts.vertices = count(scan)?;
         exactly(scan, "f")?;
-        let faces = whole(scan, 0, largest)?;
-        let mut indices = [[0; 2]; 2];
-        for (counts, word) in indices.iter_mut().zip(["vt", "vn"]) {
+        self.items.counts.faces = count(scan)?;
+        for (counts, word) in self.items.counts.indices.iter_mut().zip(["vt", "vn"]) {
             exactly(scan, word)?;
-            *counts = [whole(scan, 0, largest)?, whole(scan, 0, largest)?];
+            *counts = [count(scan)?, count(scan)?];
         }
         exactly(scan, "faces")?;
         let hash = hexadecimal(scan)?;
         nothing_more(scan)?;
-        self.items = Items::new(Counts {
-            version,
-            vertices,
-            faces,
-            indices,
-        });
-        self.header = Some(Header {
-            hash,
-            place: locate(line, &(start..start + HEADER.len())),
-        });
+        let place = locate(line, &(start..start + HEADER.len()));
+        self.header = Some(Header { hash, place });
         self.state = State::Within;
         Ok(())
     }
@@ -146,19 +137,15 @@ impl RecordReader {
             }
         }
         if let Some(message) = self.items.wrong_counts() {
-            return damaged(start..scan.at(), message);
+            return damaged(scan, start, message);
         }
-        let largest = i64::from(u32::MAX);
         let at = scan.token_start();
-        if whole(scan, 0, largest)? as usize != self.lines {
-            return damaged(
-                at..scan.at(),
-                "lines of this record are missing or were added",
-            );
+        if whole(scan, 0, u32::MAX)? as usize != self.lines {
+            return damaged(scan, at, "lines of this record are missing or were added");
         }
         let at = scan.token_start();
         if hexadecimal(scan)? != self.hash.0 {
-            return damaged(at..scan.at(), "a line of this record was changed");
+            return damaged(scan, at, "a line of this record was changed");
         }
         nothing_more(scan)
     }

@@ -8,7 +8,7 @@ use crate::record::VERSION;
 
 pub(super) const CODE: &str = "W-OBJ-RECORD";
 
-const DAMAGED: &str = "the record is damaged";
+pub(super) const DAMAGED: &str = "the record is damaged";
 
 /// The version of a record, which must be one that is known.
 pub(super) fn version(scan: &mut Scan<'_>) -> Parsed<i64> {
@@ -32,19 +32,15 @@ pub(super) fn hexadecimal(scan: &mut Scan<'_>) -> Parsed<u64> {
     let start = scan.token_start();
     let token = scan.token();
     scan.skip(token.len());
-    let digits = std::str::from_utf8(token)
-        .ok()
-        .filter(|text| text.len() == 16);
-    let number = digits.and_then(|digits| u64::from_str_radix(digits, 16).ok());
-    number.ok_or_else(|| {
-        let message = format!("{} is no checksum", quoted(token));
-        Fault::new(
-            CODE,
-            start..scan.at(),
-            message,
-            "expected 16 hexadecimal digits",
-        )
-    })
+    let digits = std::str::from_utf8(token).unwrap_or_default();
+    match u64::from_str_radix(digits, 16) {
+        Ok(number) if digits.len() == 16 => Ok(number),
+        _ => {
+            let message = format!("{} is no checksum", quoted(token));
+            let expected = "expected 16 hexadecimal digits";
+            Err(Fault::new(CODE, start..scan.at(), message, expected))
+        }
+    }
 }
 
 pub(super) fn exactly(scan: &mut Scan<'_>, word: &str) -> Parsed<()> {
@@ -55,7 +51,7 @@ pub(super) fn exactly(scan: &mut Scan<'_>, word: &str) -> Parsed<()> {
         return Ok(());
     }
     let message = format!("this record has {} where `{word}` should be", quoted(token));
-    damaged(start..scan.at(), message)
+    damaged(scan, start, message)
 }
 
 pub(super) fn out_of_range(span: Range<usize>, least: i64, most: i64) -> Box<Fault> {
@@ -74,8 +70,12 @@ pub(super) fn numbers(scan: &mut Scan<'_>, numbers: &mut [f64]) -> Parsed<usize>
 }
 
 /// A whole number.
-pub(super) fn whole(scan: &mut Scan<'_>, least: i64, most: i64) -> Parsed<u32> {
-    let start = scan.token_start();
+pub(super) fn whole(
+    scan: &mut Scan<'_>,
+    least: impl Into<i64>,
+    most: impl Into<i64>,
+) -> Parsed<u32> {
+    let (start, least, most) = (scan.token_start(), least.into(), most.into());
     match scan.integer() {
         Some(number) if scan.at_token_end() && least <= number && number <= most => {
             Ok(number as u32)
@@ -87,15 +87,21 @@ pub(super) fn whole(scan: &mut Scan<'_>, least: i64, most: i64) -> Parsed<u32> {
     }
 }
 
-/// The refusal of a part of a line of a damaged record.
-pub(super) fn damaged<T>(span: Range<usize>, message: impl Into<String>) -> Parsed<T> {
-    Err(Fault::new(CODE, span, message, DAMAGED))
+/// A number above `last` and at most `most`, counted from 0.
+pub(super) fn index(scan: &mut Scan<'_>, last: impl Into<i64>, most: u32) -> Parsed<u32> {
+    whole(scan, last.into() + 1, most).map(|number| number - 1)
+}
+
+/// The refusal of a part of a line of a damaged record: from `start` to the cursor.
+pub(super) fn damaged<T>(scan: &Scan<'_>, start: usize, message: impl Into<String>) -> Parsed<T> {
+    Err(Fault::new(CODE, start..scan.at(), message, DAMAGED))
 }
 
 pub(super) fn nothing_more(scan: &mut Scan<'_>) -> Parsed<()> {
-    if !scan.find_token() && scan.at() == scan.line.bytes.len() {
+    let start = scan.token_start();
+    if start == scan.line.bytes.len() {
         return Ok(());
     }
-    let end = scan.line.bytes.len();
-    damaged(scan.at()..end, "this line of a record has extra words")
+    scan.go_to(scan.line.bytes.len());
+    damaged(scan, start, "this line of a record has extra words")
 }

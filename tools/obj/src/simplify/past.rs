@@ -14,8 +14,7 @@
 use std::collections::BTreeMap;
 
 use crate::document::Document;
-use crate::record::{At, Record};
-use crate::slides::Slides;
+use crate::record::{Exchange, Inserted, Record, Slid};
 use crate::torn::{length, normal_between, numbers_between};
 
 /// By how many units of the last place of the largest number concerned a number may differ: an
@@ -26,7 +25,7 @@ const ROUNDINGS: f64 = 8.0;
 /// A document as it was before the slides of some cuts. Corners are those of all faces, by half-edge.
 pub(super) struct Past<'d> {
     document: &'d Document,
-    pub(super) slides: &'d Slides,
+    pub(super) slides: &'d [Slid],
     /// The root of each vertex.
     pub(super) roots: Vec<u32>,
     /// The slides of the vertices of each root, as they were made.
@@ -59,18 +58,18 @@ impl<'d> Past<'d> {
 
     /// Whether a vertex is, but for later slides, as this one left it.
     fn is_as_left(&self, slide: usize) -> bool {
-        let vertex = self.slides.get(slide).vertex;
-        let later = self.of(vertex).find(|&later| later > slide);
+        let slid = &self.slides[slide];
+        let later = self.of(slid.vertex).find(|&later| later > slide);
         let is = match later {
             Some(later) if !self.is_intact[later] => return false, // What it was before, nobody knows.
-            Some(later) => self.slides.before(later).to_vec(),
-            None => self.document.numbers(vertex as usize),
+            Some(later) => self.slides[later].before().to_vec(),
+            None => self.document.numbers(slid.vertex as usize),
         };
-        let mut exchanges = self.slides.exchanges(slide);
-        are_same(&is, self.slides.after(slide))
-            && exchanges.all(|(exchange, value)| {
-                are_same(self.document.value(exchange.which, exchange.new), value)
-            })
+        let is_kept = |exchange: &Exchange| {
+            let value = self.document.value(exchange.which, exchange.new);
+            are_same(value, &exchange.value)
+        };
+        are_same(&is, slid.after()) && slid.exchanges.iter().all(is_kept)
     }
 
     /// The slides of the vertices of a root.
@@ -81,7 +80,7 @@ impl<'d> Past<'d> {
     /// The slides of a vertex.
     pub(super) fn of(&self, vertex: u32) -> impl DoubleEndedIterator<Item = usize> + '_ {
         let slides = self.of_root(self.roots[vertex as usize]);
-        slides.filter(move |&slide| self.slides.get(slide).vertex == vertex)
+        slides.filter(move |&slide| self.slides[slide].vertex == vertex)
     }
 
     fn vertex(&self, corner: usize) -> u32 {
@@ -97,8 +96,8 @@ impl<'d> Past<'d> {
     fn numbers(&self, corner: usize, since: u32) -> Vec<f64> {
         let vertex = self.vertex(corner);
         let mut known = self.of(vertex).filter(|&slide| self.is_intact[slide]);
-        match known.find(|&slide| self.slides.get(slide).cut >= since) {
-            Some(first) => self.slides.before(first).to_vec(),
+        match known.find(|&slide| self.slides[slide].cut >= since) {
+            Some(first) => self.slides[first].before().to_vec(),
             None => self.document.numbers(vertex as usize),
         }
     }
@@ -113,7 +112,7 @@ impl<'d> Past<'d> {
         let mut index = self.document.polygons.indices(corner)[which]?;
         let slides = self.of(self.vertex(corner)).rev();
         for slide in slides.filter(|&slide| is_undone(slide)) {
-            let mut exchanges = self.slides.exchanges(slide).map(|(exchange, _)| exchange);
+            let mut exchanges = self.slides[slide].exchanges.iter();
             let own = exchanges.find(|exchange| exchange.which == which && exchange.new == index);
             index = own.map_or(index, |own| own.old);
         }
@@ -125,19 +124,12 @@ impl<'d> Past<'d> {
     pub(super) fn is_as_inserted(
         &self,
         corner: usize,
-        at: &At,
+        inserted: &Inserted,
         since: u32,
         end: impl Fn(u32) -> Option<usize>,
     ) -> bool {
-        let sources = match *at {
-            At::Edge { ends: [a, b], t } => [(a, 1.0 - t), (b, t), (b, 0.0)],
-            At::Face {
-                corners: [a, b, c],
-                weights: [u, v, w],
-            } => [(a, u), (b, v), (c, w)],
-        };
-        let weights = sources.map(|(_, weight)| weight);
-        let [Some(a), Some(b), Some(c)] = sources.map(|(root, _)| end(root)) else {
+        let weights = inserted.weights;
+        let [Some(a), Some(b), Some(c)] = inserted.between.map(end) else {
             return false;
         };
 
@@ -151,7 +143,7 @@ impl<'d> Past<'d> {
             return false;
         }
         [0, 1].into_iter().all(|which| {
-            let is_undone = |slide| self.slides.get(slide).cut >= since;
+            let is_undone = |slide: usize| self.slides[slide].cut >= since;
             let index = |corner| self.index(corner, which, is_undone);
             let value = |index| self.document.value(which, index);
             let ([Some(a), Some(b), Some(c)], Some(is)) = ([a, b, c].map(index), index(corner))

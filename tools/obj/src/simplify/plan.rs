@@ -18,7 +18,7 @@ use tearmesh::{FaceId, FacePart, HalfEdgeId, Insertions, Mesh, RemovalPlan, Vert
 use super::past::Past;
 use crate::document::Document;
 use crate::families::Families;
-use crate::record::{At, Inserted, Record};
+use crate::record::{Inserted, Record};
 
 /// A divided face.
 #[derive(Clone, Debug, Default)]
@@ -109,9 +109,9 @@ impl<'d> Undo<'d> {
         let might_go = |root: u32| self.may_go[root as usize] && !divided.corners.contains(&root);
         let going = corners.iter().filter(|&&(root, _)| might_go(root));
         let unlike = going.filter_map(|&(root, corner)| {
-            let Inserted { cut, at, .. } = self.inserted[self.place(root)?];
-            let is_unlike = |since: u32| !self.past.is_as_inserted(corner, &at, since, first);
-            let unlike = [cut + 1, cut].map(is_unlike);
+            let inserted = &self.inserted[self.place(root)?];
+            let is_unlike = |since: u32| !self.past.is_as_inserted(corner, inserted, since, first);
+            let unlike = [inserted.cut + 1, inserted.cut].map(is_unlike);
             unlike.contains(&true).then_some((root, unlike))
         });
         unlike.collect()
@@ -143,14 +143,14 @@ impl<'d> Undo<'d> {
 
     /// The slides of the ends that an inserted vertex was put between.
     fn slides_of_ends(&self, place: usize) -> impl Iterator<Item = usize> + '_ {
-        let ends = self.inserted[place].at.roots().iter();
+        let ends = self.inserted[place].between.iter();
         ends.flat_map(|&root| self.past.of_root(root))
     }
 
     /// How many vertices stay only because they were edited since they slid.
     pub(super) fn slid_edited(&self) -> usize {
         let is_edited = |&slide: &usize| {
-            let vertex = self.past.slides.get(slide).vertex;
+            let vertex = self.past.slides[slide].vertex;
             let later = self.past.of(vertex).find(|&later| later > slide);
             let is_first_found = later.is_none_or(|later| self.past.is_intact[later]);
             let goes = self.goes(vertex);
@@ -177,7 +177,7 @@ impl<'d> Undo<'d> {
         // From the last one: its ends were inserted before it.
         for (place, inserted) in self.inserted.iter().enumerate().rev() {
             let of_ends: Vec<usize> = self.slides_of_ends(place).collect();
-            let is_later = |slide: &usize| self.past.slides.get(*slide).cut >= self.since[place];
+            let is_later = |slide: &usize| self.past.slides[*slide].cut >= self.since[place];
             let (later, earlier): (Vec<usize>, Vec<usize>) =
                 of_ends.iter().partition(|s| is_later(s));
             if goes[inserted.vertex as usize] && later.iter().all(|&slide| self.is_back[slide]) {
@@ -188,7 +188,7 @@ impl<'d> Undo<'d> {
                 more |= std::mem::take(&mut self.is_back[slide]);
             }
             // What stays was put between vertices that stay, or the record would name none.
-            for &root in [inserted.vertex].iter().chain(inserted.at.roots()) {
+            for &root in [inserted.vertex].iter().chain(&inserted.between) {
                 if std::mem::take(&mut goes[root as usize]) {
                     self.may_go[root as usize] = false;
                     more = true;
@@ -288,9 +288,11 @@ impl Divided {
         for class in on_sides.keys().copied().collect::<Vec<u32>>() {
             let place = inserted.binary_search_by_key(&class, |one| one.vertex);
             if let (None, Ok(place)) = (corner(class), place)
-                && let At::Edge { ends, .. } = inserted[place].at
+                && inserted[place].is_on_edge()
             {
-                let [one, other] = ends.map(|end| on_sides.get(&end).copied().unwrap_or_default());
+                let ends = inserted[place].between;
+                let [one, other, _] =
+                    ends.map(|end| on_sides.get(&end).copied().unwrap_or_default());
                 on_sides.insert(class, [0, 1, 2].map(|side| one[side] && other[side]));
             }
         }

@@ -7,7 +7,7 @@ use tearmesh::{Blend, ChildFace, CornerSource, HalfEdgeId, Insert, Slide, Vertex
 use super::slots::Slots;
 use crate::document::Document;
 use crate::families::Families;
-use crate::slides::Exchange;
+use crate::record::Exchange;
 use crate::store::Rows;
 
 /// No index.
@@ -39,9 +39,8 @@ impl<'d> Corners<'d> {
             for triangle in document.polygons.triangles(polygon) {
                 for corner in 0..3 {
                     let of_polygon = document.corner_of_polygon(triangle, corner, polygon);
-                    let corner = document.polygons.corner(of_polygon);
-                    corners
-                        .push([corner.texture, corner.normal].map(|index| index.unwrap_or(NONE)));
+                    let indices = document.polygons.indices(of_polygon);
+                    corners.push(indices.map(|index| index.unwrap_or(NONE)));
                 }
             }
         }
@@ -138,8 +137,12 @@ impl<'d> Corners<'d> {
                     // Whoever gets it had the one at the start, and perhaps never that at the end.
                     None => {
                         let new = self.new_between(which, &[from], between, weights);
-                        let old = from;
-                        exchanges.push(Exchange { which, new, old });
+                        exchanges.push(Exchange {
+                            which,
+                            new,
+                            old: from,
+                            value: self.value(which, new).to_vec(),
+                        });
                         new
                     }
                 };

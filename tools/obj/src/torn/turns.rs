@@ -6,38 +6,20 @@
 //! normal likewise. Any face that has it has these too, or had them, and so comes later. Where a
 //! vertex comes from no later split and no merge changes, so undoing a cut moves no line.
 
-use tearmesh::VertexId;
-
 use super::TornDocument;
-use crate::order::{Order, Turn};
+use crate::order::Turn;
 use crate::sections::Sections;
 use crate::store::Kind;
 
 /// Behind all ranks of vertices: those of copies for fans.
 const COPIES: u64 = 1 << 32;
 
-impl TornDocument<'_> {
-    /// Returns the vertices of the mesh in the order in which they are written. Vertex `i` of a mesh
-    /// that is read from the written file is the vertex at index `i` of this list.
-    ///
-    /// The vertices of the document keep their order. A split-off vertex follows the last vertex of the
-    /// object of its root. An inserted vertex follows the last vertex of the object of the vertices that
-    /// it was inserted between. So if several objects have vertices of their own, the new vertices of the
-    /// first object precede all vertices of the second. New vertices of the same object are in the order
-    /// of their creation.
-    #[must_use]
-    pub fn vertices_in_order(&self) -> Vec<VertexId> {
-        let order = Turns::in_sections(self).vertices().in_order();
-        let vertices = order.into_iter();
-        vertices.filter_map(|v| VertexId::new(v as usize)).collect()
-    }
-}
-
 /// When everything is written.
 pub(crate) struct Turns<'t> {
     torn: &'t TornDocument<'t>,
-    /// `None` if vertices are written in the order of their ids.
-    sections: Option<Sections>,
+    sections: Sections,
+    /// Whether vertices are written in the order of their ids.
+    by_id: bool,
     /// For each class that the document has not, the statement in whose section it belongs.
     anchors: Vec<u32>,
 }
@@ -45,6 +27,15 @@ pub(crate) struct Turns<'t> {
 impl<'t> Turns<'t> {
     /// In sections. Linear in the document.
     pub(crate) fn in_sections(torn: &'t TornDocument<'t>) -> Turns<'t> {
+        Turns::new(torn, Sections::of(torn.document), false)
+    }
+
+    /// Vertices by id, and all that was added behind what the document has.
+    pub(crate) fn by_id(torn: &'t TornDocument<'t>) -> Turns<'t> {
+        Turns::new(torn, Sections::one(torn.document), true)
+    }
+
+    fn new(torn: &'t TornDocument<'t>, sections: Sections, by_id: bool) -> Turns<'t> {
         let known = torn.document.positions.len();
         let mut anchors = Vec::with_capacity(torn.ancestry.class_count() - known);
         for inserted in &torn.inserted {
@@ -52,44 +43,28 @@ impl<'t> Turns<'t> {
                 continue; // It is on record, and a vertex of the document.
             };
             assert_eq!(new, anchors.len(), "each new class was inserted");
-            let roots = inserted.at.roots().iter();
-            let last = roots.map(|&class| anchor(&anchors, known, class)).max();
-            anchors.push(last.expect("an edge has ends"));
+            let behind = inserted.between.map(|class| anchor(&anchors, known, class));
+            anchors.push(behind.into_iter().fold(0, u32::max));
         }
         Turns {
             torn,
-            sections: Some(Sections::of(torn.document)),
+            sections,
+            by_id,
             anchors,
-        }
-    }
-
-    /// Vertices by id, and all that was added behind what the document has.
-    pub(crate) fn by_id(torn: &'t TornDocument<'t>) -> Turns<'t> {
-        Turns {
-            torn,
-            sections: None,
-            anchors: Vec::new(),
-        }
-    }
-
-    fn behind(&self, kind: Kind, statement: impl FnOnce() -> u32) -> u32 {
-        match &self.sections {
-            Some(sections) => sections.end(kind, statement()),
-            None => self.torn.document.counts()[kind as usize] as u32,
         }
     }
 
     /// The turn of a vertex of the mesh.
     pub(crate) fn vertex(&self, v: usize) -> Turn {
-        let home = match self.sections {
-            Some(_) => self.torn.ancestry.node(v),
-            None => v as u32,
+        let home = match self.by_id {
+            false => self.torn.ancestry.node(v),
+            true => v as u32,
         };
         if (home as usize) < self.torn.document.positions.len() {
             return Turn::Own(home);
         }
         Turn::Added {
-            behind: self.behind(Kind::Vertex, || self.anchor(v)),
+            behind: self.sections.end(Kind::Vertex, self.anchor(v)),
             rank: u64::from(home),
         }
     }
@@ -97,11 +72,10 @@ impl<'t> Turns<'t> {
     /// The turn of a copy of a vertex, which is written for another fan.
     pub(crate) fn copy(&self, v: usize) -> Turn {
         let home = self.torn.ancestry.node(v);
+        let is_own = (home as usize) < self.torn.document.positions.len();
+        let anchor = if is_own { home } else { self.anchor(v) };
         Turn::Added {
-            behind: self.behind(Kind::Vertex, || {
-                let is_own = (home as usize) < self.torn.document.positions.len();
-                if is_own { home } else { self.anchor(v) }
-            }),
+            behind: self.sections.end(Kind::Vertex, anchor),
             rank: COPIES + u64::from(home),
         }
     }
@@ -116,21 +90,15 @@ impl<'t> Turns<'t> {
     pub(crate) fn index(&self, kind: Kind, index: usize) -> Turn {
         match index.checked_sub(self.torn.document.counts()[kind as usize]) {
             None => Turn::Own(index as u32),
-            Some(new) => Turn::Added {
-                behind: self.behind(kind, || {
-                    let corners = self.torn.corners.as_ref();
-                    corners.map_or(0, |corners| corners.anchors[kind as usize - 1][new])
-                }),
-                rank: new as u64,
-            },
+            Some(new) => {
+                let corners = self.torn.corners.as_ref();
+                let anchor = corners.map_or(0, |corners| corners.anchors[kind as usize - 1][new]);
+                Turn::Added {
+                    behind: self.sections.end(kind, anchor),
+                    rank: new as u64,
+                }
+            }
         }
-    }
-
-    /// The order of the vertices alone.
-    pub(crate) fn vertices(&self) -> Order {
-        let count = self.torn.vertex_count();
-        let turns = (0..count).map(|v| self.vertex(v));
-        Order::new(self.torn.document.positions.len(), turns)
     }
 }
 

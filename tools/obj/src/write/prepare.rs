@@ -100,12 +100,8 @@ impl<'m> Prepared<'m> {
         let number = |v: u32| self.orders[0].number(v);
         let roots = torn.roots_of_classes(number);
         let root = |class: u32| number(roots[class as usize]);
-        let inserted = torn.inserted().iter().map(|inserted| Inserted {
-            vertex: root(inserted.vertex),
-            cut: inserted.cut,
-            at: inserted.at.map(root),
-        });
-        let mut inserted: Vec<Inserted> = inserted.collect();
+        let inserted = torn.inserted().iter();
+        let mut inserted: Vec<Inserted> = inserted.map(|one| one.renumbered(root)).collect();
         inserted.sort_unstable_by_key(|inserted| inserted.vertex);
         let families = torn.families();
         let of_faces = self
@@ -129,15 +125,17 @@ impl<'m> Prepared<'m> {
             numbers.sort_unstable();
             runs(numbers.into_iter())
         });
+        let mut slides = torn.slides();
+        for slid in &mut slides {
+            slid.vertex = number(slid.vertex);
+            slid.renumber_indices(|which, index| self.orders[1 + which].number(index));
+        }
         Record {
             splits: torn.split_off(number),
             inserted,
             families,
             new_indices,
-            slides: torn.slides().filtered(
-                |_, vertex| Some(number(vertex)),
-                |which, index| self.orders[1 + which].number(index),
-            ),
+            slides,
             apart,
             copies: Vec::new(), // They are those of the fans.
         }

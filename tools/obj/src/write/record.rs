@@ -7,8 +7,7 @@ use super::output::Output;
 use super::prepare::Prepared;
 use crate::families::Families;
 use crate::order::Order;
-use crate::record::{Apart, At, END, HEADER, Hash, ITEM, Record, VERSION, are_last, runs};
-use crate::slides::Slides;
+use crate::record::{Apart, END, HEADER, Hash, ITEM, Record, Slid, VERSION, are_last, runs};
 
 /// Writes the record, if there is one: everything before it is written, and its faces have this
 /// hash.
@@ -94,15 +93,12 @@ impl<W: Write> Items<'_, '_, W> {
             self.item("fan", &[copy + 1, vertex + 1], &[])?;
         }
         for inserted in &record.inserted {
-            let [vertex, cut] = [inserted.vertex + 1, inserted.cut];
-            match inserted.at {
-                At::Edge { ends: [a, b], t } => {
-                    self.item("edge", &[vertex, cut, a + 1, b + 1], &[t])?;
-                }
-                At::Face {
-                    corners: [a, b, c],
-                    weights,
-                } => self.item("face", &[vertex, cut, a + 1, b + 1, c + 1], &weights)?,
+            let [a, b, c] = inserted.between.map(|root| root + 1);
+            let whole = [inserted.vertex + 1, inserted.cut, a, b, c];
+            if inserted.is_on_edge() {
+                self.item("edge", &whole[..4], &inserted.weights[1..2])?;
+            } else {
+                self.item("face", &whole, &inserted.weights)?;
             }
         }
         for (parent, faces) in record.families.parents() {
@@ -114,13 +110,13 @@ impl<W: Write> Items<'_, '_, W> {
         Ok(())
     }
 
-    fn write_slides(&mut self, slides: &Slides) -> io::Result<()> {
-        for (slide, slid) in slides.iter().enumerate() {
-            let numbers = slides.numbers(slide);
-            self.item("slide", &[slid.vertex + 1, slid.cut], numbers)?;
-            for (exchange, value) in slides.exchanges(slide) {
+    fn write_slides(&mut self, slides: &[Slid]) -> io::Result<()> {
+        for slid in slides {
+            self.item("slide", &[slid.vertex + 1, slid.cut], &slid.numbers)?;
+            for exchange in &slid.exchanges {
                 let word = ["slide-vt", "slide-vn"][exchange.which];
-                self.item(word, &[exchange.new + 1, exchange.old + 1], value)?;
+                let indices = [exchange.new + 1, exchange.old + 1];
+                self.item(word, &indices, &exchange.value)?;
             }
         }
         Ok(())
