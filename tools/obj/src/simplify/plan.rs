@@ -80,10 +80,13 @@ impl<'d> Undo<'d> {
         let divided = undo.divided.iter().enumerate();
         let restored = divided.filter(|&(number, _)| undo.restored(number).is_some());
         let unlike = restored.flat_map(|(_, divided)| undo.unlike_within(divided));
-        let unlike = unlike.collect();
+        let unlike: Vec<_> = unlike.collect();
+        let mut is_outdated = !unlike.is_empty();
         undo.keep_edited(unlike);
         loop {
-            undo.plan = plan(&undo.past, &undo.may_go, &undo.is_back);
+            if is_outdated {
+                undo.plan = plan(&undo.past, &undo.may_go, &undo.is_back);
+            }
             let mut goes = vec![false; undo.may_go.len()];
             for v in mesh.vertices().filter(|&v| undo.plan.goes(v)) {
                 goes[undo.past.roots[v.index()] as usize] = true;
@@ -91,6 +94,7 @@ impl<'d> Undo<'d> {
             if !undo.keep_more(&mut goes) {
                 return undo;
             }
+            is_outdated = true;
         }
     }
 
