@@ -61,6 +61,23 @@ pub struct Excerpt {
 }
 
 impl Diagnostic {
+    /// An error of the file with a hint, without an excerpt.
+    pub(crate) fn error(
+        code: &'static str,
+        location: Option<Location>,
+        message: String,
+        help: &str,
+    ) -> Diagnostic {
+        Diagnostic {
+            level: Level::Error,
+            code,
+            location,
+            message,
+            excerpt: None,
+            help: Some(help.to_owned()),
+        }
+    }
+
     /// A warning about a line, which has no excerpt and no hint.
     pub(crate) fn warning(code: &'static str, line: usize, message: String) -> Diagnostic {
         Diagnostic {
@@ -132,6 +149,12 @@ impl std::error::Error for ReadError {
             ReadError::Input(error) => Some(error),
             ReadError::Refused(_) => None,
         }
+    }
+}
+
+impl From<Diagnostic> for ReadError {
+    fn from(diagnostic: Diagnostic) -> Self {
+        ReadError::Refused(Box::new(diagnostic))
     }
 }
 

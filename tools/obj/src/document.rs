@@ -6,7 +6,6 @@ use crate::diagnostic::Diagnostic;
 use crate::polygons::{Corner, Polygons};
 use crate::record::Record;
 use crate::store::{Kind, Layout, Rows, Run};
-use crate::triangulate::Triangulation;
 
 /// An OBJ file in memory: its numbers bit for bit, its faces as polygons and as triangles, and
 /// every other line as bytes, in order.
@@ -23,7 +22,7 @@ pub struct Document {
     pub(crate) normals: Vec<[f64; 3]>,
     pub(crate) polygons: Polygons,
     /// `None` if every polygon is a triangle.
-    pub(crate) triangulation: Option<Triangulation>,
+    pub(crate) triangulation: Option<Vec<[u32; 3]>>,
     pub(crate) layout: Layout,
     /// The text of the layout's text runs, one after the other.
     pub(crate) text: Vec<u8>,
@@ -47,10 +46,7 @@ impl Document {
     /// If there is no such vertex.
     #[must_use]
     pub fn extra_numbers(&self, vertex: usize) -> &[f64] {
-        assert!(
-            vertex < self.positions.len(),
-            "vertex {vertex} is not in this document"
-        );
+        assert_is_in("vertex", vertex, self.positions.len());
         self.extras.row(vertex)
     }
 
@@ -67,10 +63,7 @@ impl Document {
     /// If there is no such texture coordinate.
     #[must_use]
     pub fn texture(&self, index: usize) -> &[f64] {
-        assert!(
-            index < self.texture.len(),
-            "texture coordinate {index} is not in this document"
-        );
+        assert_is_in("texture coordinate", index, self.texture.len());
         self.texture.row(index)
     }
 
@@ -85,7 +78,7 @@ impl Document {
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         match &self.triangulation {
-            Some(triangulation) => &triangulation.triangles,
+            Some(triangles) => triangles,
             None => self.polygons.vertices.as_chunks().0,
         }
     }
@@ -141,10 +134,7 @@ impl Document {
     /// If there is no such triangle.
     #[must_use]
     pub fn polygon_of(&self, triangle: usize) -> usize {
-        assert!(
-            triangle < self.triangles().len(),
-            "triangle {triangle} is not in this document"
-        );
+        assert_is_in("triangle", triangle, self.triangles().len());
         match self.triangulation {
             Some(_) => self.polygons.of_triangle(triangle),
             None => triangle,
@@ -192,10 +182,7 @@ impl Document {
     /// If there is no such vertex.
     #[must_use]
     pub fn number_of_vertex(&self, vertex: usize) -> usize {
-        assert!(
-            vertex < self.positions.len(),
-            "vertex {vertex} is not in this document"
-        );
+        assert_is_in("vertex", vertex, self.positions.len());
         let record = self.record.as_deref();
         record.map_or(vertex, |record| record.number(vertex)) + 1
     }
@@ -259,9 +246,9 @@ impl Document {
         polygon: usize,
     ) -> usize {
         match &self.triangulation {
-            Some(triangulation) => {
+            Some(triangles) => {
                 // A polygon has no vertex twice.
-                let vertex = triangulation.triangles[triangle][corner];
+                let vertex = triangles[triangle][corner];
                 let corners = self.polygons.corners(polygon);
                 let vertices = &self.polygons.vertices[corners.clone()];
                 let own = vertices.iter().position(|&other| other == vertex);
@@ -270,4 +257,8 @@ impl Document {
             None => 3 * triangle + corner,
         }
     }
+}
+
+fn assert_is_in(what: &str, index: usize, count: usize) {
+    assert!(index < count, "{what} {index} is not in this document");
 }

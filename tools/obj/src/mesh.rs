@@ -7,7 +7,7 @@ use std::fmt;
 
 use tearmesh::{BuildError, Defect, FaceId, Faces, Fans, Mesh, TornError, VertexId};
 
-use crate::diagnostic::{Diagnostic, Level, Location};
+use crate::diagnostic::{Diagnostic, Location};
 use crate::document::Document;
 use crate::record::Record;
 
@@ -122,33 +122,7 @@ impl Document {
                     "delete one of the two: cloth is drawn from both sides, but modelled once",
                 )
             }
-            Defect::RepeatedVertex { face, vertex } => (
-                "E-MESH-REPEAT",
-                Some(face),
-                format!("a face has vertex {} twice", number(vertex)),
-                "a triangle with a repeated vertex has no area: remove it",
-            ),
-            Defect::IndexOutOfRange {
-                face,
-                index,
-                vertices,
-                ..
-            } => (
-                "E-MESH-RANGE",
-                Some(face),
-                format!(
-                    "vertex {} does not exist: there are {vertices}",
-                    u64::from(index) + 1
-                ),
-                "indices count from 1 through the whole file",
-            ),
-            Defect::TooManyVertices { .. } | Defect::TooManyFaces { .. } => (
-                "E-MESH-LIMIT",
-                None,
-                defect.to_string(),
-                "split the model into several files",
-            ),
-            // A defect that this crate does not know yet still has words of its own.
+            // The reader refuses what would give another defect that this crate knows.
             _ => (
                 "E-MESH-OTHER",
                 None,
@@ -156,21 +130,11 @@ impl Document {
                 "repair the model in the program that made it",
             ),
         };
-        Diagnostic {
-            level: Level::Error,
-            code,
-            location: face.map(|face| Location {
-                line: self.line(face),
-                column: 1,
-            }),
-            message,
-            excerpt: None,
-            help: Some(help.to_owned()),
-        }
-    }
-
-    fn line(&self, face: FaceId) -> usize {
-        self.line_of_triangle(face.index())
+        let location = face.map(|face| Location {
+            line: self.line_of_triangle(face.index()),
+            column: 1,
+        });
+        Diagnostic::error(code, location, message, help)
     }
 
     /// `lines 3, 4, 9`, each once: triangles of one polygon stand on one line.
@@ -179,7 +143,10 @@ impl Document {
             0 => String::new(),
             more => format!(" and {more} more"),
         };
-        let mut lines: Vec<usize> = faces.take(SHOWN).map(|face| self.line(face)).collect();
+        let mut lines: Vec<usize> = faces
+            .take(SHOWN)
+            .map(|face| self.line_of_triangle(face.index()))
+            .collect();
         lines.dedup();
         let plural = if lines.len() == 1 { "" } else { "s" };
         let list: Vec<String> = lines.iter().map(usize::to_string).collect();

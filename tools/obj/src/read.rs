@@ -27,7 +27,7 @@ mod words;
 
 use std::io::Read;
 
-use self::fault::{Fault, Line, Parsed, refuse};
+use self::fault::{Fault, Line, Parsed};
 use self::foreign::binary;
 use self::forward::beyond;
 use self::reader::Reader;
@@ -36,9 +36,8 @@ use self::source::{Source, first_line};
 use crate::diagnostic::{Diagnostic, Level, Location, ReadError};
 use crate::document::Document;
 use crate::opening::{MARK, Opening};
-use crate::polygons::Polygons;
 use crate::store::Kind;
-use crate::triangulate::Triangulation;
+use crate::triangulate::triangles;
 
 impl Document {
     /// Reads an OBJ file. The input need not be buffered.
@@ -69,22 +68,20 @@ impl Document {
 impl Reader {
     /// Drops a byte order mark, and recognises what is no OBJ file from its first bytes.
     fn start(&mut self, source: &mut Source<impl Read>) -> Result<(), ReadError> {
-        let mut opening = Opening::of(source.first()?);
-        if opening == Opening::Mark {
-            let message = "the byte order mark at the start is dropped".to_owned();
-            self.document.diagnostics.push(Diagnostic {
-                level: Level::Note,
-                ..Diagnostic::warning("W-OBJ-BOM", 1, message)
-            });
-        }
-        while opening == Opening::Mark {
-            source.skip(MARK.len());
-            opening = Opening::of(source.first()?);
-        }
-        let fault = match opening {
-            Opening::Text | Opening::Mark => return Ok(()),
-            Opening::Utf16 => utf16(),
-            Opening::Binary => binary(0, b'g'),
+        let fault = loop {
+            match Opening::of(source.first()?) {
+                Opening::Text => return Ok(()),
+                Opening::Mark => source.skip(MARK.len()),
+                Opening::Utf16 => break utf16(),
+                Opening::Binary => break binary(0, b'g'),
+            }
+            if self.document.diagnostics.is_empty() {
+                let message = "the byte order mark at the start is dropped".to_owned();
+                self.document.diagnostics.push(Diagnostic {
+                    level: Level::Note,
+                    ..Diagnostic::warning("W-OBJ-BOM", 1, message)
+                });
+            }
         };
         let first = source.first()?;
         let bytes = &first[..first.len().min(Opening::LENGTH)];
@@ -191,7 +188,7 @@ impl Reader {
 
     #[cold]
     fn no_face(&self) -> ReadError {
-        let help = match self.tally.first.as_deref() {
+        let help = match self.tally.first_unknown() {
             Some(b"ply") => "this looks like a PLY file; convert it to OBJ first",
             Some(b"solid") => "this looks like an STL file; convert it to OBJ first",
             Some(b"OFF") => "this looks like an OFF file; convert it to OBJ first",
@@ -203,33 +200,24 @@ impl Reader {
             1 => "this file has no face, only 1 vertex".to_owned(),
             count => format!("this file has no face, only {count} vertices"),
         };
-        let location = Location {
-            line: self.lines.max(1) as usize,
-            column: 1,
-        };
-        refuse(
+        let line = self.lines.max(1) as usize;
+        Diagnostic::error(
             "E-OBJ-EMPTY",
-            location,
+            Some(Location { line, column: 1 }),
             message,
-            None,
-            Some(help.to_owned()),
+            help,
         )
+        .into()
     }
 }
 
 impl Document {
     /// Gives back memory that was reserved and is not needed.
     pub(crate) fn shrink(&mut self) {
-        let Polygons {
-            vertices,
-            texture,
-            normals,
-            starts,
-        } = &mut self.polygons;
-        vertices.shrink_to_fit();
-        texture.shrink();
-        normals.shrink();
-        starts.shrink_to_fit();
+        self.polygons.vertices.shrink_to_fit();
+        self.polygons.texture.shrink();
+        self.polygons.normals.shrink();
+        self.polygons.starts.shrink_to_fit();
         self.positions.shrink_to_fit();
         self.extras.shrink();
         self.texture.shrink();
@@ -243,12 +231,12 @@ impl Document {
         if self.polygons.all_triangles() {
             return;
         }
-        let triangulation = Triangulation::of(&self.polygons, &self.positions);
+        let all = triangles(&self.polygons, &self.positions);
         let larger = |&polygon: &usize| self.polygons.corners(polygon).len() > 3;
         let mut polygons = (0..self.polygons.len()).filter(larger);
         let first = polygons.next().expect("not all polygons are triangles");
         let count = 1 + polygons.count();
-        let triangles = triangulation.triangles.len() - (self.polygons.len() - count);
+        let triangles = all.len() - (self.polygons.len() - count);
         let message = match count {
             1 => format!("1 face with more than 3 corners is cut into {triangles} triangles"),
             _ => format!(
@@ -258,7 +246,7 @@ impl Document {
         let line = self.layout.line_of_polygon(first);
         self.diagnostics
             .push(Diagnostic::warning("W-OBJ-QUAD", line, message));
-        self.triangulation = Some(triangulation);
+        self.triangulation = Some(all);
     }
 }
 

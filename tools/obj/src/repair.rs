@@ -19,8 +19,6 @@
 //! A flipped face is never repaired: which of the two neighbours is wrong, the file does
 //! not say, and to turn one silently would turn its texture and its normals around.
 
-use std::collections::BTreeMap;
-
 use tearmesh::{Defect, FaceId, Fans, Mesh, VertexId};
 
 use crate::diagnostic::Diagnostic;
@@ -28,7 +26,6 @@ use crate::document::Document;
 use crate::polygons::Polygons;
 use crate::read::text::attached_length;
 use crate::store::{Kind, Layout, push};
-use crate::triangulate::Triangulation;
 
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
@@ -80,8 +77,8 @@ impl Document {
         if repair == Repair::All {
             for choose in [Document::on_the_same_vertices, Document::superfluous] {
                 let dropped = choose(&self);
-                if dropped.gone.contains(&true) {
-                    self.drop_triangles(dropped);
+                if dropped.iter().any(Option::is_some) {
+                    self.drop_triangles(&dropped);
                 }
             }
         }
@@ -96,17 +93,15 @@ impl Document {
 
     /// All triangles but the first on the same three vertices.
     fn on_the_same_vertices(&self) -> Dropped {
-        let mut dropped = Dropped::none(self.triangles().len());
+        let mut dropped = vec![None; self.triangles().len()];
         self.diagnose(usize::MAX, |defect| match defect {
             Defect::DuplicateFaces { faces, .. } => {
-                let (kept, reason) = (faces.first(), Reason::Duplicate);
-                for face in faces.iter().skip(1) {
-                    dropped.add(Drop { face, kept, reason });
-                }
+                let why = Some((faces.first(), Reason::Duplicate));
+                let later = faces.iter().skip(1);
+                later.for_each(|face| dropped[face.index()] = why);
             }
             Defect::Pillow { faces, .. } => {
-                let ([kept, face], reason) = (faces, Reason::Pillow);
-                dropped.add(Drop { face, kept, reason });
+                dropped[faces[1].index()] = Some((faces[0], Reason::Pillow));
             }
             _ => {}
         });
@@ -122,7 +117,7 @@ impl Document {
                 push(&mut edges, (ends.map(u32::from), [None::<FaceId>; 2]));
             }
         });
-        let mut dropped = Dropped::none(self.triangles().len());
+        let mut dropped = vec![None; self.triangles().len()];
         if edges.is_empty() {
             return dropped;
         }
@@ -143,8 +138,7 @@ impl Document {
                 Some((taken[direction]?, ends))
             });
             if let Some((kept, ends)) = earlier {
-                let reason = Reason::Edge(ends);
-                dropped.add(Drop { face, kept, reason });
+                dropped[f] = Some((kept, Reason::Edge(ends)));
             } else {
                 for (edge, direction) in crowded {
                     edges[edge].1[direction] = Some(face);
@@ -155,9 +149,8 @@ impl Document {
     }
 
     /// Drops triangles, and says so.
-    fn drop_triangles(&mut self, dropped: Dropped) {
-        self.report_drops(&dropped);
-        let gone = dropped.gone;
+    fn drop_triangles(&mut self, dropped: &[Option<(FaceId, Reason)>]) {
+        self.report_drops(dropped);
         let mut polygons = Polygons::default();
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
@@ -169,15 +162,15 @@ impl Document {
             let corners = self.polygons.corners(polygon);
             let corners = corners.map(|corner| self.polygons.corner(corner));
             let before = polygons.len();
-            let all = triangulation.as_mut().map(|all| &mut all.triangles);
-            if !gone[triangles.clone()].contains(&true) {
+            let all = triangulation.as_mut();
+            if dropped[triangles.clone()].iter().all(Option::is_none) {
                 polygons.add(corners);
                 if let Some(all) = all {
                     all.copy_within(triangles.clone(), kept);
                 }
                 kept += triangles.len();
             } else if let Some(all) = all {
-                for triangle in triangles.filter(|&triangle| !gone[triangle]) {
+                for triangle in triangles.filter(|&triangle| dropped[triangle].is_none()) {
                     all[kept] = all[triangle];
                     let corner = |vertex| corners.clone().find(|corner| corner.vertex == vertex);
                     polygons.add(all[kept].into_iter().filter_map(corner));
@@ -188,7 +181,7 @@ impl Document {
         }
         self.triangulation = triangulation.filter(|_| !polygons.all_triangles());
         if let Some(triangulation) = &mut self.triangulation {
-            triangulation.triangles.truncate(kept);
+            triangulation.truncate(kept);
         }
         self.polygons = polygons;
         let count = |kind, number: usize| match kind {
@@ -198,34 +191,38 @@ impl Document {
         self.layout.replace(&mut self.text, count, <[u8]>::to_vec);
     }
 
-    fn report_drops(&mut self, dropped: &Dropped) {
-        for Named { count, first } in &dropped.named {
-            for (number, drop) in first.values().enumerate() {
-                let line = self.line_of_triangle(drop.face.index());
+    fn report_drops(&mut self, dropped: &[Option<(FaceId, Reason)>]) {
+        let reasons = [Reason::Duplicate, Reason::Pillow, Reason::Edge([0; 2])];
+        for code in reasons.map(Reason::code) {
+            let all = dropped.iter().zip(0..);
+            let all = all.filter_map(|(&drop, triangle)| Some((triangle, drop?)));
+            let all = all.filter(|(_, (_, reason))| reason.code() == code);
+            let count = all.clone().count();
+            for (number, (triangle, drop)) in all.take(REPORTED + 1).enumerate() {
+                let line = self.line_of_triangle(triangle);
                 let message = match count - number {
                     more if number == REPORTED => {
                         format!("and {more} more faces are dropped (the first here)")
                     }
-                    _ => self.why(drop),
+                    _ => self.why(triangle, drop),
                 };
-                let warning = Diagnostic::warning(drop.reason.code(), line, message);
+                let warning = Diagnostic::warning(code, line, message);
                 self.diagnostics.push(warning);
             }
         }
     }
 
-    fn why(&self, drop: &Drop) -> String {
-        let polygon = self.polygon_of(drop.face.index());
-        let what = match self.polygons.corners(polygon).len() {
+    fn why(&self, triangle: usize, (kept, reason): (FaceId, Reason)) -> String {
+        let what = match self.polygons.corners(self.polygon_of(triangle)).len() {
             3 => "this face",
             _ => "a triangle of this face",
         };
-        let kept = self.line_of_triangle(drop.kept.index());
-        let why = match drop.reason {
+        let kept = self.line_of_triangle(kept.index());
+        let why = match reason {
             Reason::Duplicate => format!("has the same vertices as one on line {kept}"),
             Reason::Pillow => format!("lies back to back with one on line {kept}"),
-            Reason::Edge(ends) => {
-                let [a, b] = ends.map(|end| u64::from(end) + 1);
+            Reason::Edge([a, b]) => {
+                let [a, b] = [a, b].map(|end| u64::from(end) + 1);
                 format!("runs the same way as one on line {kept} along the crowded edge {a}-{b}")
             }
         };
@@ -284,17 +281,13 @@ impl Document {
     fn move_corner(&mut self, triangle: usize, from: u32, to: u32) {
         let corners = self.polygons.corners(self.polygon_of(triangle));
         // Another triangle of the polygon may have moved it already.
-        let mut vertices = self.polygons.vertices[corners].iter_mut();
-        vertices
-            .find(|vertex| **vertex == from)
-            .into_iter()
-            .for_each(|vertex| *vertex = to);
-        if let Some(Triangulation { triangles }) = &mut self.triangulation {
-            let mut vertices = triangles[triangle].iter_mut();
-            vertices
-                .find(|vertex| **vertex == from)
-                .into_iter()
-                .for_each(|vertex| *vertex = to);
+        let replace = |vertices: &mut [u32]| {
+            let own = vertices.iter_mut().find(|vertex| **vertex == from);
+            own.into_iter().for_each(|vertex| *vertex = to);
+        };
+        replace(&mut self.polygons.vertices[corners]);
+        if let Some(triangles) = &mut self.triangulation {
+            replace(&mut triangles[triangle]);
         }
     }
 
@@ -391,53 +384,8 @@ impl Document {
     }
 }
 
-/// Triangles to drop.
-struct Dropped {
-    /// A mark for each triangle.
-    gone: Vec<bool>,
-    /// Those that are reported, by reason.
-    named: [Named; 3],
-}
-
-/// Triangles that are dropped for one reason: how many, and the first of them, as many as are
-/// reported and one more.
-#[derive(Default)]
-struct Named {
-    count: usize,
-    first: BTreeMap<FaceId, Drop>,
-}
-
-impl Dropped {
-    fn none(triangles: usize) -> Dropped {
-        Dropped {
-            gone: vec![false; triangles],
-            named: Default::default(),
-        }
-    }
-
-    /// Adds a triangle; they may come in any order.
-    fn add(&mut self, drop: Drop) {
-        self.gone[drop.face.index()] = true;
-        let named = match drop.reason {
-            Reason::Duplicate => &mut self.named[0],
-            Reason::Pillow => &mut self.named[1],
-            Reason::Edge(_) => &mut self.named[2],
-        };
-        named.count += 1;
-        named.first.insert(drop.face, drop);
-        if named.first.len() > REPORTED + 1 {
-            named.first.pop_last();
-        }
-    }
-}
-
-/// A triangle to drop.
-struct Drop {
-    face: FaceId,
-    /// The one that stays in its place.
-    kept: FaceId,
-    reason: Reason,
-}
+/// For each triangle that is dropped, the one that stays in its place, and the reason.
+type Dropped = Vec<Option<(FaceId, Reason)>>;
 
 /// Why a triangle is dropped.
 #[derive(Clone, Copy)]

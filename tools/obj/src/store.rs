@@ -109,16 +109,10 @@ impl Column {
     /// Gives the corner `index`, which comes after all that have one, an index.
     #[inline]
     pub(crate) fn set(&mut self, index: usize, value: u32) {
-        self.set_all(index, &[value]);
-    }
-
-    /// Gives the corners from `first` on, which come after all that have one, an index each.
-    #[inline]
-    pub(crate) fn set_all(&mut self, first: usize, values: &[u32]) {
-        while self.values.len() < first {
+        while self.values.len() < index {
             push(&mut self.values, Self::NONE);
         }
-        extend(&mut self.values, values);
+        push(&mut self.values, value);
     }
 
     #[inline]
@@ -193,27 +187,27 @@ impl Layout {
     /// Adds a statement that is not text.
     #[inline]
     pub(crate) fn push(&mut self, kind: Kind, line: u32) {
-        let polygons_before = self.polygons;
-        self.polygons += u32::from(kind == Kind::Polygon);
         match self.runs.last_mut() {
             Some(run) if run.kind == kind && run.line.wrapping_add(run.count) == line => {
                 run.count += 1;
             }
-            _ => push(
-                &mut self.runs,
-                Run {
-                    kind,
-                    count: 1,
-                    line,
-                    polygons_before,
-                },
-            ),
+            _ => self.begin(kind, 1, line),
         }
+        self.polygons += u32::from(kind == Kind::Polygon);
+    }
+
+    fn begin(&mut self, kind: Kind, count: u32, line: u32) {
+        let run = Run {
+            kind,
+            count,
+            line,
+            polygons_before: self.polygons,
+        };
+        push(&mut self.runs, run);
     }
 
     /// Adds bytes of text.
     pub(crate) fn push_text(&mut self, bytes: usize, line: u32) {
-        let polygons_before = self.polygons;
         let bytes = u32::try_from(bytes).expect("the cap on the length of a line fits 32 bits");
         match self.runs.last_mut() {
             Some(Run {
@@ -223,15 +217,7 @@ impl Layout {
             }) if count.checked_add(bytes).is_some() => {
                 *count += bytes;
             }
-            _ => push(
-                &mut self.runs,
-                Run {
-                    kind: Kind::Text,
-                    count: bytes,
-                    line,
-                    polygons_before,
-                },
-            ),
+            _ => self.begin(Kind::Text, bytes, line),
         }
     }
 

@@ -23,51 +23,44 @@ use crate::polygons::Polygons;
 const THIN: f64 = 1e-3;
 
 /// The triangles of all polygons, where not all are triangles.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Triangulation {
-    pub(crate) triangles: Vec<[u32; 3]>,
-}
-
-impl Triangulation {
-    pub(crate) fn of(polygons: &Polygons, positions: &[Point]) -> Triangulation {
-        let count = polygons.vertices.len() - 2 * polygons.len();
-        let mut triangles = Vec::with_capacity(count);
-        let (mut places, mut cut) = (Vec::new(), Vec::new());
-        for polygon in 0..polygons.len() {
-            let vertices = &polygons.vertices[polygons.corners(polygon)];
-            match *vertices {
-                [a, b, c] => {
-                    triangles.push([a, b, c]);
-                    continue;
-                }
-                // Nearly all others; without this arm, a file of quads takes a third longer to read.
-                [a, b, c, d] if quad_is_good([a, b, c, d].map(|v| positions[v as usize])) => {
-                    triangles.extend([[a, b, c], [a, c, d]]);
-                    continue;
-                }
-                _ => {}
+pub(crate) fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[u32; 3]> {
+    let count = polygons.vertices.len() - 2 * polygons.len();
+    let mut triangles = Vec::with_capacity(count);
+    let (mut places, mut cut) = (Vec::new(), Vec::new());
+    for polygon in 0..polygons.len() {
+        let vertices = &polygons.vertices[polygons.corners(polygon)];
+        match *vertices {
+            [a, b, c] => {
+                triangles.push([a, b, c]);
+                continue;
             }
-            places.clear();
-            places.extend(vertices.iter().map(|&vertex| positions[vertex as usize]));
-            cut.clear();
-            cut.extend((2..places.len() as u16).map(|last| [0, last - 1, last]));
-            if !is_good(&places, &cut) {
-                let flat = flatten(&places);
-                cut_into_ears(&flat, &mut cut);
-                let angle = |triangle: [u16; 3]| smallest_angle(at(&places, triangle));
-                enlarge_angles(&flat, angle, &mut cut);
+            // Nearly all others; without this arm, a file of quads takes a third longer to read.
+            [a, b, c, d] if quad_is_good([a, b, c, d].map(|v| positions[v as usize])) => {
+                triangles.extend([[a, b, c], [a, c, d]]);
+                continue;
             }
-            let vertex = |corner: u16| vertices[usize::from(corner)];
-            triangles.extend(cut.iter().map(|triangle| triangle.map(vertex)));
+            _ => {}
         }
-        assert_eq!(
-            triangles.len(),
-            count,
-            "a polygon of n corners has n − 2 triangles"
-        );
-        avoid_edges(&mut triangles, polygons, positions);
-        Triangulation { triangles }
+        places.clear();
+        places.extend(vertices.iter().map(|&vertex| positions[vertex as usize]));
+        cut.clear();
+        cut.extend((2..places.len() as u16).map(|last| [0, last - 1, last]));
+        if !is_good(&places, &cut) {
+            let flat = flatten(&places);
+            cut_into_ears(&flat, &mut cut);
+            let angle = |triangle: [u16; 3]| smallest_angle(at(&places, triangle));
+            enlarge_angles(&flat, angle, &mut cut);
+        }
+        let vertex = |corner: u16| vertices[usize::from(corner)];
+        triangles.extend(cut.iter().map(|triangle| triangle.map(vertex)));
     }
+    assert_eq!(
+        triangles.len(),
+        count,
+        "a polygon of n corners has n − 2 triangles"
+    );
+    avoid_edges(&mut triangles, polygons, positions);
+    triangles
 }
 
 fn at(places: &[Point], triangle: [u16; 3]) -> [Point; 3] {

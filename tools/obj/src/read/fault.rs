@@ -53,33 +53,17 @@ impl Fault {
     #[cold]
     #[expect(clippy::boxed_local, reason = "a fault travels in one word")]
     pub(super) fn at(self: Box<Self>, line: &Line<'_>) -> ReadError {
-        let (location, text) = locate(line, &self.span);
-        refuse(
-            self.code,
-            location,
-            self.message,
-            Some(text.labelled(self.label)),
-            self.help,
-        )
+        let (location, excerpt) = locate(line, &self.span);
+        let diagnostic = Diagnostic {
+            level: Level::Error,
+            code: self.code,
+            location: Some(location),
+            message: self.message,
+            excerpt: Some(excerpt.labelled(self.label)),
+            help: self.help,
+        };
+        diagnostic.into()
     }
-}
-
-/// An error of the file.
-pub(super) fn refuse(
-    code: &'static str,
-    location: Location,
-    message: String,
-    excerpt: Option<Excerpt>,
-    help: Option<String>,
-) -> ReadError {
-    ReadError::Refused(Box::new(Diagnostic {
-        level: Level::Error,
-        code,
-        location: Some(location),
-        message,
-        excerpt,
-        help,
-    }))
 }
 
 impl Excerpt {

@@ -17,13 +17,9 @@ impl Reader {
         if keyword.is_empty() && self.record.takes(line, start) {
             return Ok(());
         }
-        let class = Class::of(keyword);
-        if !keyword.is_empty() && class != Class::Structure {
-            if class == Class::Foreign {
-                self.tally.note_unknown(&keyword[..keyword.len().min(40)]);
-            }
-            self.tally
-                .count(&keyword[..keyword.len().min(40)], line, start);
+        if !keyword.is_empty() && Class::of(keyword) != Class::Structure {
+            let shown = &keyword[..keyword.len().min(40)];
+            self.tally.count(shown, line, start);
             if let Some(skipped) = tokens_before_indices(keyword) {
                 let scan = Scan::new(*line).moved_to(start + keyword.len());
                 if let Some(bytes) = self.absolute_indices(scan, skipped)? {

@@ -11,9 +11,9 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use super::fault::{Line, locate, refuse};
+use super::fault::{Line, locate};
 use super::source::first_line;
-use crate::diagnostic::{Excerpt, Location, ReadError};
+use crate::diagnostic::{Diagnostic, Excerpt, Location, ReadError};
 use crate::store::Kind;
 
 /// The most bytes of text that are kept.
@@ -131,11 +131,6 @@ pub(super) fn beyond(
     };
     let help = "indices count from 1 through the whole file, not from each object on";
     let excerpt = excerpt.map(|excerpt| excerpt.labelled(label));
-    refuse(
-        "E-OBJ-RANGE",
-        location,
-        message,
-        excerpt,
-        Some(help.to_owned()),
-    )
+    let error = Diagnostic::error("E-OBJ-RANGE", Some(location), message, help);
+    Diagnostic { excerpt, ..error }.into()
 }

@@ -15,8 +15,6 @@ pub(super) struct ForeignStatements {
     others: usize,
     /// Statements whose relative indices were made absolute.
     relative: Option<Counted>,
-    /// The first keyword of the file that was not known.
-    pub(super) first: Option<Vec<u8>>,
 }
 
 #[derive(Debug)]
@@ -28,20 +26,17 @@ struct Counted {
 }
 
 impl ForeignStatements {
-    /// Notes a keyword that is not known; the first one is kept.
-    pub(super) fn note_unknown(&mut self, keyword: &[u8]) {
-        if self.first.is_none() {
-            self.first = Some(keyword.to_vec());
-        }
+    /// The first keyword of the file that is not known: there are fewer known ones than are counted by
+    /// name.
+    pub(super) fn first_unknown(&self) -> Option<&[u8]> {
+        let mut keywords = self.keywords.iter().map(|counted| &counted.keyword[..]);
+        keywords.find(|keyword| Class::of(keyword) == Class::Foreign)
     }
 
     /// Counts a statement, whose keyword starts there.
     pub(super) fn count(&mut self, keyword: &[u8], line: &Line<'_>, start: usize) {
-        if let Some(known) = self
-            .keywords
-            .iter_mut()
-            .find(|known| known.keyword == keyword)
-        {
+        let mut keywords = self.keywords.iter_mut();
+        if let Some(known) = keywords.find(|known| known.keyword == keyword) {
             known.count += 1;
         } else if self.keywords.len() < KEYWORDS_MAX {
             self.keywords.push(Counted::new(keyword, line, start));
@@ -67,16 +62,14 @@ impl ForeignStatements {
                     "W-OBJ-ELEMENT",
                     format!("{keyword} elements are kept, but never cut ({statements})"),
                 ),
-                _ if is_said_of_vertex(&counted.keyword) => (
-                    "W-OBJ-FOREIGN",
-                    format!(
-                        "{keyword} is not interpreted, and is kept as it is, but for no copy of its vertex ({statements})"
-                    ),
-                ),
-                _ => (
-                    "W-OBJ-FOREIGN",
-                    format!("{keyword} is not interpreted, and is kept as it is ({statements})"),
-                ),
+                _ => {
+                    let but = match is_said_of_vertex(&counted.keyword) {
+                        true => ", but for no copy of its vertex",
+                        false => "",
+                    };
+                    let kept = format!("{keyword} is not interpreted, and is kept as it is");
+                    ("W-OBJ-FOREIGN", format!("{kept}{but} ({statements})"))
+                }
             };
             diagnostics.push(counted.warn(Level::Warning, code, message));
         }

@@ -14,7 +14,6 @@ use tearmesh::{DerivedMesh, FaceId, HalfEdgeId, Positions};
 use super::WriteSummary;
 use super::output::Output;
 use super::separate::Separated;
-use crate::document::Document;
 use crate::read::text::statements;
 use crate::store::Kind;
 use crate::torn::TornDocument;
@@ -51,10 +50,12 @@ use crate::torn::TornDocument;
 #[derive(Debug)]
 pub struct PieceWriter<'t> {
     torn: &'t TornDocument<'t>,
-    /// Where each face of the mesh stands among all, and which of the states of `said` it has.
+    /// Where each face of the mesh stands among all, and which of the states it has.
     ranks: Vec<u32>,
     states: Vec<u32>,
-    said: SaidOfFaces<'t>,
+    /// What statements say of faces: all `mtllib`, and the statements in force, by [`KEYWORDS`].
+    libraries: Vec<&'t [u8]>,
+    said: Vec<[Option<&'t [u8]>; KEYWORDS.len()]>,
 }
 
 /// The names of the objects, groups and materials of a piece. Each name is listed once, in the order
@@ -75,18 +76,37 @@ impl<'t> PieceWriter<'t> {
     pub fn new(torn: &'t TornDocument<'t>) -> PieceWriter<'t> {
         let document = torn.document();
         let slots = torn.slots();
-        let said = SaidOfFaces::of(document);
-        let mut states = vec![0; slots.faces.len()];
-        for (polygon, &state) in said.of_polygon.iter().enumerate() {
-            for &face in &slots.faces[slots.of(document.polygons.triangles(polygon))] {
-                states[face as usize] = state;
-            }
-        }
-        PieceWriter {
+        let mut writer = PieceWriter {
             torn,
             ranks: slots.ranks(),
-            states,
-            said,
+            states: vec![0; slots.faces.len()],
+            libraries: Vec::new(),
+            said: vec![[None; KEYWORDS.len()]],
+        };
+        let mut polygons = 0;
+        for (run, lines) in document.runs() {
+            statements(lines).for_each(|(keyword, line)| writer.take(keyword, line));
+            let state = writer.said.len() as u32 - 1;
+            if run.kind == Kind::Polygon {
+                for polygon in polygons..polygons + run.count as usize {
+                    for &face in &slots.faces[slots.of(document.polygons.triangles(polygon))] {
+                        writer.states[face as usize] = state;
+                    }
+                }
+                polygons += run.count as usize;
+            }
+        }
+        writer
+    }
+
+    fn take(&mut self, keyword: &[u8], statement: &'t [u8]) {
+        if keyword == b"mtllib" {
+            self.libraries.push(statement);
+        }
+        if let Some(which) = KEYWORDS.iter().position(|own| *own == keyword) {
+            let mut state = self.said[self.said.len() - 1];
+            state[which] = Some(statement);
+            self.said.push(state);
         }
     }
 
@@ -114,7 +134,7 @@ impl<'t> PieceWriter<'t> {
             "every vertex has a position"
         );
         let mut out = Output::new(out);
-        for library in &self.said.libraries {
+        for library in &self.libraries {
             out.text(library)?;
         }
         let separated = Separated::new(piece.mesh(), None);
@@ -207,7 +227,7 @@ impl<'t> PieceWriter<'t> {
     }
 
     fn said_of(&self, piece: &DerivedMesh, f: FaceId) -> [Option<&'t [u8]>; KEYWORDS.len()] {
-        self.said.states[self.states[piece.faces()[f.index()].index()] as usize]
+        self.said[self.states[piece.faces()[f.index()].index()] as usize]
     }
 
     /// The texture coordinate and the normal of a corner of a piece.
@@ -218,51 +238,6 @@ impl<'t> PieceWriter<'t> {
 
 /// The statements that hold for all faces behind them, up to the next of their kind.
 const KEYWORDS: [&[u8]; 4] = [b"o", b"g", b"usemtl", b"s"];
-
-/// What statements say of faces.
-#[derive(Debug)]
-struct SaidOfFaces<'d> {
-    libraries: Vec<&'d [u8]>,
-    /// The statements in force, by [`KEYWORDS`], and which of these each polygon has.
-    states: Vec<[Option<&'d [u8]>; KEYWORDS.len()]>,
-    of_polygon: Vec<u32>,
-}
-
-impl<'d> SaidOfFaces<'d> {
-    fn of(document: &'d Document) -> SaidOfFaces<'d> {
-        let mut said = SaidOfFaces {
-            libraries: Vec::new(),
-            states: vec![[None; KEYWORDS.len()]],
-            of_polygon: Vec::with_capacity(document.polygon_count()),
-        };
-        for (run, lines) in document.runs() {
-            match run.kind {
-                Kind::Text => {
-                    statements(lines).for_each(|(keyword, line)| said.take(keyword, line));
-                }
-                Kind::Polygon => {
-                    let state = said.states.len() as u32 - 1;
-                    let count = said.of_polygon.len() + run.count as usize;
-                    said.of_polygon.resize(count, state);
-                }
-                Kind::Vertex | Kind::Texture | Kind::Normal => {}
-            }
-        }
-        said
-    }
-
-    fn take(&mut self, keyword: &[u8], statement: &'d [u8]) {
-        if keyword == b"mtllib" {
-            self.libraries.push(statement);
-        }
-        let Some(which) = KEYWORDS.iter().position(|own| *own == keyword) else {
-            return;
-        };
-        let mut state = self.states[self.states.len() - 1];
-        state[which] = Some(statement);
-        self.states.push(state);
-    }
-}
 
 /// What stands behind the keyword, without a comment.
 fn rest_of_statement(statement: Option<&[u8]>) -> String {
