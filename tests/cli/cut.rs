@@ -5,14 +5,7 @@ use std::collections::BTreeSet;
 use tearmesh::{Cut, CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
 use tearmesh_obj::{Document, TornDocument};
 
-use crate::harness::{Folder, seen};
-
-/// Runs a command that succeeds, and gives its report.
-fn report(folder: &Folder, line: &str) -> serde_json::Value {
-    let output = folder.run(&format!("{line} --format json"));
-    assert!(output.status.success(), "{}", seen(&output));
-    serde_json::from_slice(&output.stdout).expect("a report")
-}
+use crate::harness::Folder;
 
 /// The points and the polylines of a file of lines, with indices from 0.
 fn lines(text: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
@@ -25,11 +18,10 @@ fn lines(text: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
                 let numbers: Vec<f64> = words.map(|x| x.parse().expect("a number")).collect();
                 points.push([numbers[0], numbers[1], numbers[2]]);
             }
-            "l" => lines.push(
-                words
-                    .map(|i| i.parse::<usize>().expect("an index") - 1)
-                    .collect(),
-            ),
+            "l" => {
+                let indices = words.map(|i| i.parse::<usize>().expect("an index") - 1);
+                lines.push(indices.collect());
+            }
             _ => assert_eq!(keyword, "o"),
         }
     }
@@ -39,49 +31,21 @@ fn lines(text: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
 #[test]
 fn a_plane_cuts_as_two_rays_through_everything_do() {
     let folder = Folder::new();
-    let by_plane = report(
-        &folder,
-        "tearmesh cut flag.obj --plane 0.31,0,0:-4,0.12,0 -o plane.obj",
-    );
     let rays = "--rays 0.31,0,5:0,0,-1 0.4,3,5:0,0,-1 --through";
-    let by_rays = report(
-        &folder,
-        &format!("tearmesh cut flag.obj {rays} -o rays.obj"),
-    );
-    let [one, other] = [&by_plane, &by_rays].map(|report| &report["cuts"][0]);
+    let cuts = ["--plane 0.31,0,0:-4,0.12,0", rays].map(|options| {
+        let report = folder.report(&format!("cut flag.obj {options} -o out.obj"));
+        report["cuts"][0].clone()
+    });
+    let [one, other] = &cuts;
     assert_eq!(one["through"], true);
     assert_eq!((one.get("rays"), one.get("layers")), (None, None));
     for key in ["splits", "pieces", "seam_length", "vertices_inserted"] {
-        assert!(one[key].as_f64() > Some(0.0), "{key}");
-        let off = one[key].as_f64().expect("a number") - other[key].as_f64().expect("a number");
-        assert!(off.abs() < 1e-9, "{key}");
+        let [one, other] = [one, other].map(|cut| cut[key].as_f64().expect("a number"));
+        assert!(one > 0.0 && (one - other).abs() < 1e-9, "{key}");
     }
     // Planes one after another, the first with a negative coordinate.
-    let both = "tearmesh cut flag.obj --plane -0.2,0,0:1,0,0 --plane 0,0.03,0:0,1,0 -o both.obj";
-    assert_eq!(report(&folder, both)["cuts"][1]["pieces"], 4);
-}
-
-#[test]
-fn what_is_no_plane_is_told() {
-    let folder = Folder::new();
-    for (plane, said) in [
-        ("--plane 1,2:0,0,1", "error[E-PLANE-SYNTAX]"),
-        ("--plane 1,2,3:0,0,0", "error[E-PLANE-ZERO]"),
-        ("--plane 0,0,0:1,0,0 --through", "cannot be used with"),
-        ("--plane 0,0,0:1,0,0 --layers first", "is for rays"),
-        (
-            "--plane 0,0,0:1,0,0 --rays 0,0,1:0,0,1 1,0,1:0,0,1",
-            "cannot be used with",
-        ),
-        ("--plane 0,0,0:1,0,0 --seam flag.obj", "would be replaced"),
-        ("--plane 0,0,0:1,0,0 --seam out.obj", "would be replaced"),
-    ] {
-        let output = folder.run(&format!("tearmesh cut flag.obj {plane} -o out.obj"));
-        let text = seen(&output);
-        assert!(text.contains(said), "{plane}: {text}");
-        let exit = if said.contains("ZERO") { 4 } else { 2 };
-        assert_eq!(output.status.code(), Some(exit), "{text}");
-    }
+    let both = "cut flag.obj --plane -0.2,0,0:1,0,0 --plane 0,0.03,0:0,1,0 -o both.obj";
+    assert_eq!(folder.report(both)["cuts"][1]["pieces"], 4);
 }
 
 /// Two sheets of squares, 1 and 0 high.
@@ -105,8 +69,7 @@ fn the_first_layers_alone_are_cut() {
     let folder = Folder::new();
     folder.write("sheets.obj", two_sheets());
     let cut = |rays: &str, more: &str| {
-        let line = format!("tearmesh cut sheets.obj --rays {rays} {more} -o cut.obj");
-        let report = report(&folder, &line);
+        let report = folder.report(&format!("cut sheets.obj --rays {rays} {more} -o cut.obj"));
         let text = folder.read("cut.obj");
         let vertices = text.lines().filter_map(|line| line.strip_prefix("v "));
         let heights = vertices.skip(50).map(|line| line.ends_with(" 0"));
@@ -121,10 +84,8 @@ fn the_first_layers_alone_are_cut() {
     assert_eq!((again, none), (above, 0));
     let [one, other] = [0, 1].map(|i| &front["cuts"][0]["layers"][i]);
     assert_eq!(one["chain"], other["chain"]);
-    assert_eq!(
-        (one["at"][2].as_f64(), other["at"][1].as_f64()),
-        (Some(1.0), Some(2.3))
-    );
+    let hits = (one["at"][2].as_f64(), other["at"][1].as_f64());
+    assert_eq!(hits, (Some(1.0), Some(2.3)));
     let told = |report: &serde_json::Value| {
         let told = report["diagnostics"].as_array().expect("a list").iter();
         told.filter(|one| one["code"] == "W-CUT-LAYERS").count()
@@ -142,12 +103,10 @@ fn the_seam_is_written_as_lines() {
     folder.write("sheets.obj", two_sheets());
     let line = "tearmesh cut sheets.obj --rays 0.5,1.4,9:0,0,-1 3.1,2.3,9:0,0,-1 \
                 --rays 2.2,-1,9:0,0,-1 2.4,9,9:0,0,-1 --seam seam.obj -o cut.obj";
-    let report = report(&folder, line);
+    let report = folder.report(line);
     let text = folder.read("seam.obj");
-    assert_eq!(
-        text.lines().filter(|line| line.starts_with("o ")).count(),
-        2
-    );
+    let begun = |begin| text.lines().filter(move |line| line.starts_with(begin));
+    assert_eq!(begun("o ").count(), 2);
     let (points, polylines) = lines(&text);
     // Two slits, and two cuts across that the slits divide.
     assert_eq!(polylines.len(), 2 + 4);
@@ -167,28 +126,16 @@ fn the_seam_is_written_as_lines() {
     // Every point is a vertex of the mesh, to the letter.
     let mesh = folder.read("cut.obj");
     let vertices: BTreeSet<&str> = mesh.lines().filter(|line| line.starts_with("v ")).collect();
-    assert!(
-        text.lines()
-            .filter(|line| line.starts_with("v "))
-            .all(|v| vertices.contains(v))
-    );
+    assert!(begun("v ").all(|v| vertices.contains(v)));
     // Read as it is written: a sphere cut in two has one line, which goes round.
     let ball = "tearmesh cut ball.obj --plane 0,0,0.01:0,0.1,1 --seam round.obj -o half.obj";
-    let (mesh, positions) = tearmesh::shapes::octahedron();
-    let mut text = String::new();
-    for p in positions.as_slice() {
-        text += &format!("v {} {} {}\n", p.x, p.y, p.z);
-    }
-    for t in mesh.indices().chunks(3) {
-        text += &format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
-    }
-    folder.write("ball.obj", text);
-    assert_eq!(self::report(&folder, ball)["cuts"][0]["pieces"], 2);
+    let vertices = "v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n";
+    let sides = [[1, 2], [2, 3], [3, 4], [4, 1]];
+    let faces = sides.map(|[a, b]| format!("f {a} {b} 5\nf {b} {a} 6\n"));
+    folder.write("ball.obj", vertices.to_owned() + &faces.concat());
+    assert_eq!(folder.report(ball)["cuts"][0]["pieces"], 2);
     let (_, round) = lines(&folder.read("round.obj"));
-    assert_eq!(
-        (round.len(), round[0][0]),
-        (1, round[0][round[0].len() - 1])
-    );
+    assert_eq!((round.len(), round[0].first()), (1, round[0].last()));
 }
 
 /// A mouse that draws a spiral, seen from above.
@@ -210,7 +157,7 @@ fn a_slit_led_in_a_hundred_calls_is_one_polyline() {
         .map(|two| format!("{} {}\n", down(two[0]), down(two[1])));
     folder.write("mouse.txt", pairs.collect::<String>());
     let line = "tearmesh cut flag.obj --rays-file mouse.txt -o line.obj";
-    let report = report(&folder, line);
+    let report = folder.report(line);
     assert_eq!(report["cuts"].as_array().map(Vec::len), Some(100));
     assert_eq!(report["output"]["boundary_loops"], 2, "one slit");
 
@@ -245,10 +192,7 @@ fn a_slit_led_in_a_hundred_calls_is_one_polyline() {
     }
     let mut bytes = Vec::new();
     torn.write(&mesh, &positions, &mut bytes).expect("written");
-    assert!(
-        bytes == std::fs::read(folder.path("line.obj")).expect("a file"),
-        "the same bytes"
-    );
+    assert!(bytes == folder.bytes("line.obj"), "other bytes");
 }
 
 /// A sheet of one millimetre, wherever it lies: an inserted vertex is as far off the surface as its
@@ -271,9 +215,7 @@ fn a_small_sheet_far_from_the_origin_is_cut() {
             let [y0, y1] = [3.3, 7.1 - 0.3 * f64::from(slope)].map(|y| far + 1e-4 * y);
             let [x0, x1, z] = [far + 1e-4, far + 9e-4, far + 5.0];
             let rays = format!("{x0},{y0},{z}:0,0,-1 {x1},{y1},{z}:0,0,-1");
-            let cut = format!("tearmesh cut sheet.obj --rays {rays} --dry-run");
-            let output = folder.run(&cut);
-            assert_eq!(output.status.code(), Some(0), "{cut}\n{}", seen(&output));
+            folder.done(&format!("cut sheet.obj --rays {rays} --dry-run"));
         }
     }
 }

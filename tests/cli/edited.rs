@@ -1,115 +1,88 @@
 //! Files that another program edited between a cut and its mending.
 
-use crate::harness::Folder;
+use serde_json::Value;
 
-/// The area of all triangles of a file, by Heron's rule.
-fn area(text: &str) -> f64 {
-    let numbers = |line: &str| -> Vec<f64> {
-        let words = line.split_whitespace().skip(1);
-        let first = words.map(|word| word.split('/').next().expect("a number"));
-        first.map(|word| word.parse().expect("a number")).collect()
-    };
-    let places = text.lines().filter(|line| line.starts_with("v "));
-    let places: Vec<Vec<f64>> = places.map(numbers).collect();
-    let distance = |a: f64, b: f64| {
-        let [a, b] = [a, b].map(|v| &places[v as usize - 1]);
-        (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
-    };
-    let faces = text.lines().filter(|line| line.starts_with("f "));
-    let areas = faces.map(|line| {
-        let corners = numbers(line);
-        let [a, b, c] = [[0, 1], [1, 2], [2, 0]].map(|[i, j]| distance(corners[i], corners[j]));
-        let half = (a + b + c) / 2.0;
-        (half * (half - a) * (half - b) * (half - c))
-            .max(0.0)
-            .sqrt()
-    });
-    areas.sum()
+use crate::harness::Folder;
+use crate::plain::Plain;
+
+/// The text with this `v` for a vertex, which counts from 1.
+fn moved(text: &str, vertex: usize, statement: &str) -> String {
+    let is_v = |line: &&str| line.starts_with("v ");
+    let old = text
+        .lines()
+        .filter(is_v)
+        .nth(vertex - 1)
+        .expect("the vertex");
+    let start = old.as_ptr() as usize - text.as_ptr() as usize;
+    [&text[..start], statement, &text[start + old.len()..]].concat()
 }
 
-/// Where the `v` of a vertex begins and ends, counted from 1.
-fn statement(text: &str, vertex: usize) -> std::ops::Range<usize> {
-    let mut start = 0;
-    let mut left = vertex;
-    for line in text.lines() {
-        left -= usize::from(line.starts_with("v "));
-        if left == 0 {
-            return start..start + line.len();
-        }
-        start += line.len() + 1;
-    }
-    panic!("the file has a vertex {vertex}")
+/// The first numbers of the items of a record that begin so.
+fn numbers(text: &str, begins: &[&str]) -> Vec<usize> {
+    let of = |line: &str| {
+        let item = begins.iter().find_map(|begin| line.strip_prefix(begin))?;
+        item.split(' ').next()?.parse().ok()
+    };
+    text.lines().filter_map(of).collect()
 }
 
 /// A cut sheet, sewn but not simplified, and the vertices that are on record as inserted.
 fn sewn(folder: &Folder) -> (String, Vec<usize>) {
-    let run = |line: &str| {
-        let output = folder.run(line);
-        assert!(output.status.success(), "{line}");
-    };
-    run("tearmesh cut sheet.obj --rays 0.3,2,5:0,0,-1 0.7,0.4,5:0,0,-1 -q -o torn.obj");
-    run("tearmesh mend torn.obj -q -o sewn.obj");
+    folder.done("cut sheet.obj --rays 0.3,2,5:0,0,-1 0.7,0.4,5:0,0,-1 -q -o torn.obj");
+    folder.done("mend torn.obj -q -o sewn.obj");
     let text = folder.read("sewn.obj");
-    let items = text.lines().filter_map(|line| {
-        let item = line
-            .strip_prefix("#~ edge ")
-            .or(line.strip_prefix("#~ face "))?;
-        item.split(' ').next()?.parse().ok()
-    });
-    let inserted = items.collect();
+    let inserted = numbers(&text, &["#~ edge ", "#~ face "]);
     (text, inserted)
+}
+
+/// Fails unless the mass that a report says is the area of a file.
+fn weighs(report: &Value, text: &str, tolerance: f64) {
+    let said = report["mass"]["after"].as_f64().expect("an area");
+    let is = Plain::read(text).area();
+    assert!(
+        (said - is).abs() <= tolerance * is,
+        "{said} is said, {is} is written"
+    );
 }
 
 #[test]
 fn regression_an_inserted_vertex_that_was_moved_since_is_kept_and_said() {
     let folder = Folder::new();
-    let (mut text, inserted) = sewn(&folder);
-    let vertex = inserted[inserted.len() / 2];
-    text.replace_range(statement(&text, vertex), "v 0.5 0.5 0.25");
-    folder.write("moved.obj", &text);
-    let output = folder.run("tearmesh mend moved.obj --simplify --format json -o simple.obj");
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let said = report["diagnostics"].as_array().expect("a list");
-    assert!(
-        said.iter().any(|one| one["code"] == "W-MEND-EDITED"),
-        "it is said: {report:#}"
+    let (text, inserted) = sewn(&folder);
+    folder.write(
+        "moved.obj",
+        moved(&text, inserted[inserted.len() / 2], "v 0.5 0.5 0.25"),
     );
-    if output.status.success() {
-        let simple = folder.read("simple.obj");
-        assert!(simple.contains("v 0.5 0.5 0.25\n"), "the vertex is kept");
+    let answer = folder.run("mend moved.obj --simplify --format json -o simple.obj");
+    let report = answer.json();
+    let mut said = report["diagnostics"].as_array().expect("a list").iter();
+    assert!(said.any(|one| one["code"] == "W-MEND-EDITED"), "{report:#}");
+    if answer.exit == 0 {
+        assert!(folder.read("simple.obj").contains("v 0.5 0.5 0.25\n"));
     }
 }
 
 #[test]
 fn a_vertex_that_a_cut_moved_and_somebody_after_it_is_kept_and_said() {
     let folder = Folder::new();
-    let run = |line: &str| {
-        let output = folder.run(line);
-        assert!(output.status.success(), "{line}");
-        serde_json::from_slice(&output.stdout).expect("JSON")
-    };
-    let cut = "tearmesh cut flag.obj --rays 0.31,0.5,5:0,0,-1 0.25,-0.5,5:0,0,-1 --snap 0.2";
-    let _cut: serde_json::Value = run(&format!("{cut} --snap-move --format json -o torn.obj"));
-    let _sewn: serde_json::Value = run("tearmesh mend torn.obj --format json -o sewn.obj");
-    let mut text = folder.read("sewn.obj");
-    let slides = text
-        .lines()
-        .filter_map(|line| line.strip_prefix("#~ slide "));
-    let numbers = slides.filter_map(|item| item.split(' ').next()?.parse().ok());
-    let slid: Vec<usize> = numbers.collect();
-    let mend = "tearmesh mend sewn.obj --simplify --format json -o whole.obj";
-    let report: serde_json::Value = run(mend);
+    let cut = "cut flag.obj --rays 0.31,0.5,5:0,0,-1 0.25,-0.5,5:0,0,-1 --snap 0.2";
+    folder.done(&format!("{cut} --snap-move -o torn.obj"));
+    folder.done("mend torn.obj -o sewn.obj");
+    let text = folder.read("sewn.obj");
+    let slid = numbers(&text, &["#~ slide "]);
+    let mend = "mend sewn.obj --simplify -o whole.obj";
+    let report = folder.report(mend);
     assert_eq!(report["mend"]["vertices_slid_back"], slid.len());
     assert_eq!(report["diagnostics"], serde_json::json!([]));
-    let vertex = slid[slid.len() / 2];
-    text.replace_range(statement(&text, vertex), "v 0.5 0.5 0.25");
-    folder.write("sewn.obj", &text);
-    let report: serde_json::Value = run(mend);
+    folder.write(
+        "sewn.obj",
+        moved(&text, slid[slid.len() / 2], "v 0.5 0.5 0.25"),
+    );
+    let report = folder.report(mend);
     assert_eq!(report["mend"]["vertices_slid_edited"], 1, "{report:#}");
-    let said = report["diagnostics"].as_array().expect("a list").iter();
-    let mut messages = said.filter_map(|one| one["message"].as_str());
+    let mut said = report["diagnostics"].as_array().expect("a list").iter();
     let message = "1 vertex that a cut moved was edited since and stays in place";
-    assert!(messages.any(|said| said == message), "{report:#}");
+    assert!(said.any(|one| one["message"] == message), "{report:#}");
     assert!(folder.read("whole.obj").contains("v 0.5 0.5 0.25\n"));
 }
 
@@ -118,19 +91,12 @@ fn a_vertex_that_a_cut_moved_and_somebody_after_it_is_kept_and_said() {
 fn regression_the_area_that_is_said_is_that_of_sides_that_met_halfway() {
     let folder = Folder::new();
     let _sewn = sewn(&folder);
-    let mut text = folder.read("torn.obj");
-    let item = text.lines().find_map(|line| line.strip_prefix("#~ split "));
-    let copy = item.and_then(|item| item.split(' ').next()?.parse().ok());
-    text.replace_range(statement(&text, copy.expect("a copy")), "v 0.4 0.6 0.5");
-    folder.write("moved.obj", &text);
+    let text = folder.read("torn.obj");
+    let copy = numbers(&text, &["#~ split "])[0];
+    folder.write("moved.obj", moved(&text, copy, "v 0.4 0.6 0.5"));
     for simplify in ["", "--simplify"] {
-        let mend = format!("tearmesh mend moved.obj {simplify} --format json -o whole.obj");
-        let output = folder.run(&mend);
-        assert!(output.status.success(), "{output:?}");
-        let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        let said = report["mass"]["after"].as_f64().expect("an area");
-        let is = area(&folder.read("whole.obj"));
-        assert!((said - is).abs() < 1e-9 * is, "{said} for {is}");
+        let report = folder.report(&format!("mend moved.obj {simplify} -o whole.obj"));
+        weighs(&report, &folder.read("whole.obj"), 1e-9);
     }
 }
 
@@ -141,21 +107,11 @@ fn the_mass_that_is_said_is_the_mass_that_is_written() {
     let folder = Folder::new();
     let (_, inserted) = sewn(&folder);
     // Of a second cut, across the first, which still has to be sewn.
-    let again = "tearmesh cut sewn.obj --rays 2,0.81,5:0,0,-1 -1,0.83,5:0,0,-1 -q -o twice.obj";
-    assert!(folder.run(again).status.success());
+    folder.done("cut sewn.obj --rays 2,0.81,5:0,0,-1 -1,0.83,5:0,0,-1 -q -o twice.obj");
     let torn = folder.read("twice.obj");
     for vertex in inserted.iter().step_by(inserted.len() / 5) {
-        let mut text = torn.clone();
-        text.replace_range(statement(&text, *vertex), "v 0.4 0.6 0.3");
-        folder.write("moved.obj", &text);
-        let output = folder.run("tearmesh mend moved.obj --simplify --format json -o simple.obj");
-        assert!(output.status.success());
-        let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        let said = report["mass"]["after"].as_f64().expect("a mass");
-        let written = area(&folder.read("simple.obj"));
-        assert!(
-            (said - written).abs() <= 1e-6 * written,
-            "vertex {vertex}: {said} is said, {written} is written"
-        );
+        folder.write("moved.obj", moved(&torn, *vertex, "v 0.4 0.6 0.3"));
+        let report = folder.report("mend moved.obj --simplify -o simple.obj");
+        weighs(&report, &folder.read("simple.obj"), 1e-6);
     }
 }

@@ -4,192 +4,149 @@ use std::fs;
 use std::io::{Read as _, Write as _};
 use std::process::Stdio;
 
-use crate::harness::{Folder, seen};
+use crate::harness::{Answer, Folder, signal};
 
-const CUT: &str = "tearmesh cut flag.obj --rays 0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1";
-const RAYS: [&str; 3] = ["--rays", "0.31,2,5:0,0,-1", "0.25,-2,5:0,0,-1"];
+const CUT: &str = "cut flag.obj --rays 0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1";
 
 #[test]
 fn the_same_input_gives_the_same_bytes() {
     let folder = Folder::new();
     for name in ["a", "b"] {
-        let output = folder.run(&format!(
+        folder.done(&format!(
             "{CUT} -o {name}.obj --report {name}.json --no-timing"
         ));
-        assert_eq!(output.status.code(), Some(0));
     }
-    assert_eq!(folder.read("a.obj"), folder.read("b.obj"));
-    assert_eq!(
-        folder.read("a.json").replace("a.obj", "b.obj"),
-        folder.read("b.json")
-    );
-    let streamed = folder.run(&format!("{CUT} -o -"));
-    assert_eq!(
-        String::from_utf8_lossy(&streamed.stdout),
-        folder.read("a.obj")
-    );
-    let piped = folder.run("tearmesh cut - --rays 0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1 < flag.obj");
-    assert_eq!(piped.stdout, streamed.stdout);
-}
-
-#[test]
-fn the_report_has_the_fields_that_others_rely_on() {
-    let folder = Folder::new();
-    let output = folder.run(&format!("{CUT} --format json -o cut.obj"));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    for pointer in [
-        "/schema",
-        "/version",
-        "/command",
-        "/ok",
-        "/exit",
-        "/input/path",
-        "/input/vertices",
-        "/input/faces",
-        "/input/components",
-        "/input/boundary_loops",
-        "/output/path",
-        "/output/vertices",
-        "/output/faces",
-        "/output/components",
-        "/output/boundary_loops",
-        "/cuts/0/rays/0/origin",
-        "/cuts/0/rays/1/direction",
-        "/cuts/0/method",
-        "/cuts/0/plane/point",
-        "/cuts/0/plane/normal",
-        "/cuts/0/faces_crossed",
-        "/cuts/0/splits",
-        "/cuts/0/refused",
-        "/cuts/0/ghost_pairs",
-        "/cuts/0/separated",
-        "/cuts/0/pieces",
-        "/cuts/0/pieces_expected",
-        "/cuts/0/crumbs",
-        "/cuts/0/lost",
-        "/cuts/0/seam_length",
-        "/cuts/0/seam_length_ratio",
-        "/cuts/0/seam_deviation_max",
-        "/cuts/0/seam_deviation_max_edges",
-        "/cuts/0/vertices_inserted",
-        "/cuts/0/angle_min_deg",
-        "/cuts/0/altitude_min",
-        "/mass/before",
-        "/mass/after",
-        "/invariants/checked",
-        "/invariants/violations",
-        "/timing_ms/read",
-        "/timing_ms/build",
-        "/timing_ms/cut",
-        "/timing_ms/check",
-        "/timing_ms/write",
-        "/diagnostics",
-    ] {
-        assert!(
-            report
-                .pointer(pointer)
-                .is_some_and(|value| !value.is_null()),
-            "{pointer}"
-        );
-    }
-    assert!(output.stderr.is_empty());
+    let mesh = folder.read("a.obj");
+    assert_eq!(mesh, folder.read("b.obj"));
+    let report = folder.read("a.json").replace("a.obj", "b.obj");
+    assert_eq!(report, folder.read("b.json"));
+    assert_eq!(folder.run(&format!("{CUT} -o -")).text(), mesh);
+    let piped = folder.run(&(CUT.replace("flag.obj", "-") + " < flag.obj"));
+    assert_eq!(piped.text(), mesh);
 }
 
 #[test]
 fn json_alone_reports_failures_too() {
     let folder = Folder::new();
     folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 0,5 0\nf 1 2 3\n");
-    let line = "tearmesh cut bad.obj --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1 --format json";
-    let output = folder.run(line);
-    assert_eq!(output.status.code(), Some(3));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let answer = folder.run("cut bad.obj --plane 0,0,0:1,0,0 --format json");
+    assert_eq!((answer.exit, &*answer.error), (3, ""));
+    let report = answer.json();
     assert_eq!((&report["ok"], &report["exit"]), (&false.into(), &3.into()));
     let found = &report["diagnostics"][0];
-    assert_eq!(
-        (&found["code"], &found["line"], &found["column"]),
-        (&"E-OBJ-FLOAT".into(), &3.into(), &5.into())
-    );
+    let place = (&found["code"], &found["line"], &found["column"]);
+    assert_eq!(place, (&"E-OBJ-FLOAT".into(), &3.into(), &5.into()));
 }
 
 #[test]
 fn no_escape_bytes_reach_a_pipe_unless_asked_for() {
     let folder = Folder::new();
-    let bad = "tearmesh cut falg.obj --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
-    for line in [
-        bad,
-        "tearmesh cut --help",
-        "tearmesh cut",
-        "tearmesh --version",
-    ] {
-        assert!(!seen(&folder.run(line)).contains('\x1b'), "{line}");
+    let bad = "cut falg.obj --plane 0,0,0:1,0,0";
+    for line in [bad, "cut --help", "tear --help", "cut", "--version"] {
+        assert!(!folder.process(line).seen().contains('\x1b'), "{line}");
     }
-    assert!(seen(&folder.run(&format!("{bad} --color always"))).contains('\x1b'));
+    let asked = folder.process(&format!("{bad} --color always"));
+    assert!(asked.seen().contains('\x1b'));
 }
 
 #[test]
-fn help_fits_a_screen_and_has_two_examples() {
+fn help_fits_a_screen_and_has_two_examples_and_every_key() {
     let folder = Folder::new();
-    let short = folder.run("tearmesh cut -h");
-    assert!(String::from_utf8_lossy(&short.stdout).lines().count() <= 40);
-    let long = folder.run("tearmesh cut --help");
-    assert_eq!(
-        String::from_utf8_lossy(&long.stdout)
-            .matches("  tearmesh cut ")
-            .count(),
-        2
-    );
-    assert!(!String::from_utf8_lossy(&long.stdout).contains("tearmesh tear"));
-}
-
-#[test]
-fn the_help_of_a_chart_counts_its_meshes() {
-    let folder = Folder::new();
-    let help = folder.run("tearmesh chart tear --help");
+    for (verb, other) in [("cut", "tear"), ("tear", "cut")] {
+        let short = folder.done(&format!("{verb} -h"));
+        assert!(short.lines().count() <= 40, "{short}");
+        let long = folder.done(&format!("{verb} --help"));
+        let examples = |verb| long.matches(&format!("  tearmesh {verb} ")).count();
+        assert_eq!((examples(verb), examples(other)), (2, 0));
+    }
+    let long = folder.done("tear --help");
+    let words = long.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "stretch_n_per_m",
+        "splits_per_step",
+        "[[hold]]",
+        "sway_m_per_s",
+        "replaces all entries of its kind in the base",
+        "A [tear] section enables tearing",
+        "without duplicates (named in comments `#~ fan` of a torn file)",
+    ] {
+        assert!(words.contains(said), "{said}");
+    }
     let words = ["no", "one", "two", "three", "four", "five", "six", "seven"];
-    let meshes = format!(
-        "strips of {} meshes",
-        words[tearmesh_lab::tear::CELLS.len()]
+    let meshes = words[tearmesh_lab::tear::CELLS.len()];
+    let long = folder.done("chart tear --help");
+    assert!(
+        long.contains(&format!("strips of {meshes} meshes")),
+        "{long}"
     );
-    let said = seen(&help);
-    assert!(said.contains(&meshes), "{said}");
 }
 
 #[test]
 fn a_closed_pipe_ends_quietly() {
     let folder = Folder::new();
-    let mut command = folder.command();
-    command
-        .args(["cut", "flag.obj"])
-        .args(RAYS)
-        .args(["-q", "-o", "-"]);
-    let mut child = command
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("a run");
+    let mut command = folder.command(&format!("{CUT} -q -o -"));
+    let piped = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = piped.spawn().expect("a run");
     drop(child.stdout.take());
     let mut words = String::new();
-    child
-        .stderr
-        .take()
-        .expect("words")
-        .read_to_string(&mut words)
-        .expect("text");
-    assert_eq!(
-        (child.wait().expect("an end").code(), words.as_str()),
-        (Some(0), "")
-    );
+    let mut said = child.stderr.take().expect("words");
+    said.read_to_string(&mut words).expect("text");
+    let exit = child.wait().expect("an end").code();
+    assert_eq!((exit, words.as_str()), (Some(0), ""));
 }
 
+/// A byte order mark, line ends of two characters, blank lines and comments: the same rays, and the same
+/// scene.
 #[test]
-fn a_failed_write_leaves_the_old_file_and_nothing_else() {
+fn regression_texts_may_begin_with_a_byte_order_mark() {
     let folder = Folder::new();
-    folder.write("old.obj", "something old\n");
-    folder.write("bad.obj", "v 0 0 0\n");
-    let before = folder.names();
-    folder.run("tearmesh cut bad.obj --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1 -o old.obj");
-    assert_eq!(folder.read("old.obj"), "something old\n");
-    assert_eq!(folder.names(), before);
+    let rays = "0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1\n";
+    let scene = "base = \"hang\"\nseconds = 0.1\n";
+    for (command, lines) in [
+        ("cut flag.obj --rays-file", rays),
+        ("tear flag.obj --scene", scene),
+    ] {
+        let mut plain = None;
+        for begin in [
+            "",
+            "\u{feff}",
+            "\u{feff}\n",
+            "# a comment\n",
+            "\u{feff}# a comment\r\n",
+        ] {
+            for end in ["\n", "\r\n", " \r\n"] {
+                folder.write("x.toml", format!("{begin}{}", lines.replace('\n', end)));
+                folder.done(&format!("{command} x.toml -q -o x.obj"));
+                let made = folder.read("x.obj");
+                assert!(
+                    *plain.get_or_insert(made.clone()) == made,
+                    "{begin:?} {end:?}"
+                );
+            }
+        }
+    }
+}
+
+/// A report of a simulation says its steps, so one without was written before the first.
+#[test]
+fn a_place_that_cannot_be_written_is_found_before_the_first_step() {
+    let folder = Folder::new();
+    let line = "tear flag.obj --scene hang --seconds 0.1 --format json";
+    for (options, message) in [
+        ("-o no/x.obj", "`no/x.obj`: there is no folder `no`"),
+        ("-o tests", "`tests`: it is a directory"),
+        ("--report no/r.json", "`no/r.json`: there is no folder `no`"),
+        ("--dry-run --report tests", "`tests`: it is a directory"),
+    ] {
+        let answer = folder.run(&format!("{line} {options}"));
+        let report = answer.json();
+        assert_eq!((answer.exit, &report["exit"]), (7, &7.into()));
+        assert!(report["steps"].is_null(), "{options}");
+        let said = report["diagnostics"].as_array().expect("a list");
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert_eq!(said[0]["code"], "E-IO-WRITE");
+        assert_eq!(said[0]["message"], format!("cannot write {message}"));
+    }
 }
 
 #[cfg(unix)]
@@ -202,46 +159,35 @@ mod unix {
     fn links_are_followed_and_stay_links() {
         let folder = Folder::new();
         fs::create_dir(folder.path("real")).expect("a folder");
-        symlink("real/torn.obj", folder.path("link.obj")).expect("a link");
+        for (to, link) in [
+            ("real/torn.obj", "link.obj"),
+            ("flag.obj", "input.obj"),
+            ("round.obj", "round.obj"),
+        ] {
+            symlink(to, folder.path(link)).expect("a link");
+        }
         for _ in 0..2 {
-            assert_eq!(
-                folder.run(&format!("{CUT} -o link.obj")).status.code(),
-                Some(0)
-            );
+            folder.done(&format!("{CUT} -o link.obj"));
             assert!(folder.path("link.obj").is_symlink());
             assert!(folder.read("real/torn.obj").starts_with("# a waving flag"));
         }
-        symlink("flag.obj", folder.path("input.obj")).expect("a link");
-        assert_eq!(
-            folder.run(&format!("{CUT} -o input.obj")).status.code(),
-            Some(2)
-        );
-        symlink("round.obj", folder.path("round.obj")).expect("a link");
-        assert_eq!(
-            folder.run(&format!("{CUT} -o round.obj")).status.code(),
-            Some(7)
-        );
+        folder.ends(&format!("{CUT} -o input.obj"), 2);
+        folder.ends(&format!("{CUT} -o round.obj"), 7);
     }
 
     #[test]
     fn a_file_keeps_its_mode_and_a_new_one_gets_the_usual_one() {
         let folder = Folder::new();
         let mode = |name: &str| {
-            fs::metadata(folder.path(name))
-                .expect("a file")
-                .permissions()
-                .mode()
-                & 0o777
+            let file = fs::metadata(folder.path(name)).expect("a file");
+            file.permissions().mode() & 0o777
         };
         folder.write("usual.obj", "");
         folder.write("private.obj", "");
         let private = fs::Permissions::from_mode(0o600);
         fs::set_permissions(folder.path("private.obj"), private).expect("a mode");
         for name in ["private.obj", "new.obj"] {
-            assert_eq!(
-                folder.run(&format!("{CUT} -o {name}")).status.code(),
-                Some(0)
-            );
+            folder.done(&format!("{CUT} -o {name}"));
         }
         assert_eq!(mode("private.obj"), 0o600);
         assert_eq!(mode("new.obj"), mode("usual.obj"));
@@ -250,40 +196,61 @@ mod unix {
     #[test]
     fn devices_are_written_and_not_replaced() {
         let folder = Folder::new();
-        assert_eq!(
-            folder.run(&format!("{CUT} -o /dev/null")).status.code(),
-            Some(0)
-        );
+        folder.done(&format!("{CUT} -o /dev/null"));
         assert!(
             !fs::metadata("/dev/null")
                 .expect("it is still there")
                 .is_file()
         );
         if fs::metadata("/dev/full").is_ok() {
-            let output = folder.run(&format!("{CUT} -o /dev/full"));
-            assert_eq!(output.status.code(), Some(7), "{}", seen(&output));
+            folder.ends(&format!("{CUT} -o /dev/full"), 7);
         }
     }
 
     #[test]
     fn an_interrupted_run_ends_with_130() {
         let folder = Folder::new();
-        let mut command = folder.command();
-        command
-            .args(["cut", "-"])
-            .args(RAYS)
-            .args(["-o", "torn.obj"]);
+        let mut command = folder.command(&(CUT.replace("flag.obj", "-") + " -o torn.obj"));
         let mut child = command.stdin(Stdio::piped()).spawn().expect("a run");
         let mut input = child.stdin.take().expect("an input");
         // The program is reading, and so has installed its handler, once a pipe's worth of
         // bytes is gone.
         input.write_all(&[b'\n'; 1 << 20]).expect("a reader");
-        let id = child.id().to_string();
-        let killed = std::process::Command::new("kill")
-            .args(["-INT", &id])
-            .status();
-        assert!(killed.expect("kill runs").success());
+        signal("-INT", child.id());
         assert_eq!(child.wait().expect("an end").code(), Some(130));
-        assert!(!folder.names().contains(&"torn.obj".to_owned()));
+        assert!(!folder.path("torn.obj").exists());
+    }
+
+    /// The message is the same for each run, and names the file that was given and no other.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn regression_a_place_that_cannot_be_written_is_told_by_its_own_name() {
+        let folder = Folder::new();
+        let line = format!("{CUT} -o /proc/torn.obj --report /proc/torn.json");
+        let said = folder.ends(&line, 7);
+        assert!(
+            said.contains("cannot write `/proc/torn.obj`: No such file"),
+            "{said}"
+        );
+        assert!(!said.contains(".tmp"), "{said}");
+        assert_eq!(folder.ends(&line, 7), said);
+    }
+
+    /// Names of open pipes look like links that lead nowhere.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn regression_the_names_of_standard_streams_can_be_written() {
+        let folder = Folder::new();
+        let process = |options: &str| -> Answer {
+            let answer = folder.process(&format!("{CUT} -q {options}"));
+            assert_eq!(answer.exit, 0, "{}", answer.seen());
+            answer
+        };
+        let mesh = process("-o -").output;
+        for name in ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"] {
+            assert!(process(&format!("-o {name}")).output == mesh, "{name}");
+        }
+        let report = process("-o x.obj --report /dev/stderr").error;
+        assert!(serde_json::from_str::<serde_json::Value>(&report).is_ok());
     }
 }

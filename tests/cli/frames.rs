@@ -1,63 +1,92 @@
-//! Frames: which of their numbers stay, how many there are a second, and what an interruption
-//! leaves of them.
+//! Frames: which of their numbers stay, where their corners are, and what an interruption leaves of them.
 
-use std::fs;
-
+use crate::harness::Folder;
 #[cfg(unix)]
 use crate::harness::interrupted_at;
-use crate::harness::{Folder, seen};
-
-/// The number of vertices of a frame, and the vertex of each corner, from 1.
-fn corners(text: &str) -> (usize, Vec<usize>) {
-    let vertices = text.lines().filter(|line| line.starts_with("v ")).count();
-    let faces = text.lines().filter_map(|line| line.strip_prefix("f "));
-    let words = faces.flat_map(str::split_whitespace);
-    let indices = words.map(|word| word.split('/').next().expect("an index"));
-    let indices = indices.map(|index| index.parse().expect("a vertex"));
-    (vertices, indices.collect())
-}
-
-fn count(folder: &Folder, name: &str) -> usize {
-    let frames = fs::read_dir(folder.path(name)).expect("a folder of frames");
-    frames.count()
-}
+use crate::plain::Plain;
 
 /// Whoever follows a vertex by its number through the frames follows one vertex.
 #[test]
 fn a_corner_of_a_frame_changes_only_to_a_vertex_that_is_new_in_it() {
     let folder = Folder::new();
-    let output = folder.run("tearmesh tear sheet.obj --scene rip --frames f -q -o torn.obj");
-    assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
-    let (mut moved, mut reused) = (0, 0);
-    let mut before = corners(&folder.read("f/frame_00000.obj"));
-    for number in 1..count(&folder, "f") {
-        let now = corners(&folder.read(&format!("f/frame_{number:05}.obj")));
-        assert!(now.0 >= before.0, "frame {number} has lost vertices");
-        for (was, is) in before.1.iter().zip(&now.1).filter(|(was, is)| was != is) {
+    folder.done("tear sheet.obj --scene rip --frames f -q -o torn.obj");
+    let frames = folder.list("f");
+    let mut frames = frames
+        .iter()
+        .map(|name| Plain::read(&folder.read(&format!("f/{name}"))));
+    let (mut moved, mut before) = (0, frames.next().expect("a frame"));
+    for now in frames {
+        assert!(now.vertices.len() >= before.vertices.len());
+        let corners = before
+            .faces
+            .iter()
+            .flatten()
+            .zip(now.faces.iter().flatten());
+        for (_, is) in corners.filter(|(was, is)| was != is) {
             moved += 1;
-            reused += usize::from(*is <= before.0);
-            assert_ne!(was, is);
+            assert!(*is >= before.vertices.len(), "it was another vertex before");
         }
         before = now;
     }
     assert!(moved > 100, "{moved}");
-    assert_eq!(
-        reused, 0,
-        "corners of {moved} moved to a vertex that was another"
-    );
 }
 
 #[test]
-fn steps_longer_than_a_frame_are_warned_of() {
+fn frames_with_one_topology_are_the_frames_corner_by_corner() {
     let folder = Folder::new();
-    let line = "tearmesh tear flag.obj --scene hang --solver pbd --seconds 1 --frames";
-    for (name, dt_s, frames, is_warned) in [("few", 0.1, 11, true), ("all", 0.025, 31, false)] {
-        let output = folder.run(&format!("{line} {name} --dt {dt_s} -o {name}.obj"));
-        assert_eq!(output.status.code(), Some(0), "{}", seen(&output));
-        assert_eq!(count(&folder, name), frames);
-        let said = seen(&output);
-        assert_eq!(said.contains("W-FRAMES-FEW"), is_warned, "{said}");
-        assert_eq!(said.contains("10 frames per second"), is_warned, "{said}");
+    let rip = "tear sheet.obj --scene rip --seconds 1.5";
+    folder.done(&format!("{rip} --frames own -o own.obj"));
+    let options = "--frames final --frames-topology final -o final.obj --report r.json";
+    folder.done(&format!("{rip} {options}"));
+    assert_eq!(folder.read("own.obj"), folder.read("final.obj"));
+    let names = folder.list("own");
+    assert_eq!(names, folder.list("final"));
+    assert_eq!((names.len(), &*names[45]), (46, "frame_00045.obj"));
+    let last = Plain::read(&folder.read("final.obj"));
+    let mut grown = 0;
+    for name in &names {
+        let [own, one] =
+            ["own", "final"].map(|of| Plain::read(&folder.read(&format!("{of}/{name}"))));
+        assert_eq!(one.faces, last.faces, "{name}: one index buffer");
+        assert_eq!(one.vertices.len(), last.vertices.len());
+        assert!(own.corners().eq(one.corners()), "{name}");
+        // Vertices keep their order, and new ones are appended.
+        grown = own.vertices.len();
+        assert_eq!(own.vertices[..], one.vertices[..grown]);
+    }
+    let report = folder.json("r.json");
+    assert_eq!(report["frames"]["count"], 46);
+    assert_eq!(
+        report["frames"]["corners_checked"],
+        46 * 3 * last.faces.len()
+    );
+    // The last frame is the output, which has more copies behind those: of vertices whose faces
+    // share no edge.
+    let splits = report["splits"].as_u64().expect("a count") as usize;
+    assert!(splits > 0 && grown == 600 + splits && grown < last.vertices.len());
+}
+
+/// The faces of a frame before the cut are divided already, but on the same surface.
+#[test]
+fn frames_before_a_cut_have_its_vertices_on_their_edges() {
+    let folder = Folder::new();
+    for options in ["--frames own", "--frames final --frames-topology final"] {
+        let line = "tear sheet.obj --scene tests/data/scarf.toml";
+        folder.done(&format!("{line} {options} -o out.obj"));
+    }
+    for name in folder.list("own") {
+        let [own, one] =
+            ["own", "final"].map(|of| Plain::read(&folder.read(&format!("{of}/{name}"))));
+        assert_eq!(
+            own.vertices[..],
+            one.vertices[..own.vertices.len()],
+            "{name}"
+        );
+        let [before, after] = [own.area(), one.area()];
+        assert!(
+            (before - after).abs() < 1e-9 * before,
+            "{name}: {before} {after}"
+        );
     }
 }
 
@@ -68,23 +97,21 @@ fn a_simulation_is_saved_when_the_writing_of_its_frames_is_interrupted() {
     let folder = Folder::new();
     let line = "tear flag.obj --scene hang --solver pbd --dt 0.033 --seconds 20 --frames f \
                 --frames-topology final -o saved.obj --report r.json";
-    let mut command = folder.command();
-    command.args(line.split_whitespace());
-    let output = interrupted_at(&mut command, &folder.path("f/frame_00002.obj"));
-    let said = seen(&output);
-    assert_eq!(output.status.code(), Some(130), "{said}");
-    let frames = count(&folder, "f");
+    let answer = interrupted_at(folder.command(line), &folder.path("f/frame_00002.obj"));
+    let said = answer.seen();
+    assert_eq!(answer.exit, 130, "{said}");
+    let frames = folder.list("f").len();
     assert!((3..600).contains(&frames), "{frames} frames");
-    assert!(folder.path("saved.obj").exists(), "no mesh; said: {said}");
-    assert!(said.contains("wrote saved.obj"), "{said}");
-    let missing = format!("{frames} of 601 frames");
-    assert!(
-        said.contains("W-FRAMES-INTERRUPTED") && said.contains(&missing),
-        "{said}"
-    );
-    let report: serde_json::Value = serde_json::from_str(&folder.read("r.json")).expect("JSON");
+    for part in [
+        "wrote saved.obj",
+        "W-FRAMES-INTERRUPTED",
+        &format!("{frames} of 601 frames"),
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    let report = folder.json("r.json");
     assert_eq!(report["status"], "done");
     assert_eq!(report["exit"], 130);
     assert_eq!(report["frames"]["count"], frames);
-    assert!(corners(&folder.read("saved.obj")).0 >= 1089);
+    assert!(Plain::read(&folder.read("saved.obj")).vertices.len() >= 1089);
 }

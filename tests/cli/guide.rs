@@ -8,7 +8,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use crate::harness::{self, Folder, root};
+use crate::harness::{Answer, Folder, root};
 
 /// A page of the guide.
 fn page(name: &str) -> String {
@@ -191,9 +191,8 @@ fn codes_come_with_the_exit_statuses_of_the_guide() {
     for (file, commands, code) in runs {
         folder.write("bad.obj", file);
         for typed in commands {
-            let output = folder.run(typed);
-            let exit = output.status.code().expect("a status");
-            let answer = harness::seen(&output);
+            let answer = folder.run(typed);
+            let (exit, answer) = (answer.exit, answer.seen());
             let codes = codes_of(&answer, exit, &told);
             assert!(exit != 0 && codes.contains(code), "{answer}");
         }
@@ -238,7 +237,7 @@ const REPORTS: &[&str] = &[
     "tear sheet.obj --scene hang --seconds 0.02 --solver pbd -o e.obj",
     "tear sheet.obj --scene hang --seconds 0.02 --solver implicit -o e.obj",
     "tear sheet.obj --scene hang --seconds 0.02 --solver provot -o e.obj",
-    "tear sheet.obj --scene wild.toml -o e.obj",
+    "tear sheet.obj --scene springs.toml -o e.obj",
     "tear sheet.obj --scene flag --seconds 1.6 --solver provot -o e.obj",
     "tear sheet.obj --scene pin.toml --check-step -o e.obj",
 ];
@@ -246,44 +245,24 @@ const REPORTS: &[&str] = &[
 #[test]
 fn the_guide_has_the_keys_of_the_report_and_no_others() {
     let folder = Folder::new();
-    let files = [
-        (
-            "three.obj",
-            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n",
-        ),
-        (
-            "notch.obj",
-            "v 0 0.02 0\nv -1 -1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 5\n",
-        ),
-        (
-            "wild.toml",
-            "base = \"rip\"\n[fabric]\nstretch_n_per_m = 1000\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n[tear]\nthreshold = 2.5\n",
-        ),
-        ("pin.toml", "seconds = 0.01\n[[hold]]\nnear = [0, 1]\n"),
-    ];
-    files
-        .iter()
-        .for_each(|(name, text)| folder.write(name, text));
+    folder.add_files("tests/cli/inputs.txt");
+    folder.write("pin.toml", "seconds = 0.01\n[[hold]]\nnear = [0, 1]\n");
 
     let mut printed = BTreeSet::new();
     for typed in REPORTS {
-        let output = folder.run(&format!("tearmesh {typed} --report r.json"));
-        let report = fs::read(folder.path("r.json"));
-        let report = report.unwrap_or_else(|_| panic!("{typed}: {output:?}"));
-        let report = serde_json::from_slice(&report).expect("JSON");
+        folder.run(&format!("{typed} --report r.json"));
+        keys_of(&folder.json("r.json"), "", &mut printed);
         fs::remove_file(folder.path("r.json")).expect("a file");
-        keys_of(&report, "", &mut printed);
     }
-    let output = folder.run("tearmesh check flag.obj quilt.obj three.obj --format json");
-    for line in String::from_utf8(output.stdout).expect("text").lines() {
+    let checked = folder.run("check flag.obj quilt.obj three.obj --format json");
+    for line in checked.text().lines() {
         let mut keys = BTreeSet::new();
         keys_of(&serde_json::from_str(line).expect("JSON"), "", &mut keys);
-        let (diagnostics, own): (Vec<_>, _) = keys
-            .into_iter()
-            .partition(|key| key.starts_with("diagnostics[]"));
-        printed.extend(diagnostics);
-        let own: Vec<_> = own;
-        printed.extend(own.into_iter().map(|key| format!("check: {key}")));
+        let name = |key: String| match key.starts_with("diagnostics[]") {
+            true => key,
+            false => format!("check: {key}"),
+        };
+        printed.extend(keys.into_iter().map(name));
     }
 
     let mut told = BTreeSet::new();
@@ -292,61 +271,9 @@ fn the_guide_has_the_keys_of_the_report_and_no_others() {
             assert!(told.insert(key.to_owned()), "{key} stands twice");
         }
     }
-    let lists = |one: &BTreeSet<String>, other: &BTreeSet<String>| {
-        one.difference(other).cloned().collect::<Vec<_>>()
-    };
-    let (missing, made_up) = (lists(&printed, &told), lists(&told, &printed));
-    assert!(
-        missing.is_empty() && made_up.is_empty(),
-        "missing {missing:?}, made up {made_up:?}"
-    );
+    let differences: Vec<_> = printed.symmetric_difference(&told).collect();
+    assert!(differences.is_empty(), "{differences:?}");
     println!("{} keys", told.len());
-}
-
-#[test]
-fn the_guide_has_the_keys_of_scene_files_and_no_others() {
-    let folder = Folder::new();
-    let tables = [
-        "fabric",
-        "solver",
-        "wind",
-        "[collider]",
-        "[hold]",
-        "[cut]",
-        "tear",
-        "[strength]",
-    ];
-    let mut taken = BTreeSet::new();
-    for table in tables.into_iter().chain([""]) {
-        let head = match table {
-            "" => String::new(),
-            table => format!("[{table}]\n"),
-        };
-        folder.write("s.toml", head + "unknown_to_all_of_them = 1\n");
-        // The answer lists all keys.
-        let answer = harness::seen(&folder.run("tearmesh tear sheet.obj --scene s.toml"));
-        let keys = answer.split_once("help: it has ").expect("the keys").1;
-        let keys = keys.lines().next().expect("a line").split(", ");
-        let table = table.replace(['[', ']'], "");
-        let keys = keys.filter(|key| {
-            tables
-                .iter()
-                .all(|table| table.replace(['[', ']'], "") != *key)
-        });
-        taken.extend(keys.map(|key| (table.clone(), key.to_owned())));
-    }
-
-    let mut told = BTreeSet::new();
-    for section in page("scenes.md").split("\n# ").skip(1) {
-        let title = section.lines().next().expect("a title");
-        let table = quoted(title).next().unwrap_or_default();
-        let table = table.replace(['[', ']'], "");
-        for row in rows(section, "| key | value | default | meaning |") {
-            told.extend(quoted(&row[0]).map(|key| (table.clone(), key.to_owned())));
-        }
-    }
-    assert_eq!(told, taken);
-    assert!(told.len() > 70);
 }
 
 #[test]
@@ -356,15 +283,12 @@ fn the_scene_of_the_guide_can_be_played() {
         panic!("one scene");
     };
     folder.write("guide.toml", scene);
-    let output =
-        folder.run("tearmesh tear sheet.obj --scene guide.toml --seconds 0.05 -o played.obj");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
+    folder.done("tear sheet.obj --scene guide.toml --seconds 0.05 -o played.obj");
     assert!(folder.read("played.obj").contains("\nf "));
 }
 
 /// The command in a folder of its own, which a shell finds.
-fn shell(folder: &Folder, typed: &str) -> std::process::Output {
+fn shell(folder: &Folder, typed: &str) -> Answer {
     let own = Path::new(env!("CARGO_BIN_EXE_tearmesh")).parent();
     let path = std::env::var_os("PATH").unwrap_or_default();
     let mut folders = vec![own.expect("a folder").to_owned()];
@@ -376,6 +300,7 @@ fn shell(folder: &Folder, typed: &str) -> std::process::Output {
         .current_dir(folder.path("."))
         .output()
         .expect("a shell")
+        .into()
 }
 
 /// Runs the batches of the guide, and each of their cuts alone.
@@ -405,12 +330,11 @@ fn batches_by_gnu_parallel() {
         panic!("five batches");
     };
     let play = |batch: &str, expected: i32| {
-        let output = shell(&folder, batch);
-        assert_eq!(output.status.code(), Some(expected), "{batch}: {output:?}");
+        let answer = shell(&folder, batch);
+        assert_eq!(answer.exit, expected, "{batch}: {answer:?}");
     };
     let alone = |typed: &str| {
-        let output = folder.run(&format!("tearmesh cut {typed} -q -o alone.obj"));
-        assert!(output.status.success(), "{typed}: {output:?}");
+        folder.done(&format!("cut {typed} -q -o alone.obj"));
         folder.read("alone.obj")
     };
     let plane = "--plane 0.21,0.05,0:1,0,0";
@@ -424,7 +348,7 @@ fn batches_by_gnu_parallel() {
     play(charts, 0);
     let whole =
         "tearmesh chart pareto --scene swing,hang --mesh grid,delaunay --size 4 -q --csv whole.csv";
-    assert!(folder.run(whole).status.success());
+    folder.done(whole);
     // The header comes first, and the rows of the parts in the order of their files.
     let [parts, whole] = ["pareto", "whole"].map(|name| folder.read(&format!("{name}.csv")));
     assert_eq!(parts.lines().next(), whole.lines().next());
@@ -458,8 +382,7 @@ fn batches_by_gnu_parallel() {
     check();
     assert!(!folder.path("cut/bad.obj").exists());
     for name in ["bad", "flag", "sheet", "sleeve"] {
-        let report = folder.read(&format!("cut/{name}.json"));
-        let report: Value = serde_json::from_str(&report).expect("JSON");
+        let report = folder.json(&format!("cut/{name}.json"));
         assert_eq!(report["ok"], Value::Bool(name != "bad"), "{name}");
     }
 

@@ -1,14 +1,34 @@
 //! What holds of the command whatever is typed and whatever is on standard input.
 //!
 //! The fuzz target `cut_cli` and the replay of its seeds use this. The command runs in the
-//! process of the caller, on streams in memory, and is never given a path.
+//! process of the caller, on streams in memory, and a case is never given a path.
 
 use std::ffi::OsString;
 use std::fmt;
+use std::io::Write;
 
 use serde_json::Value;
 use tearmesh_cli::{Exit, Streams, run};
 use tearmesh_obj::Document;
+
+/// Runs the command in this process. Gives its exit status, and what it says on standard error.
+pub(crate) fn ran<'w>(
+    typed: impl IntoIterator<Item = &'w str>,
+    mut input: &[u8],
+    output: &mut dyn Write,
+    terminal: bool,
+) -> (Exit, String) {
+    let mut error = Vec::new();
+    let streams = Streams {
+        input: &mut input,
+        output,
+        error: &mut error,
+        output_is_terminal: terminal,
+        error_is_terminal: terminal,
+    };
+    let exit = run(typed.into_iter().map(OsString::from), streams);
+    (exit, String::from_utf8(error).expect("words are text"))
+}
 
 /// Options that take the name of a file. Here each means the standard stream.
 pub(crate) const PATHS: [&str; 9] = [
@@ -92,22 +112,14 @@ impl Case {
     }
 
     fn run(&self) -> Ran {
-        let typed = ["tearmesh", "cut", "-"].map(OsString::from);
-        let (mut output, mut error) = (Vec::new(), Vec::new());
-        let streams = Streams {
-            input: &mut &self.input[..],
-            output: &mut output,
-            error: &mut error,
-            output_is_terminal: self.terminal,
-            error_is_terminal: self.terminal,
-        };
-        let args = typed
-            .into_iter()
-            .chain(self.args.iter().map(OsString::from));
+        let typed = ["tearmesh", "cut", "-"].into_iter();
+        let typed = typed.chain(self.args.iter().map(String::as_str));
+        let mut output = Vec::new();
+        let (exit, error) = ran(typed, &self.input, &mut output, self.terminal);
         Ran {
-            exit: run(args, streams),
+            exit,
             output,
-            error: String::from_utf8(error).expect("words are text"),
+            error,
         }
     }
 

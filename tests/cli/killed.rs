@@ -1,10 +1,10 @@
 //! Runs that end in the middle: of a signal, after which nothing is left of them, or killed, as by
 //! `kill -9`, when they can tidy nothing up.
 
-use std::process::{Child, Command};
+use std::process::Child;
 use std::time::{Duration, Instant};
 
-use crate::harness::Folder;
+use crate::harness::{Folder, signal};
 
 /// A flat sheet that takes a while to read and to write.
 fn large_sheet(cells: usize) -> String {
@@ -38,10 +38,8 @@ impl Sheet {
     }
 
     fn cut(&self, output: &str) -> Child {
-        let rays = ["--rays", "9.3,-1,5:0,0,-1", "9.1,99,5:0,0,-1"];
-        let mut command = self.folder.command();
-        command.args(["cut", "large.obj"]).args(rays);
-        command.args(["-q", "-o", output]);
+        let line = "cut large.obj --rays 9.3,-1,5:0,0,-1 9.1,99,5:0,0,-1 -q -o";
+        let mut command = self.folder.command(&format!("{line} {output}"));
         command.spawn().expect("a run")
     }
 
@@ -52,16 +50,9 @@ impl Sheet {
         begun.elapsed()
     }
 
-    fn killed_after(&self, output: &str, time: Duration) {
-        let mut child = self.cut(output);
-        std::thread::sleep(time);
-        let _ = child.kill(); // It may have ended already.
-        child.wait().expect("an end");
-    }
-
     /// The files in the folder whose names are not as they were given.
     fn left(&self) -> Vec<String> {
-        let names = self.folder.names().into_iter();
+        let names = self.folder.list(".").into_iter();
         names.filter(|name| name.contains(".tmp")).collect()
     }
 }
@@ -74,13 +65,12 @@ fn a_run_killed_at_any_moment_leaves_the_old_file_or_the_new_one() {
     let new = sheet.folder.read("new.obj");
     for i in 0..=24 {
         sheet.folder.write("out.obj", old);
-        match i {
-            24 => sheet.whole("out.obj"),
-            _ => {
-                sheet.killed_after("out.obj", whole * i / 20);
-                whole
-            }
-        };
+        let mut child = sheet.cut("out.obj");
+        if i < 24 {
+            std::thread::sleep(whole * i / 20);
+            let _ = child.kill(); // It may have ended already.
+        }
+        child.wait().expect("an end");
         let now = sheet.folder.read("out.obj");
         assert!(now == old || now == new, "run {i} left {} bytes", now.len());
         assert!(i > 0 || now == old, "a run killed at once has written");
@@ -90,7 +80,6 @@ fn a_run_killed_at_any_moment_leaves_the_old_file_or_the_new_one() {
     }
 }
 
-#[cfg(unix)]
 #[test]
 fn a_run_ended_by_a_signal_leaves_no_draft() {
     let sheet = Sheet::new();
@@ -108,12 +97,7 @@ fn a_run_ended_by_a_signal_leaves_no_draft() {
             while child.try_wait().expect("a state").is_none() && sheet.left().is_empty() {}
         }
         in_writing += usize::from(!sheet.left().is_empty());
-        let signal = ["-INT", "-TERM"][i as usize / 2 % 2];
-        // It may have ended already.
-        let _ = Command::new("kill")
-            .arg(signal)
-            .arg(child.id().to_string())
-            .status();
+        signal(["-INT", "-TERM"][i as usize / 2 % 2], child.id());
         child.wait().expect("an end");
         assert_eq!(sheet.left(), [""; 0], "after {i} runs");
         let now = sheet.folder.read("out.obj");

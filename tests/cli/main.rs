@@ -3,6 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod answers;
 mod cache;
 mod charts;
 mod check;
@@ -22,13 +23,13 @@ mod in_process;
 mod killed;
 mod losses;
 mod map;
+#[cfg(target_os = "linux")]
 mod memory;
 mod numbers;
-mod odd;
 mod pages;
 mod pictures;
 mod pieces;
-mod places;
+mod plain;
 mod play;
 #[path = "../support/random.rs"]
 #[allow(dead_code, reason = "shared with other tests")]
@@ -38,6 +39,5 @@ mod step;
 mod tear;
 mod through;
 mod transcripts;
-mod traps;
 mod units;
 mod words;

@@ -3,10 +3,9 @@
 //! tests/obj/memory.rs has all kinds of files for the library. Here are those that took most
 //! there, since the command adds excerpts, hints that are tried, and its own code.
 
-use std::io::{Write as _, stderr};
 use std::process::Command;
 
-use tearmesh_cli::{Streams, run};
+use crate::in_process::ran;
 
 const CHILD: &str = "TEARMESH_MEMORY_OF_COMMAND";
 
@@ -17,15 +16,7 @@ fn child() {
         return;
     };
     let line = line.into_string().expect("the parent wrote it");
-    let (mut output, mut error) = (Vec::new(), Vec::new());
-    let streams = Streams {
-        input: &mut std::io::empty(),
-        output: &mut output,
-        error: &mut error,
-        output_is_terminal: false,
-        error_is_terminal: false,
-    };
-    let exit = run(line.split('|').map(Into::into), streams);
+    let (exit, _) = ran(line.split('|'), b"", &mut Vec::new(), false);
     let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
     let peak = status.lines().find(|line| line.starts_with("VmHWM:"));
     println!("{exit:?} {}", peak.expect("Linux knows the peak"));
@@ -40,13 +31,9 @@ fn exit_and_peak(args: &[&str]) -> (String, usize) {
         .expect("this test can be run");
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{said}");
-    let line = said.lines().find(|line| line.contains("VmHWM:"));
-    let words: Vec<&str> = line
-        .expect("the child says so")
-        .split_whitespace()
-        .collect();
+    let words: Vec<&str> = said.split_whitespace().collect();
     let at = words.iter().position(|&word| word == "VmHWM:");
-    let at = at.expect("it is in this line");
+    let at = at.expect("the child says so");
     let peak = words[at + 1].parse().expect("a number of KiB");
     (words[at - 1].to_owned(), peak)
 }
@@ -69,11 +56,6 @@ const MIB: usize = 6;
 
 /// A file that has these faces again and again.
 fn takes_no_more_than_promised(name: &str, faces: &str) {
-    if !cfg!(target_os = "linux") {
-        let said = writeln!(stderr(), "skipped: peaks of memory, which only Linux tells");
-        said.expect("standard error is open");
-        return;
-    }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("refused.obj");
     let path = path.to_str().expect("a plain name");
@@ -93,11 +75,6 @@ fn takes_no_more_than_promised(name: &str, faces: &str) {
 
 #[test]
 fn regression_repairing_a_vertex_of_many_fans_takes_no_more_memory_than_promised() {
-    if !cfg!(target_os = "linux") {
-        let said = writeln!(stderr(), "skipped: peaks of memory, which only Linux tells");
-        said.expect("standard error is open");
-        return;
-    }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let [path, out] = ["fans.obj", "out.obj"].map(|name| folder.path().join(name));
     let [path, out] = [&path, &out].map(|path| path.to_str().expect("a plain name"));

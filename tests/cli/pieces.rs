@@ -2,12 +2,13 @@
 //!
 //! The files are read by a few lines that share no code with the reader of the library.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use tearmesh_obj::Document;
 
-use crate::harness::{Folder, seen};
+use crate::harness::Folder;
+use crate::plain::Plain;
 
 /// A face: the object, group, material and smoothing group that it is in, and for each corner the
 /// numbers of its vertex, texture coordinate and normal, to the letter.
@@ -28,13 +29,10 @@ fn faces(text: &str) -> Vec<Face> {
         } else if keyword == "f" {
             let corner = |word: &str| {
                 let mut corner: [String; 3] = Default::default();
-                for (which, index) in word
-                    .split('/')
-                    .enumerate()
-                    .filter(|(_, index)| !index.is_empty())
-                {
-                    let index: usize = index.parse().expect("an index");
-                    corner[which] = numbers[which][index - 1].clone();
+                for (which, index) in word.split('/').enumerate() {
+                    if let Ok(index) = index.parse::<usize>() {
+                        corner[which] = numbers[which][index - 1].clone();
+                    }
                 }
                 corner
             };
@@ -46,8 +44,7 @@ fn faces(text: &str) -> Vec<Face> {
 
 /// Holds the pieces in a folder against the whole, and gives how many faces each has.
 fn check(folder: &Folder, whole: &str, pieces: &str) -> Vec<usize> {
-    let list: serde_json::Value =
-        serde_json::from_str(&folder.read(&format!("{pieces}/pieces.json"))).expect("JSON");
+    let list = folder.json(&format!("{pieces}/pieces.json"));
     let entries = list["pieces"].as_array().expect("a list");
     let text = folder.read(whole);
     let of_whole = faces(&text);
@@ -67,23 +64,18 @@ fn check(folder: &Folder, whole: &str, pieces: &str) -> Vec<usize> {
         assert!(ranks.is_sorted_by(|a, b| a < b), "as they are in the whole");
         all += count;
         assert_eq!(entry["faces"], count);
-        assert_eq!(
-            entry["vertices"],
-            text.lines().filter(|line| line.starts_with("v ")).count()
-        );
+        assert_eq!(entry["vertices"], Plain::read(&text).vertices.len());
         for (key, which) in [("objects", 0), ("groups", 1), ("materials", 2)] {
             // A face may be in several groups.
             let names = own.iter().flat_map(|(state, _)| match key {
                 "groups" => state[which].split(' ').collect(),
                 _ => vec![&*state[which]],
             });
-            let mut names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
-            names.sort_unstable();
-            names.dedup();
-            let told = entry[key].as_array().expect("names").iter();
-            let mut told: Vec<&str> = told.map(|name| name.as_str().expect("a name")).collect();
-            told.sort_unstable();
-            assert_eq!(told, names, "{key} of {name}");
+            let names: BTreeSet<&str> = names.filter(|name| !name.is_empty()).collect();
+            let told = entry[key].as_array().expect("names");
+            assert_eq!(told.len(), names.len(), "{key} of {name}");
+            let told = told.iter().map(|name| name.as_str().expect("a name"));
+            assert_eq!(told.collect::<BTreeSet<_>>(), names, "{key} of {name}");
         }
         // It is a mesh, in one piece, for whoever reads it.
         let document = Document::read(text.as_bytes()).expect("what we wrote");
@@ -91,27 +83,16 @@ fn check(folder: &Folder, whole: &str, pieces: &str) -> Vec<usize> {
         assert_eq!(mesh.components().count(), 1, "{name}");
         assert!(
             mesh.vertices().all(|v| mesh.half_edge_of(v).is_some()),
-            "{name}: vertices without a face"
+            "{name}"
         );
         sizes.push(count);
         area += entry["area"].as_f64().expect("an area");
     }
-    assert!(
-        sizes.is_sorted_by(|a, b| a >= b),
-        "the largest first: {sizes:?}"
-    );
+    assert!(sizes.is_sorted_by(|a, b| a >= b), "{sizes:?}");
     assert_eq!(all, of_whole.len(), "every face of the whole is in a piece");
-    let document = Document::read(text.as_bytes()).expect("what we wrote");
-    let of_whole: f64 = document
-        .triangles()
-        .iter()
-        .map(|triangle| {
-            let [a, b, c] = triangle.map(|v| document.positions()[v as usize]);
-            (b - a).cross(&(c - a)).norm() / 2.0
-        })
-        .sum();
+    let of_whole = Plain::read(&text).area();
     assert!(
-        (area - of_whole).abs() < 1e-12 * of_whole,
+        (area - of_whole).abs() < 1e-9 * of_whole,
         "{area}, {of_whole}"
     );
     sizes
@@ -124,39 +105,20 @@ const CROSS: &str =
 fn the_pieces_of_a_cut_are_the_whole_and_the_same_each_time() {
     let folder = Folder::new();
     for name in ["one", "two"] {
-        let line = format!("tearmesh cut flag.obj {CROSS} --pieces {name} -o {name}.obj");
-        let output = folder.run(&line);
-        assert!(output.status.success(), "{}", seen(&output));
+        let line = format!("cut flag.obj {CROSS} --pieces {name} -o {name}.obj");
+        let said = folder.done(&line);
         assert!(
-            seen(&output).contains(&format!("4 pieces written into {name}\n")),
-            "{}",
-            seen(&output)
+            said.contains(&format!("4 pieces written into {name}\n")),
+            "{said}"
         );
     }
     assert_eq!(check(&folder, "one.obj", "one").len(), 4);
-    let mut names: Vec<_> = fs::read_dir(folder.path("one"))
-        .expect("a folder")
-        .map(|entry| entry.expect("a file").file_name())
-        .collect();
-    names.sort();
-    assert_eq!(
-        names,
-        [
-            "piece_00000.obj",
-            "piece_00001.obj",
-            "piece_00002.obj",
-            "piece_00003.obj",
-            "pieces.json"
-        ]
-    );
+    let names = folder.list("one");
+    let numbers = [0, 1, 2, 3].map(|number| format!("piece_0000{number}.obj"));
+    assert_eq!((&names[..4], &*names[4]), (&numbers[..], "pieces.json"));
     for name in names {
-        let [one, two] = ["one", "two"].map(|folder_of| folder.path(folder_of).join(&name));
-        assert_eq!(
-            fs::read(one).expect("a file"),
-            fs::read(two).expect("a file"),
-            "{}",
-            name.display()
-        );
+        let [one, two] = ["one", "two"].map(|of| folder.read(&format!("{of}/{name}")));
+        assert_eq!(one, two, "{name}");
     }
 }
 
@@ -188,10 +150,8 @@ fn named_box() -> String {
             3 => format!(" {v}/{}", [1, 2, 4, 3][i]),
             _ => format!(" {v}/{}/{}", [1, 2, 4, 3][i], side + 1),
         };
-        text += &format!(
-            "f{}\n",
-            corners.iter().enumerate().map(corner).collect::<String>()
-        );
+        let corners = corners.iter().enumerate().map(corner);
+        text += &format!("f{}\n", corners.collect::<String>());
     }
     text
 }
@@ -201,22 +161,13 @@ fn pieces_keep_names_texture_coordinates_and_normals() {
     let folder = Folder::new();
     folder.write("box.obj", named_box());
     let planes = "--plane 0.4,0,0:1,0.1,0 --plane 0,0.3,0.2:0,1,0.3";
-    let output = folder.run(&format!(
-        "tearmesh cut box.obj {planes} --pieces p -o out.obj"
-    ));
-    assert!(output.status.success(), "{}", seen(&output));
+    folder.done(&format!("cut box.obj {planes} --pieces p -o out.obj"));
     assert_eq!(check(&folder, "out.obj", "p").len(), 4);
-    assert!(
-        folder
-            .read("p/piece_00000.obj")
-            .starts_with("mtllib box.mtl\nv ")
-    );
+    let first = folder.read("p/piece_00000.obj");
+    assert!(first.starts_with("mtllib box.mtl\nv "), "{first}");
     // A slit leaves one piece, which is torn all the same.
     let slit = "--rays 0.5,0.5,9:0,0,-1 0.6,-0.2,9:0,0,-1";
-    let output = folder.run(&format!(
-        "tearmesh cut box.obj {slit} --pieces q -o slit.obj"
-    ));
-    assert!(output.status.success(), "{}", seen(&output));
+    folder.done(&format!("cut box.obj {slit} --pieces q -o slit.obj"));
     assert_eq!(check(&folder, "slit.obj", "q").len(), 1);
 }
 
@@ -231,15 +182,14 @@ fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
     ] {
         for method in ["uniform", "alternating", "partition", "exact"] {
             let name = format!("{file}_{method}");
-            let line = format!("tearmesh cut {file}.obj {rays} --method {method} -v");
-            let output = folder.run(&format!("{line} --pieces {name} -o {name}.obj"));
-            assert!(output.status.success(), "{}", seen(&output));
-            fans += usize::from(seen(&output).contains("[W-OBJ-FANS]"));
+            let line = format!("cut {file}.obj {rays} --method {method} -v");
+            let said = folder.done(&format!("{line} --pieces {name} -o {name}.obj"));
+            fans += usize::from(said.contains("[W-OBJ-FANS]"));
             check(&folder, &format!("{name}.obj"), &name);
             let again = "--plane 0,0.1,0:0.2,1,0 --allow-miss";
-            let line = format!("tearmesh cut {name}.obj {again} --pieces {name}2 -o again.obj");
-            let output = folder.run(&line);
-            assert!(output.status.success(), "{}", seen(&output));
+            folder.done(&format!(
+                "cut {name}.obj {again} --pieces {name}2 -o again.obj"
+            ));
             check(&folder, "again.obj", &format!("{name}2"));
         }
     }
@@ -249,53 +199,28 @@ fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
 #[test]
 fn pieces_of_a_rerun_replace_those_of_an_earlier_run() {
     let folder = Folder::new();
-    let cut = |options: &str| {
-        let output = folder.run(&format!(
-            "tearmesh cut flag.obj {options} --pieces p -o p.obj"
-        ));
-        (output.status.code(), seen(&output))
+    let cut = |options: &str, exit| {
+        let line = format!("cut flag.obj {options} --pieces p -o p.obj");
+        folder.ends(&line, exit)
     };
-    let names = || {
-        let entries = fs::read_dir(folder.path("p")).expect("a folder");
-        let mut names: Vec<_> = entries
-            .map(|entry| {
-                entry
-                    .expect("a file")
-                    .file_name()
-                    .into_string()
-                    .expect("text")
-            })
-            .collect();
-        names.sort();
-        names
-    };
-    let first = cut(CROSS);
-    assert_eq!(first.0, Some(0), "{}", first.1);
+    let first = cut(CROSS, 0);
     folder.write("p/notes.txt", "mine");
-    assert_eq!(cut(CROSS), first);
+    assert_eq!(cut(CROSS, 0), first);
     assert_eq!(check(&folder, "p.obj", "p").len(), 4);
     // Fewer pieces leave none of the old ones, and a run that cuts nothing leaves all.
     let half = "--plane 0.3,0,0:1,0,0";
-    assert_eq!(cut(half).0, Some(0));
+    cut(half, 0);
     assert_eq!(check(&folder, "p.obj", "p").len(), 2);
-    let left = [
-        "notes.txt",
-        "piece_00000.obj",
-        "piece_00001.obj",
-        "pieces.json",
-    ];
-    assert_eq!(names(), left);
-    assert_eq!(cut("--plane 0,9,0:0,1,0").0, Some(1));
-    assert_eq!(names(), left);
+    let left = "notes.txt piece_00000.obj piece_00001.obj pieces.json";
+    assert_eq!(folder.list("p").join(" "), left);
+    cut("--plane 0,9,0:0,1,0", 1);
+    assert_eq!(folder.list("p").join(" "), left);
     assert_eq!(folder.read("p/notes.txt"), "mine");
     // A piece that the list does not name is not replaced.
     folder.write("p/piece_00002.obj", "strange");
-    let (exit, said) = cut(CROSS);
-    assert_eq!(exit, Some(2), "{said}");
-    assert!(
-        said.contains("`p/piece_00002.obj` is not of an earlier run"),
-        "{said}"
-    );
+    let said = cut(CROSS, 2);
+    let strange = "`p/piece_00002.obj` is not of an earlier run";
+    assert!(said.contains(strange), "{said}");
     assert_eq!(folder.read("p/piece_00002.obj"), "strange");
 }
 
@@ -316,19 +241,15 @@ fn a_piece_replaces_no_other_file() {
         (&of_piece, "p -o x.obj", "the input"),
         (of_file, "p -o x.obj", "the rays"),
     ] {
-        let output = folder.run(&format!("{line} {options}"));
-        assert_eq!(output.status.code(), Some(2), "{}", seen(&output));
+        let said = folder.ends(&format!("{line} {options}"), 2);
         assert!(
-            seen(&output).contains(&format!("a piece would replace {what}")),
-            "{}",
-            seen(&output)
+            said.contains(&format!("a piece would replace {what}")),
+            "{said}"
         );
     }
-    let output = folder.run(&format!("{line} - -o x.obj"));
-    assert_eq!(output.status.code(), Some(2), "{}", seen(&output));
+    folder.ends(&format!("{line} - -o x.obj"), 2);
     for (options, is_there) in [("--dry-run", false), ("-o x.obj", true)] {
-        let output = folder.run(&format!("{line} new {options}"));
-        assert!(output.status.success(), "{}", seen(&output));
+        folder.done(&format!("{line} new {options}"));
         assert_eq!(folder.path("new").is_dir(), is_there);
     }
     // Neither is one that no list of ours names, nor a list that is none of ours.
@@ -340,14 +261,12 @@ fn a_piece_replaces_no_other_file() {
         ("q", "{}", "pieces.json"),
     ] {
         folder.write(&format!("{to}/pieces.json"), list);
-        let output = folder.run(&format!("{line} {to} -o x.obj"));
-        assert_eq!(output.status.code(), Some(2), "{}", seen(&output));
+        let said = folder.ends(&format!("{line} {to} -o x.obj"), 2);
         let message = format!("`{to}/{strange}` is not of an earlier run of --pieces");
-        assert!(seen(&output).contains(&message), "{}", seen(&output));
+        assert!(said.contains(&message), "{said}");
         assert_eq!(folder.read(&format!("{to}/pieces.json")), list);
     }
     assert_eq!(folder.read("p/piece_00001.obj"), folder.read("flag.obj"));
-    let output = folder.run("tearmesh cut flag.obj --plane 0,9,0:0,1,0 --pieces none -o x.obj");
-    assert_eq!(output.status.code(), Some(1), "{}", seen(&output));
+    folder.ends("cut flag.obj --plane 0,9,0:0,1,0 --pieces none -o x.obj", 1);
     assert!(!folder.path("none").exists(), "nothing was cut");
 }

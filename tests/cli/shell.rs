@@ -7,8 +7,7 @@ use crate::harness::Folder;
 
 /// The verbs that `tearmesh -h` lists, `help` aside.
 fn verbs(folder: &Folder) -> Vec<String> {
-    let help = folder.run("tearmesh -h");
-    let help = String::from_utf8(help.stdout).expect("text");
+    let help = folder.done("-h");
     let list = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     let list = list.take_while(|line| !line.is_empty());
     let verbs = list.filter_map(|line| line.split_whitespace().next());
@@ -20,8 +19,7 @@ fn verbs(folder: &Folder) -> Vec<String> {
 
 /// The long options that the help of a verb lists.
 fn options(folder: &Folder, verb: &str) -> BTreeSet<String> {
-    let help = folder.run(&format!("tearmesh {verb} --help"));
-    let help = String::from_utf8(help.stdout).expect("text");
+    let help = folder.done(&format!("{verb} --help"));
     let list = help.lines().skip_while(|line| *line != "Options:");
     let named = list.filter(|line| line.trim_start().starts_with('-'));
     let words = named.flat_map(|line| line.split([' ', ',']));
@@ -35,35 +33,25 @@ fn each_page_of_the_manual_has_every_option_of_its_verb() {
     let folder = Folder::new();
     let mut seen = 0;
     for verb in verbs(&folder) {
-        let page = folder.run(&format!("tearmesh man {verb}"));
-        assert!(page.status.success(), "{verb}");
-        let page = String::from_utf8(page.stdout).expect("text");
+        let page = folder.done(&format!("man {verb}"));
         assert!(page.contains(&format!(".TH tearmesh-{verb} 1")), "{page}");
         for option in options(&folder, &verb) {
             let written = option.replace('-', "\\-");
-            assert!(
-                page.contains(&format!("\\fB{written}\\fR")),
-                "{verb} {option}\n{page}"
-            );
+            let is_there = page.contains(&format!("\\fB{written}\\fR"));
+            assert!(is_there, "{verb} {option}\n{page}");
             seen += 1;
         }
     }
     assert!(seen > 90, "{seen}");
-    let page = folder.run("tearmesh man");
-    let page = String::from_utf8(page.stdout).expect("text");
-    assert!(
-        verbs(&folder)
-            .iter()
-            .all(|verb| page.contains(&format!("tearmesh\\-{verb}(1)")))
-    );
-    assert_eq!(folder.run("tearmesh man nothing").status.code(), Some(2));
+    let page = folder.done("man");
+    let is_there = |verb: &String| page.contains(&format!("tearmesh\\-{verb}(1)"));
+    assert!(verbs(&folder).iter().all(is_there));
 }
 
 #[test]
 fn bash_completes_verbs_and_options() {
     let folder = Folder::new();
-    let script = folder.run("tearmesh completions bash");
-    folder.write("complete.bash", script.stdout);
+    folder.write("complete.bash", folder.done("completions bash"));
     let completed = |words: &str| {
         let last = words.split(' ').count() - 1;
         let ask = format!(
@@ -80,12 +68,8 @@ fn bash_completes_verbs_and_options() {
             return None;
         };
         let words = String::from_utf8(output.stdout).expect("text");
-        Some(
-            words
-                .split_whitespace()
-                .map(str::to_owned)
-                .collect::<BTreeSet<_>>(),
-        )
+        let words = words.split_whitespace().map(str::to_owned);
+        Some(words.collect::<BTreeSet<_>>())
     };
     let Some(found) = completed("tearmesh m") else {
         return;
@@ -96,8 +80,7 @@ fn bash_completes_verbs_and_options() {
         assert_eq!(found, options(&folder, verb), "{verb}");
     }
     for shell in ["zsh", "fish", "powershell", "elvish"] {
-        let script = folder.run(&format!("tearmesh completions {shell}"));
-        let script = String::from_utf8(script.stdout).expect("text");
+        let script = folder.done(&format!("completions {shell}"));
         assert!(script.contains("snap-move"), "{shell}");
     }
 }

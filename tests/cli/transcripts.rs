@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::digest;
-use crate::harness::{Folder, root, seen};
+use crate::harness::{Folder, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
@@ -27,17 +27,14 @@ const DIGEST: u64 = 0xd656_22f5_60a7_529a;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
-    let folder = root().join("tests/cli/transcripts");
-    let mut paths: Vec<_> = fs::read_dir(folder)
-        .expect("transcripts")
-        .map(|entry| entry.expect("one").path())
-        .collect();
+    let entries = fs::read_dir(root().join("tests/cli/transcripts")).expect("transcripts");
+    let mut paths: Vec<_> = entries.map(|entry| entry.expect("one").path()).collect();
     paths.sort();
     let mut commands = 0;
     let mut digest = digest::EMPTY;
     for path in paths {
         let folder = Folder::new();
-        bad_inputs(&folder);
+        folder.add_files("tests/cli/inputs.txt");
         commands += play(&path, &folder, true);
         digest = folder.digest(digest);
     }
@@ -49,13 +46,11 @@ fn transcripts_are_answered_to_the_letter() {
 #[test]
 fn the_commands_of_the_readme_answer_as_it_says() {
     let folder = Folder::new();
-    bad_inputs(&folder);
+    folder.add_files("tests/cli/inputs.txt");
     assert!(play(&root().join("README.md"), &folder, false) >= 5);
     for picture in ["cut.png", "strip.png"] {
-        let (made, shown) = (
-            folder.path(picture),
-            root().join("tests/data").join(picture),
-        );
+        let shown = root().join("tests/data").join(picture);
+        let made = folder.path(picture);
         if std::env::var_os("TEARMESH_BLESS").is_some() {
             fs::copy(&made, &shown).expect("a blessed picture");
         }
@@ -103,7 +98,7 @@ fn play(path: &Path, folder: &Folder, plain: bool) -> usize {
         let is_answer = |line: &str| !line.is_empty() && !line.starts_with("$ ") && line != "```";
         let expected: Vec<&str> =
             std::iter::from_fn(|| lines.next_if(|line| is_answer(line))).collect();
-        let answer = seen(&folder.run(typed));
+        let answer = folder.run(typed).seen();
         for line in as_expected(&expected, &answer, &mut chaotic) {
             played.push_str(line);
             played.push('\n');
@@ -186,143 +181,5 @@ fn a_mask_stands_for_numbers_alone() {
         ("3 km torn\n", &expected[..1]),
     ] {
         assert_eq!(as_expected(&expected, answer, &mut 0), is, "{answer}");
-    }
-}
-
-/// The bad files that the transcripts speak of.
-fn bad_inputs(folder: &Folder) {
-    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-    let files = [
-        (
-            "comma.obj",
-            "v 0 0 0\nv 1 0 0\nv 1 0,5 0\nf 1 2 3\n".to_owned(),
-        ),
-        ("range.obj", format!("{square}f 1 2 9\n")),
-        ("zero.obj", format!("{square}f 0 1 2\n")),
-        (
-            "nan.obj",
-            "v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n".to_owned(),
-        ),
-        ("twice.obj", format!("{square}f 1 2 2\n")),
-        ("empty.obj", String::new()),
-        (
-            // Torn along the diagonal once, and no record of it.
-            "dropped.obj",
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n".to_owned(),
-        ),
-        (
-            "lens.obj",
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n".to_owned(),
-        ),
-        (
-            "points.ply",
-            "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n".to_owned(),
-        ),
-        (
-            "solid.stl",
-            "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n".to_owned(),
-        ),
-        (
-            "three.obj",
-            format!("{square}v 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"),
-        ),
-        ("flipped.obj", format!("{square}f 1 2 3\nf 1 4 3\n")),
-        ("bowtie.obj", format!("{square}v 2 2 0\nf 1 2 3\nf 3 5 4\n")),
-        (
-            "broken.obj",
-            format!(
-                "{square}v 0 0 1\nv 2 2 0\nv 3 3 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\nf 3 2 1\nf 3 6 7\nf 2 3 1\n"
-            ),
-        ),
-        (
-            "hopeless.obj",
-            format!("{square}v 2 2 0\nf 1 2 3\nf 1 4 3\nf 2 4 5\n"),
-        ),
-        (
-            "notch.obj",
-            "v 0 0.02 0\nv -1 -1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\nf 1 3 2\nf 1 2 4\nf 1 4 5\n".to_owned(),
-        ),
-        ("pillow.obj", format!("{square}f 1 2 3\nf 3 2 1\n")),
-        (
-            "flat.obj",
-            "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n".to_owned(),
-        ),
-        (
-            // Torn at both ends of the diagonal, and moved apart by another program.
-            "apart.obj",
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1.5 0 0\nv 0 1.5 0\nvt 0.5\nf 1/1 2/1 3/1\n\
-             f 6 5 4\n#tearmesh record 1 v 6 f 2 vt 1 1 vn 0 0 faces 7008e53ea9bc7ad2\n\
-             #~ split 5 2 1\n#~ split 6 3 1\n#tearmesh end 2 10c8189a8b417315\n"
-                .to_owned(),
-        ),
-        (
-            "rays.txt",
-            "# two cuts\n0.31,2,5:0,0,-1 0.31,-2,5:0,0,-1\n2,0.1,5:0,0,-1;-2,0.1,5:0,0,-1\n"
-                .to_owned(),
-        ),
-        ("weak.toml", "base = \"rip\"\n[[strength]]\nvertices = [33, 65]\nfactor = 0.01\n".to_owned()),
-        ("giant.obj", "v 0 0 0\nv 90 0 0\nv 90 90 0\nf 1 2 3\n".to_owned()),
-        (
-            "pin.toml",
-            "[[hold]]\nnear = [0, 1]\n[[hold]]\nnear = [1, 1]\n".to_owned(),
-        ),
-        ("pins.toml", "[[hold]]\nvertices = [1057, 1089]\n".to_owned()),
-        (
-            "springs.toml",
-            "base = \"rip\"\n[fabric]\nstretch_n_per_m = 1000\n[solver]\nmethod = \"provot\"\nlimit_ratio = 1000\n\
-             [tear]\nthreshold = 2.5\n"
-                .to_owned(),
-        ),
-        (
-            "bad.toml",
-            "seconds = -1\nsolver = 3\n[fabric]\nstrech_n_per_m = 5\n[[hold]]\nnear = [0, \"top\"]\n\
-             [[cut]]\nrays = [\"0,1,5:0,0,-1\"]\n[tear]\nthreshold = 1.5\nvertices = 3\n"
-                .to_owned(),
-        ),
-        ("worse.toml", "seconds = 2\n[fabric\n".to_owned()),
-        (
-            "fast.toml",
-            "[[hold]]\nnear = [0, 1]\nradius = 0.1\nmoves = [[0, 0, 0, 0], [0.1, 0, 0, 0], [0.102, 0, 500, 0]]\n\
-             [tear]\nnever = true\n"
-                .to_owned(),
-        ),
-        (
-            "strict.toml",
-            "base = \"rip\"\ngravity_m_per_s2 = 0\n[fabric]\nstretch_n_per_m = 1e8\n[solver]\nmethod = \"implicit\"\ndt_s = 0.05\n"
-                .to_owned(),
-        ),
-        (
-            "wavy.toml",
-            "[fabric]\nbend_law = \"springy\"\n".to_owned(),
-        ),
-        (
-            "arcs.toml",
-            "[fabric]\nrigidity_n_m = 1e-5\nbend_law = \"buckling\"\n".to_owned(),
-        ),
-        (
-            "straight.toml",
-            "[solver]\nmethod = \"verlet\"\n[fabric]\nbend_law = \"buckling\"\nbend_n_per_m = 2\n".to_owned(),
-        ),
-        (
-            "missing.toml",
-            "[wind]\nperiod_s = 1\n[[hold]]\nuntil_s = 1\n[[hold]]\nnear = [0, 1]\nalong = [0, 1]\n\
-             [[cut]]\nat_s = 1\n[[collider]]\npoint = [0, 0, 0]\n[[strength]]\nvertices = [1]\n"
-                .to_owned(),
-        ),
-        (
-            "woven.toml",
-            "[fabric]\nwarp_n_per_m = 900\nweft_n_per_m = 600\n".to_owned(),
-        ),
-        (
-            "nowhere.toml",
-            "[[hold]]\nfrom = [9, 9, 9]\nto = [10, 10, 10]\n".to_owned(),
-        ),
-        (
-            "bad-rays.txt",
-            "# one ray is missing\n\n0.31,2,5:0,0,-1\n".to_owned(),
-        ),
-    ];
-    for (name, content) in files {
-        folder.write(name, content);
     }
 }

@@ -1,0 +1,81 @@
+//! A reader of OBJ in the simplest way, which shares no code with the library's: what the lines say.
+
+/// The numbers and the faces of a file.
+#[derive(Default)]
+pub(crate) struct Plain {
+    /// All numbers of each `v`.
+    pub(crate) vertices: Vec<Vec<f64>>,
+    pub(crate) texture: Vec<Vec<f64>>,
+    /// Of each face, its vertices from 0.
+    pub(crate) faces: Vec<Vec<usize>>,
+    /// Of each face, the texture coordinate at each corner, from 0.
+    pub(crate) face_textures: Vec<Vec<Option<usize>>>,
+}
+
+impl Plain {
+    pub(crate) fn read(text: &str) -> Plain {
+        let mut plain = Plain::default();
+        for line in text.lines() {
+            let (keyword, rest) = line.split_once(' ').unwrap_or((line, ""));
+            let words = || rest.split_whitespace();
+            let numbers = || {
+                words()
+                    .map(|word| word.parse().expect("a number"))
+                    .collect()
+            };
+            let index = |corner: &str, which| {
+                let index = corner.split('/').nth(which)?.parse::<usize>();
+                Some(index.ok()? - 1)
+            };
+            match keyword {
+                "v" => plain.vertices.push(numbers()),
+                "vt" => plain.texture.push(numbers()),
+                "f" => {
+                    let vertices = words().map(|corner| index(corner, 0).expect("a vertex"));
+                    plain.faces.push(vertices.collect());
+                    let textures = words().map(|corner| index(corner, 1));
+                    plain.face_textures.push(textures.collect());
+                }
+                _ => {}
+            }
+        }
+        plain
+    }
+
+    /// Where a vertex is.
+    pub(crate) fn at(&self, vertex: usize) -> [f64; 3] {
+        let place = &self.vertices[vertex];
+        [place[0], place[1], place[2]]
+    }
+
+    /// Where it is, to the bit.
+    pub(crate) fn bits(&self, vertex: usize) -> [u64; 3] {
+        self.at(vertex).map(f64::to_bits)
+    }
+
+    /// Where the corners of all faces are, in order, to the bit.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = [u64; 3]> + '_ {
+        let corners = self.faces.iter().flatten();
+        corners.map(|&vertex| self.bits(vertex))
+    }
+
+    /// The lengths of the sides of a triangle, by Pythagoras.
+    pub(crate) fn sides(&self, face: &[usize]) -> [f64; 3] {
+        [0, 1, 2].map(|i| {
+            let [a, b] = [face[i], face[(i + 1) % 3]].map(|vertex| self.at(vertex));
+            (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+        })
+    }
+
+    /// The area of all triangles, by Heron's rule.
+    pub(crate) fn area(&self) -> f64 {
+        let areas = self.faces.iter().map(|face| {
+            let [a, b, c] = self.sides(face);
+            let half = (a + b + c) / 2.0;
+            (half * (half - a) * (half - b) * (half - c))
+                .max(0.0)
+                .sqrt()
+        });
+        areas.sum()
+    }
+}
