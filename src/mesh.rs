@@ -21,7 +21,6 @@
 mod build;
 mod check;
 mod defect;
-mod derived;
 mod diagnose;
 mod pieces;
 mod torn;
@@ -31,7 +30,7 @@ use std::iter::FusedIterator;
 
 pub use check::{Invariant, Violation};
 pub use defect::{BuildError, Defect, Faces, Fans};
-pub use derived::DerivedMesh;
+pub use pieces::DerivedMesh;
 pub use torn::TornError;
 pub use walk::{Components, Corners};
 

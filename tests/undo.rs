@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 use tearmesh::mend::{self, Stitch};
 use tearmesh::script::World;
 use tearmesh::{
-    CornerSource, CutMethod, DerivedMesh, Edit, Edits, HalfEdgeId, Insertions, Mesh, Point,
-    Positions, Ray, Scissor, Vector, VertexId, shapes,
+    CornerSource, CutMethod, Edit, Edits, FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Point,
+    Positions, Ray, RemovalPlan, Scissor, Vector, VertexId, shapes,
 };
 
 use crate::cases::{cases, scripts};
@@ -26,6 +26,8 @@ const CORNERS: [Place; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 struct Division {
     parent: usize,
     children: Vec<(usize, [Place; 3])>,
+    /// By child.
+    points_at: Vec<[Option<usize>; 3]>,
     points: BTreeSet<usize>,
 }
 
@@ -79,10 +81,12 @@ impl Plain {
                     let mut division = Division {
                         parent,
                         children: Vec::new(),
+                        points_at: Vec::new(),
                         points: BTreeSet::new(),
                     };
                     for child in own {
                         let mut places = [[0.0; 3]; 3];
+                        let mut points_at = [None; 3];
                         for (i, source) in child.sources.iter().enumerate() {
                             match *source {
                                 CornerSource::Corner(h) => places[i][h.index() % 3] = 1.0,
@@ -95,8 +99,10 @@ impl Plain {
                             if !matches!(source, CornerSource::Corner(_)) {
                                 let points = &self.points[child.vertices[i].index()];
                                 division.points.extend(points);
+                                points_at[i] = points.first().copied();
                             }
                         }
+                        division.points_at.push(points_at);
                         division.children.push((child.face.index(), places));
                     }
                     self.divisions.push(division);
@@ -214,28 +220,74 @@ impl Plain {
     }
 }
 
-/// What is made of a mesh is one, and its maps are true.
-fn check_maps(mesh: &Mesh, made: &DerivedMesh) {
-    let own = made.mesh();
-    assert_eq!(own.check(), []);
-    assert!(made.vertices().is_sorted_by(|a, b| a < b) && made.faces().is_sorted_by(|a, b| a < b));
-    assert_eq!(
-        [own.vertex_count(), own.face_count()],
-        [made.vertices().len(), made.faces().len()]
-    );
-    for h in own.half_edges() {
-        let source = made.corners()[h.index()];
-        assert_eq!(
-            made.vertices()[own.origin(h).index()],
-            mesh.origin(source),
-            "{h}"
-        );
+/// A division as the kernel is told of it.
+impl Division {
+    fn parts(&self, roots: &[u32]) -> Vec<FacePart> {
+        let children = self.children.iter().zip(&self.points_at);
+        let part =
+            |(&(face, places), points): (&(usize, [Place; 3]), &[Option<usize>; 3])| FacePart {
+                face: FaceId::new(face).expect("small"),
+                roots: points.map(|point| point.map_or(u32::MAX, |point| roots[point])),
+                corners: places.map(|place| CORNERS.iter().position(|corner| *corner == place)),
+                on_sides: places.map(|place| [2, 0, 1].map(|opposite| place[opposite] == 0.0)),
+            };
+        children.map(part).collect()
     }
-    let corners: BTreeSet<_> = made.corners().iter().collect();
-    assert_eq!(corners.len(), own.half_edge_count(), "corners that differ");
-    for v in own.vertices() {
-        let [source, root] = [v, own.root(v)].map(|v| made.vertices()[v.index()]);
-        assert_eq!(root, mesh.root(source), "the root of {v}");
+}
+
+impl Plain {
+    /// What the kernel plans: the last division is given first.
+    fn plan(
+        &self,
+        mesh: &Mesh,
+        may_go: impl Fn(VertexId) -> bool,
+        agree: impl Fn(HalfEdgeId, HalfEdgeId) -> bool,
+    ) -> RemovalPlan {
+        let mut roots = vec![0; self.count];
+        for (points, root) in self.points.iter().zip(mesh.roots()) {
+            points.iter().for_each(|&point| roots[point] = root);
+        }
+        let divisions = self.divisions.iter().rev();
+        let insertions = Insertions::new(mesh, divisions.map(|division| division.parts(&roots)));
+        let may_go = |v: VertexId| !self.points[v.index()].is_empty() && may_go(v);
+        insertions.plan(mesh, may_go, agree)
+    }
+
+    /// Carries a plan out: the mesh, and its vertices as they were numbered.
+    fn restored(&self, mesh: &Mesh, plan: &RemovalPlan) -> (Mesh, Vec<VertexId>) {
+        let mut within: Vec<Vec<usize>> = vec![Vec::new(); mesh.face_count()];
+        for (number, division) in self.divisions.iter().enumerate() {
+            let around = within[division.parent].clone();
+            for &(face, _) in &division.children {
+                within[face] = [&around[..], &[number]].concat();
+            }
+        }
+        let corners_of = |division: usize| plan.restored(self.divisions.len() - 1 - division);
+        let mut corners = Vec::new();
+        for f in mesh.faces() {
+            let divisions = within[f.index()].iter().copied();
+            let whole = divisions
+                .clone()
+                .find_map(|one| Some((one, corners_of(one)?)));
+            match whole {
+                None => corners.extend(f.half_edges()),
+                Some((one, own)) if self.divisions[one].parent == f.index() => corners.extend(own),
+                Some(_) => {}
+            }
+        }
+        let vertices: Vec<VertexId> = mesh.vertices().filter(|&v| !plan.goes(v)).collect();
+        let number = |v: u32| {
+            let place = vertices.binary_search_by_key(&v, |&v| u32::from(v));
+            place.expect("what stays has vertices that stay") as u32
+        };
+        let origins = corners.iter().map(|&h| number(mesh.origin(h).into()));
+        let triangles: Vec<u32> = origins.collect();
+        let roots = mesh.roots();
+        let roots = vertices.iter().map(|v| number(roots[v.index()]));
+        let roots: Vec<u32> = roots.collect();
+        let made = Mesh::build_torn(triangles.as_chunks().0, &roots).expect("a torn mesh");
+        assert_eq!(made.check(), []);
+        (made, vertices)
     }
 }
 
@@ -246,8 +298,8 @@ fn the_input_comes_back_once_everything_is_sewn_and_before_that_what_keeps_nothi
     for (seed, script) in scripts(3_000).enumerate() {
         count += 1;
         let mut random = Random(seed as u64);
-        let mut beside: Option<(Mesh, Insertions, Plain)> = None;
-        let look = |world: &World, plain: &Plain, insertions: &Insertions, random: &mut Random| {
+        let mut beside: Option<(Mesh, Plain)> = None;
+        let look = |world: &World, plain: &Plain, random: &mut Random| {
             let mesh = &world.mesh;
             let any = random.next();
             let stays: Vec<bool> = mesh.vertices().map(|_| random.next() < any * any).collect();
@@ -257,20 +309,12 @@ fn the_input_comes_back_once_everything_is_sewn_and_before_that_what_keeps_nothi
                 .collect();
             let (goes, faces) = plain.undone(mesh, |v| !stays[v], |h| values[h]);
             let agree = |a: HalfEdgeId, b: HalfEdgeId| values[a.index()] == values[b.index()];
-            let made = insertions.undone(mesh, |v: VertexId| !stays[v.index()], agree);
-            let all: BTreeSet<usize> = (0..mesh.vertex_count()).collect();
-            let Some(made) = made else {
-                assert!(goes.is_empty(), "{goes:?} may go, after\n{script}");
-                return (0, 0, 0);
-            };
-            check_maps(mesh, &made);
-            let kept: BTreeSet<usize> = made.vertices().iter().map(|v| v.index()).collect();
-            assert_eq!(
-                all.difference(&kept).copied().collect::<BTreeSet<_>>(),
-                goes,
-                "after\n{script}"
-            );
-            assert_eq!(made.faces().len(), faces, "after\n{script}");
+            let plan = plain.plan(mesh, |v| !stays[v.index()], agree);
+            let planned = mesh.vertices().filter(|&v| plan.goes(v));
+            let planned: BTreeSet<usize> = planned.map(VertexId::index).collect();
+            assert_eq!(planned, goes, "after\n{script}");
+            let (made, _) = plain.restored(mesh, &plan);
+            assert_eq!(made.face_count(), faces, "after\n{script}");
             let (freely, _) = plain.undone(mesh, |v| !stays[v], |_| true);
             let inserted = plain
                 .points
@@ -280,23 +324,17 @@ fn the_input_comes_back_once_everything_is_sewn_and_before_that_what_keeps_nothi
             (goes.len(), inserted - goes.len(), freely.len() - goes.len())
         };
         let mut world = script.run(|world, _| {
-            let (_, insertions, plain) = beside.get_or_insert_with(|| {
-                (
-                    world.mesh.clone(),
-                    Insertions::new(&world.mesh),
-                    Plain::new(&world.mesh),
-                )
-            });
-            world.edits.replay(&mut *insertions);
+            let (_, plain) =
+                beside.get_or_insert_with(|| (world.mesh.clone(), Plain::new(&world.mesh)));
             world.edits.iter().for_each(|edit| plain.follow(&edit));
             if random.next() < 0.2 {
-                let (goes, stays, by_value) = look(world, plain, insertions, &mut random);
+                let (goes, stays, by_value) = look(world, plain, &mut random);
                 partly += usize::from(goes > 0 && stays > 0);
                 (removed, left) = (removed + goes, left + stays);
                 kept_by_value += by_value;
             }
         });
-        let (input, mut insertions, _) = beside.expect("the mesh is built first");
+        let (input, mut plain) = beside.expect("the mesh is built first");
         let stitches = mend::stitches(&world.mesh, |_| true);
         let World {
             mesh,
@@ -305,10 +343,10 @@ fn the_input_comes_back_once_everything_is_sewn_and_before_that_what_keeps_nothi
             ..
         } = &mut world;
         mend::sew(mesh, &*positions, &stitches, |_| 1.0, f64::INFINITY, edits).expect("copies");
-        edits.replay(&mut insertions);
-        let whole = insertions.undone(mesh, |_| true, |_, _| true);
-        sewn += usize::from(whole.is_some());
-        let whole = whole.map_or_else(|| mesh.clone(), DerivedMesh::into_mesh);
+        edits.iter().for_each(|edit| plain.follow(&edit));
+        let plan = plain.plan(mesh, |_| true, |_, _| true);
+        sewn += usize::from(mesh.vertices().any(|v| plan.goes(v)));
+        let (whole, _) = plain.restored(mesh, &plan);
         assert_eq!(whole, input, "after sewing\n{script}");
     }
     println!(
@@ -336,7 +374,7 @@ fn undoing_the_last_of_two_cuts_leaves_the_first_as_it_was() {
     for seed in 0..cases(2_000) {
         let mut random = Random(seed);
         let (mut mesh, mut positions) = shapes::grid(3, 3);
-        let mut insertions = Insertions::new(&mesh);
+        let mut plain = Plain::new(&mesh);
         let mut edits = Edits::new();
         let mut cut = |mesh: &mut Mesh, positions: &mut Positions, edits: &mut Edits| {
             let mut place = || {
@@ -355,30 +393,29 @@ fn undoing_the_last_of_two_cuts_leaves_the_first_as_it_was() {
                 .expect("in step");
         };
         cut(&mut mesh, &mut positions, &mut edits);
-        edits.replay(&mut insertions);
-        let simplified = |insertions: &Insertions, mesh: &Mesh, positions: &Positions| {
-            let made = insertions.undone(mesh, |_| true, |_, _| true);
+        edits.iter().for_each(|edit| plain.follow(&edit));
+        let simplified = |plain: &Plain, mesh: &Mesh, positions: &Positions| {
+            let plan = plain.plan(mesh, |_| true, |_, _| true);
+            let (made, vertices) = plain.restored(mesh, &plan);
             let is = tears(mesh, |v| positions.at(v));
-            let becomes = made.as_ref().map_or(is, |made| {
-                tears(made.mesh(), |v| positions.at(made.vertices()[v.index()]))
-            });
+            let becomes = tears(&made, |v| positions.at(vertices[v.index()]));
             let same = (is.0 - becomes.0).abs() < 1e-9 && is.1 == becomes.1;
             assert!(same, "case {seed}: {is:?} becomes {becomes:?}");
-            made.map_or_else(|| mesh.clone(), DerivedMesh::into_mesh)
+            made
         };
-        let first = simplified(&insertions, &mesh, &positions);
+        let first = simplified(&plain, &mesh, &positions);
         let (vertices, before) = (mesh.vertex_count(), edits.len());
         cut(&mut mesh, &mut positions, &mut edits);
-        edits.replay(&mut insertions);
         let splits = edits.iter().skip(before).filter_map(|edit| match edit {
             Edit::Split(split) => Stitch::new(split.old, split.new),
             _ => None,
         });
         let stitches: Vec<Stitch> = splits.collect();
         mend::sew(&mut mesh, &positions, &stitches, |_| 1.0, 0.0, &mut edits).expect("one place");
-        edits.replay(&mut (&mut insertions, &mut positions));
+        edits.iter().for_each(|edit| plain.follow(&edit));
+        edits.replay(&mut positions);
         removed += usize::from(mesh.vertex_count() > vertices);
-        let again = simplified(&insertions, &mesh, &positions);
+        let again = simplified(&plain, &mesh, &positions);
         assert!(
             again == first,
             "case {seed}: {} faces for {}",

@@ -59,7 +59,7 @@ impl<'d> Undo<'d> {
             .iter()
             .rev()
             .map(|face| face.parts_for_plan(inserted));
-        let insertions = Insertions::from_parts(mesh, |v| past.roots[v.index()], families);
+        let insertions = Insertions::new(mesh, families);
         let may_go = may_go(record, &past, mesh);
         let [is_open, is_back] = slides_to_undo(record, &past);
         let plan = |past: &Past<'_>, may_go: &[bool], is_back: &[bool]| {
@@ -302,7 +302,7 @@ impl Divided {
         }
         let part = |&(face, classes): &(FaceId, [u32; 3])| FacePart {
             face,
-            points: classes,
+            roots: classes,
             corners: classes.map(corner),
             on_sides: classes.map(|class| on_sides[&class]),
         };
