@@ -44,7 +44,6 @@ fn a_damped_spring_swings_by_the_closed_answer_and_its_ratio_is_capped() {
         let shape = (slower * t).cos() + ratio * omega / slower * (slower * t).sin();
         let answer = 0.05 * (-ratio * omega * t).exp() * shape;
         let [whole, half] = [0.0025, 0.00125].map(|dt_s| swung(damping_s, dt_s).0 - answer);
-        println!("{damping_s}: off by {whole:e} and {half:e} of {answer}");
         // By velocities of half a step before, so of first order.
         near(whole / half, 2.0, 0.1);
         near(2.0 * half - whole, 0.0, 1e-5);
@@ -138,7 +137,6 @@ fn damped_cloth_gains_no_energy_at_the_longest_step() {
             most = most.max(mechanical_j(system));
         }
         let left = mechanical_j(system);
-        println!("{seed}: {before} J, at most {most} J, {left} J left");
         assert!(most < 1.02 * before && left < 0.5 * before, "{seed}");
     }
 }
@@ -154,7 +152,6 @@ fn the_default_method_hardly_dissipates_by_itself_and_others_say_so() {
             let balance = run.energy_balance();
             let moving_j = balance.put_in_j() - balance.elastic_j;
             let part = -balance.made_j() / moving_j;
-            println!("{scene}, {method}: {part} of {moving_j} J");
             let warns = Warning::after(run).iter().any(is_dissipation);
             assert_eq!(warns, part > 0.1, "{scene}, {method}: {balance:?}");
             assert!(warns || part.abs() < 0.05, "{scene}, {method}: {balance:?}");

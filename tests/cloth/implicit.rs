@@ -5,16 +5,14 @@ mod history;
 mod kernels;
 mod matrix;
 mod orders;
-mod references;
 mod reports;
-mod rest;
 mod tolerance;
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::{self, Method, Stats};
+use tearmesh_cloth::implicit::{self, Stats};
 use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System, force};
 
-use crate::parts::{G, implicit, solved};
+use crate::parts::{G, solved};
 
 /// A spring, or a bend with its stiffness against compression.
 #[derive(Clone, Copy)]
@@ -179,53 +177,7 @@ pub(crate) fn forces(system: &mut System) -> Vec<Vector> {
     forces.map(|(a, m)| a * *m).collect()
 }
 
-/// Brings a system to rest near by, until no force is beyond a tolerance in newtons: steps from a
-/// standstill, the longer the nearer. A very long one is a step of Newton's method for the forces.
-pub(crate) fn rest(system: &mut System, tolerance_n: f64) {
-    let largest = |system: &mut System| {
-        let forces = forces(system);
-        forces.iter().map(|f| f.amax()).fold(0.0, f64::max)
-    };
-    let mut dt_s = 0.02;
-    for _ in 0..1000 {
-        let left = largest(system);
-        if left <= tolerance_n {
-            return;
-        }
-        let before = system.clone();
-        system.state_mut().1.fill(Vector::zeros());
-        let taken = step(system, &mut implicit(Method::BackwardEuler), dt_s);
-        if taken.is_ok() && largest(system) < 2.0 * left {
-            dt_s = (2.0 * dt_s).min(1e4);
-        } else {
-            *system = before;
-            dt_s /= 4.0;
-        }
-    }
-    panic!("it does not rest: {} N", largest(system));
-}
-
 /// The 2-norm of all components.
 pub(crate) fn norm(v: &[Vector]) -> f64 {
     v.iter().map(|v| v.dot(v)).sum::<f64>().sqrt()
-}
-
-/// By what the amplitude of an oscillation is multiplied in a step, z = ωΔt: 1/√(1 + z²), and the
-/// larger root of (3/2 − iz) ζ² − 2ζ + ½ = 0, which is (2 + √(1 + 2iz)) / (3 − 2iz).
-pub(crate) fn damping(method: Method, z: f64) -> f64 {
-    match method {
-        Method::BackwardEuler => 1.0 / (1.0 + z * z).sqrt(),
-        Method::Bdf2 => {
-            let modulus = (1.0 + 4.0 * z * z).sqrt();
-            let re = (0.5 * (modulus + 1.0)).sqrt();
-            let im = z / re;
-            let above = (2.0 + re) * (2.0 + re) + im * im;
-            (above / (9.0 + 4.0 * z * z)).sqrt()
-        }
-    }
-}
-
-/// The order that two errors at Δt and Δt/2 show.
-pub(crate) fn order(coarse: f64, fine: f64) -> f64 {
-    (coarse / fine).log2()
 }

@@ -4,7 +4,6 @@
 
 mod air;
 mod allocation;
-mod answers;
 mod balance;
 mod bending;
 mod cost;
@@ -16,7 +15,6 @@ mod first_tears;
 mod follow;
 mod implicit;
 mod limiter;
-mod losses;
 mod meshes;
 mod overstretched;
 mod parsimony;

@@ -122,17 +122,12 @@ fn patch(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> f64 {
 fn triangles_hang_alike_on_all_meshes_and_springs_within_their_mesh() {
     let (mesh, positions) = square(48);
     let [droop, strain] = hung(&mesh, &positions, triangles());
-    println!("triangles on 48 cells: droop {droop:.5} m, strain {strain:.4}");
     // ρ g L²/(2 E) of a strip.
     near(droop / (0.2 * 100.0 / (2.0 * MODULUS_N_PER_M)), 1.0, 0.05);
     for (name, mesh, positions) in meshes() {
         let woven = hung(&mesh, &positions, triangles());
         let net = hung(&mesh, &positions, springs());
         let patches = [triangles(), springs()].map(|fabric| patch(&mesh, &positions, fabric));
-        println!(
-            "{name}: triangles {woven:.5?}, springs {net:.5?}, patch test {} and {}",
-            patches[0], patches[1]
-        );
         assert!((woven[0] / droop - 1.0).abs() < 0.05, "{name}");
         assert!((woven[1] / strain - 1.0).abs() < 0.05, "{name}");
         assert!((0.75..1.4).contains(&(net[0] / droop)), "{name}");
@@ -158,10 +153,6 @@ fn a_rip_begins_where_the_hand_pulls_on_all_meshes() {
         let ends = [run.mesh().origin(edge), run.mesh().target(edge)];
         let away = ends.map(|v| (rest[v.index()] - Point::new(0.5, 0.5, 0.0)).norm());
         let away_m = away[0].min(away[1]);
-        println!(
-            "{name}: first tear at {} s, {away_m} m away",
-            run.elapsed_s()
-        );
         assert!(away_m < 0.15, "{name}: {away_m}");
     }
 }

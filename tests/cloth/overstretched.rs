@@ -1,6 +1,6 @@
 //! The pass that finds overstretched edges, against the load of every edge, and its cost.
 
-use tearmesh::{Edits, Mesh, Plane, Point, Vector, VertexId, shapes};
+use tearmesh::{Edits, Mesh, Plane, Point, Vector, VertexId};
 use tearmesh_cloth::{
     Cloth, Collider, Fabric, Loads, System, Tear, Tearing, Threshold, Unstable, Xpbd,
     recommended_step_s,
@@ -100,7 +100,6 @@ fn a_pass_without_a_root_finds_every_overstretched_edge() {
                 torn += report.splits;
             }
         }
-        println!("{name}: {over} edges overstretched in {steps} steps, {torn} splits");
         assert!(over > 100 && torn > 50, "{name}");
     }
 }
@@ -169,45 +168,6 @@ fn xpbd_tears_a_chain_by_the_weight_that_hangs_from_it() {
             );
             off = off.max(((chain.stretch_ratio(id) - 1.0) / strain - 1.0).abs());
         }
-        println!(
-            "order {order}: lengths are off by up to {:.0} %",
-            100.0 * off
-        );
         assert!(off > 0.2, "{off}");
-    }
-}
-
-/// A scene that never tears pays for no search, and one that may tear for one pass a step.
-#[test]
-fn a_run_that_never_tears_detects_nothing() {
-    use tearmesh_cloth::Method;
-    use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-
-    let visits = |solver: Method, tearing: Option<Tearing>| {
-        let (mesh, positions) = shapes::grid(8, 8);
-        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-        let scene = Scene {
-            solver,
-            tearing,
-            ..Scene::hang(&frame)
-        };
-        let mut run = Run::new(mesh, &positions, scene, &frame).expect("a scene");
-        for _ in 0..30 {
-            run.step().expect("a step");
-        }
-        let edges = run.mesh().edges().count() as u64;
-        let visits = run.cloth().system().counters().visits;
-        [visits.project, visits.force, visits.detect].map(|n| n as f64 / edges as f64)
-    };
-    let [projected, forces, detected] = visits(Method::Verlet, None);
-    assert_eq!([projected, detected], [0.0; 2]);
-    assert!(forces >= 30.0, "{forces}");
-    assert_eq!(
-        visits(Method::Xpbd(Xpbd::new(1, 1)), None),
-        [30.0, 0.0, 0.0]
-    );
-    let tearing = Some(Tearing::new(Threshold::Stretch(9.0)));
-    for method in [Method::Verlet, Method::Xpbd(Xpbd::new(1, 1))] {
-        assert_eq!(visits(method, tearing)[2], 30.0);
     }
 }

@@ -2,9 +2,15 @@
 
 use tearmesh::{CutMethod, Edits, Plane, Point, Positions, Scissor, Vector};
 use tearmesh_cloth::scene::{Frame, Run, Scene, SwayingWind};
-use tearmesh_cloth::{Bending, Collider, Counters, FeatureVisits, Tearing, Threshold, Wind};
+use tearmesh_cloth::{
+    Bending, Collider, Counters, FeatureVisits, Limiter, Pbd, Provot, Tearing, Threshold, Unstable,
+    Verlet, Wind, Xpbd,
+};
 
+use crate::parts::nets::chain;
+use crate::parts::run;
 use crate::parts::scenes::{methods, play, staged};
+use crate::rk4::Rk4;
 
 /// A quarter of a second of hanging, with no more than is added.
 fn cost(method: usize, add: impl Fn(&mut Scene, &Frame)) -> (Run, Counters) {
@@ -37,10 +43,6 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
         let (run, bare) = cost(method, |_, _| {});
         let springs = run.cloth().system().stretches().len() as u64;
         let passes = bare.features.stretch / springs;
-        println!(
-            "{name}: {} substeps, {passes} passes over {springs} springs",
-            bare.substeps
-        );
         assert!(passes >= bare.substeps, "each step looks at each spring");
         let alone = FeatureVisits {
             stretch: passes * springs,
@@ -123,4 +125,25 @@ fn a_cut_through_a_cloth_visits_no_element() {
         assert_eq!(mesh.components().count(), 2);
         assert_eq!(cloth.system().counters(), before);
     }
+}
+
+/// How often forces are summed and springs projected, method by method.
+#[test]
+fn each_method_counts_what_it_evaluates() {
+    let mut chain = chain(0.0);
+    chain.when_unstable(Unstable::Allow);
+    run(&mut chain, Verlet::new(), 0.001, 10);
+    let counted = chain.counters();
+    assert_eq!((counted.force_evaluations, counted.substeps), (11, 10));
+    assert_eq!((counted.wind_evaluations, counted.collider_passes), (0, 0));
+    assert_eq!((counted.visits.project, counted.matrix_products), (0, 0));
+    run(&mut chain, Rk4::new(), 0.001, 10);
+    assert_eq!(chain.counters().force_evaluations, 11 + 40);
+    run(&mut chain, Pbd::new(7), 0.001, 10);
+    run(&mut chain, Xpbd::new(2, 3), 0.001, 10);
+    assert_eq!(chain.counters().visits.project, 10 * 10 * (7 + 6));
+    assert_eq!(chain.counters().force_evaluations, 11 + 40);
+    run(&mut chain, Provot::new(Limiter::default()), 0.001, 10);
+    assert_eq!(chain.counters().force_evaluations, 11 + 40 + 10);
+    assert_eq!(chain.counters().matrix_products, 0);
 }

@@ -7,12 +7,12 @@ pub(crate) mod scenes;
 pub(crate) mod vibration;
 pub(crate) mod woven;
 
-use tearmesh::Vector;
 use tearmesh::geometry::length;
+use tearmesh::{Plane, Point, Vector};
 use tearmesh_cloth::implicit::{Method, Settings, Stats};
 use tearmesh_cloth::{
-    ConstraintId, Implicit, LimiterStats, Loads, Pbd, Provot, Quality, Solver, System, Unstable,
-    Verlet, Xpbd, energy,
+    ConstraintId, Implicit, LimiterStats, Loads, Path, Pbd, Provot, Quality, Solver, System,
+    Unstable, Verlet, Xpbd, energy,
 };
 
 use crate::plain_verlet::PlainVerlet;
@@ -37,16 +37,17 @@ pub(crate) fn near(value: f64, answer: f64, tolerance: f64) {
 
 /// Gravity down the z axis, and drag in 1/s; none at all if that is 0.
 pub(crate) fn gravity(drag_per_s: f64) -> Loads {
-    falling(Vector::new(0.0, 0.0, -G), drag_per_s)
+    pulled(Vector::new(0.0, 0.0, -G), drag_per_s)
 }
 
 /// Gravity down the y axis, as for a sheet that hangs in its own plane, and drag in 1/s; none at all
 /// if that is 0.
 pub(crate) fn gravity_along_y(drag_per_s: f64) -> Loads {
-    falling(Vector::new(0.0, -G, 0.0), drag_per_s)
+    pulled(Vector::new(0.0, -G, 0.0), drag_per_s)
 }
 
-fn falling(gravity_m_per_s2: Vector, drag_per_s: f64) -> Loads {
+/// This gravity, and drag in 1/s; none at all if that is 0.
+pub(crate) fn pulled(gravity_m_per_s2: Vector, drag_per_s: f64) -> Loads {
     Loads {
         gravity_m_per_s2: Some(gravity_m_per_s2),
         drag_per_s: (drag_per_s > 0.0).then_some(drag_per_s),
@@ -97,10 +98,29 @@ pub(crate) fn tension_n(system: &System, id: ConstraintId) -> f64 {
     spring.stiffness_n_per_m * (length(b - a) - spring.rest_length_m)
 }
 
-/// The largest strain of a spring, longer or shorter.
-pub(crate) fn strain_max(system: &System) -> f64 {
-    let ratios = system.stretches().iter().map(|id| system.stretch_ratio(id));
-    ratios.map(|ratio| (ratio - 1.0).abs()).fold(0.0, f64::max)
+/// Positions and velocities.
+pub(crate) fn state(system: &System) -> (Vec<Point>, Vec<Vector>) {
+    (system.positions().to_vec(), system.velocities().to_vec())
+}
+
+/// Particles of one mass.
+pub(crate) fn particles<const N: usize>(points: [[f64; 3]; N], mass_kg: f64) -> System {
+    System::new(points.map(Point::from), vec![mass_kg; N]).expect("particles")
+}
+
+/// Particles along x at these places, of one mass.
+pub(crate) fn on_a_line<const N: usize>(places: [f64; N], mass_kg: f64) -> System {
+    particles(places.map(|x| [x, 0.0, 0.0]), mass_kg)
+}
+
+/// A straight way between points at times in seconds.
+pub(crate) fn path<const N: usize>(points: [(f64, [f64; 3]); N]) -> Path {
+    Path::new(points.map(|(t_s, at)| (t_s, Point::from(at)))).expect("a path")
+}
+
+/// The plane through a point, with a normal.
+pub(crate) fn plane(at: impl Into<Point>, normal: Vector) -> Plane {
+    Plane::new(at.into(), normal).expect("a plane")
 }
 
 /// The elastic and the kinetic energy, in joules.

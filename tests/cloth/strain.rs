@@ -4,64 +4,7 @@ use tearmesh::{FaceId, Masses, Mesh, Point, Positions, Vector, VertexId, shapes}
 use tearmesh_cloth::{Cloth, Fabric};
 
 use crate::parts::cloths::{cloth, deform};
-use crate::parts::near;
 use crate::random::Random;
-
-/// A turn about an axis by an angle: columns.
-fn turn(axis: Vector, angle: f64) -> [Vector; 3] {
-    let axis = axis.normalize();
-    [Vector::x(), Vector::y(), Vector::z()].map(|e| {
-        e * angle.cos() + axis.cross(&e) * angle.sin() + axis * (axis.dot(&e) * (1.0 - angle.cos()))
-    })
-}
-
-fn apply([x, y, z]: [Vector; 3], p: Point) -> Point {
-    Point::from(x * p.x + y * p.y + z * p.z)
-}
-
-#[test]
-fn every_face_of_every_shape_has_stretch_one_at_rest_however_it_is_turned() {
-    for (mesh, positions) in [
-        shapes::grid(3, 3),
-        shapes::tube(5, 3),
-        shapes::octahedron(),
-        shapes::torus(6, 5),
-    ] {
-        let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
-        for _ in 0..2 {
-            for f in mesh.faces() {
-                near(cloth.principal_stretch(f), 1.0, 1e-13);
-            }
-            let turned = turn(Vector::new(1.0, 2.0, -0.5), 1.3);
-            deform(&mut cloth, |p| {
-                apply(turned, p) + Vector::new(3.0, -1.0, 2.0)
-            });
-        }
-    }
-}
-
-/// An affine map stretches faces that lie in the plane by its singular values, all alike.
-#[test]
-fn an_affine_map_stretches_every_face_by_its_larger_singular_value() {
-    let mut random = Random(5);
-    let mut next = || random.next() - 0.5;
-    for _ in 0..200 {
-        let (mesh, positions) = shapes::grid(3, 2);
-        let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
-        // Stretch by s and t along two axes at an angle, then turn in space.
-        let (s, t, angle) = (1.0 + next(), 1.0 + next(), 6.0 * next());
-        let (c, d) = (angle.cos(), angle.sin());
-        let [e, f] = [Vector::new(c, d, 0.0), Vector::new(-d, c, 0.0)];
-        let pull = [Vector::x(), Vector::y()].map(|x| e * (s * e.dot(&x)) + f * (t * f.dot(&x)));
-        let turned = turn(Vector::new(next(), next(), 1.0), 6.0 * next());
-        deform(&mut cloth, |p| {
-            apply(turned, Point::from(pull[0] * p.x + pull[1] * p.y))
-        });
-        for face in mesh.faces() {
-            near(cloth.principal_stretch(face), s.max(t), 1e-12);
-        }
-    }
-}
 
 /// No direction in a face is stretched more, and one is as much: by trying them.
 #[test]

@@ -6,13 +6,14 @@
 //! ```
 
 mod blow_up;
+mod numbers;
 mod orders;
 mod references;
 mod theory;
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::Method;
-use tearmesh_cloth::{Pbd, Provot, Solver, System, Xpbd};
+use tearmesh_cloth::{Pbd, Provot, Solver, System, Verlet, Xpbd};
 
 use crate::parts::implicit;
 use crate::parts::nets::row;
@@ -21,12 +22,15 @@ use crate::plain_verlet::PlainVerlet;
 use crate::rk4::Rk4;
 
 /// The methods, in the order of the tables' columns.
-pub(crate) const METHODS: [&str; 7] = ["Provot", "Verlet", "RK4", "Euler", "BDF2", "XPBD", "PBD"];
+pub(crate) const METHODS: [&str; 8] = [
+    "guarded", "Provot", "Verlet", "RK4", "Euler", "BDF2", "XPBD", "PBD",
+];
 
-/// A method by its name: the limiter off, sweeps for those that sweep, equations solved to rounding for
-/// those that are implicit.
+/// A method by its name: Verlet with its guards and without, the limiter off, sweeps for those that
+/// sweep, equations solved to rounding for those that are implicit.
 pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
     match name {
+        "guarded" => Box::new(Verlet::new()),
         "Provot" => Box::new(Provot::unlimited()),
         "Verlet" => Box::new(PlainVerlet::new()),
         "RK4" => Box::new(Rk4::new()),

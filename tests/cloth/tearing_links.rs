@@ -133,7 +133,6 @@ fn a_sudden_load_tears_at_half_the_static_one() {
         let chain = || pulled(row(10, 0.01, 50.0, 0.1, down), load);
         let (when, link) = first_tear(chain(), &mut Rk4::new(), 1e-5, 1.0).expect("a tear");
         let (verlet, same) = first_tear(chain(), &mut Verlet::new(), 1e-3, 1.0).expect("a tear");
-        println!("{load} m/s²: link {link} after {when:.5} s; Verlet {verlet:.5} s");
         assert_eq!(link, same);
         near(verlet, when, 2e-3);
     }

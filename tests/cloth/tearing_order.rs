@@ -116,6 +116,5 @@ fn a_tear_does_not_depend_on_the_order_of_storage() {
         }
         same_vertices(&one.mesh, &other.mesh, &corners);
     }
-    println!("{splits} splits");
     assert!(splits > 400, "{splits}");
 }

@@ -124,19 +124,4 @@ impl Sheet {
         };
         self.edges.iter().map(strain).collect()
     }
-
-    /// How far the lowest point of the sheet hangs below where it is at rest, in metres.
-    pub(super) fn droop_m(&self, system: &System) -> f64 {
-        let lowest = |points: &[Point]| points.iter().map(|x| x.y).fold(f64::INFINITY, f64::min);
-        lowest(&self.points) - lowest(system.positions())
-    }
-
-    /// Turns it by 30° about its top.
-    pub(super) fn tilt(&self, system: &mut System) {
-        let (sin, cos) = (0.5, 0.75_f64.sqrt());
-        for x in system.state_mut().0 {
-            let along = x.y - 1.0;
-            *x = Point::new(x.x, 1.0 + along * cos, along * sin);
-        }
-    }
 }

@@ -106,10 +106,6 @@ fn a_step_is_the_dense_solution_where_some_are_held() {
             );
         }
     }
-    println!(
-        "{} steps with the exact matrix, {} without negative parts",
-        seen[0], seen[1]
-    );
     assert!(seen[0] >= 6 && seen[1] >= 2, "{seen:?}");
 }
 
@@ -167,28 +163,6 @@ fn a_solver_that_has_followed_tears_steps_as_a_new_one() {
 }
 
 #[test]
-fn what_is_held_and_stands_still_does_so_to_the_last_bit() {
-    let mut scene = crumpled(3, 4);
-    scene.gravity = Vector::new(0.0, 0.0, -9.81);
-    scene.v.fill(Vector::zeros());
-    for (i, x) in scene.x.iter_mut().enumerate().filter(|(i, _)| i % 5 == 0) {
-        scene.held[i] = true;
-        *x += Vector::new(0.1, 0.7, 1.0 / 3.0);
-    }
-    let mut system = scene.system();
-    let mut solver = implicit_by_default(Method::Bdf2);
-    for turn in 0..50 {
-        let h = if turn % 3 == 0 { 0.003 } else { 0.002 };
-        step(&mut system, &mut solver, h).expect("a step");
-    }
-    let (x, v) = (system.positions(), system.velocities());
-    for i in (0..x.len()).step_by(5) {
-        assert_eq!((x[i], v[i]), (scene.x[i], Vector::zeros()), "{i}");
-    }
-    assert_ne!(x[1], scene.x[1]);
-}
-
-#[test]
 fn each_free_piece_keeps_its_momentum_to_rounding_at_any_tolerance() {
     for method in [Method::BackwardEuler, Method::Bdf2] {
         // Three pieces: a sheet that moves, another that is held at one corner, and a particle.
@@ -218,10 +192,6 @@ fn each_free_piece_keeps_its_momentum_to_rounding_at_any_tolerance() {
         }
         let (x, v) = (system.positions(), system.velocities());
         let change = (momentum(v) - start).norm();
-        println!(
-            "{method:?}: momentum changed by {change:.1e} of {:.1e}",
-            start.norm()
-        );
         assert!(change < 1e-15, "{method:?}: {change}");
         assert!((v[x.len() - 1] - Vector::x()).norm() < 1e-13);
         assert_ne!(x[1], scene.x[1], "something moved");
@@ -251,17 +221,4 @@ fn the_same_input_gives_the_same_bytes_on_every_machine() {
         hash, 0xd2c7_0a8f_de27_fb87,
         "the bytes changed: 0x{hash:016x}"
     );
-}
-
-#[test]
-fn a_step_after_the_first_allocates_nothing() {
-    let mut scene = crumpled(4, 30);
-    scene.gravity = Vector::new(0.0, 0.0, -9.81);
-    let mut system = scene.system();
-    let mut solver = implicit(Method::Bdf2);
-    let mut take = || {
-        step(&mut system, &mut solver, 0.004).expect("a step");
-    };
-    take();
-    assert_eq!(allocation_counter::measure(take).count_total, 0);
 }

@@ -6,7 +6,7 @@ use std::sync::{Mutex, OnceLock};
 use tearmesh::{Mesh, Positions, shapes};
 use tearmesh_cloth::Method;
 use tearmesh_cloth::implicit::Settings;
-use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, TearLog};
 
 /// A square of one metre with `cells` cells per side and alternating diagonals.
 pub(crate) fn square(cells: u32) -> (Mesh, Positions) {
@@ -30,6 +30,16 @@ pub(crate) fn play(mut run: Run) -> Run {
         run.step().expect("a step");
     }
     run
+}
+
+/// Plays a run to its end, and notes what tore.
+pub(crate) fn noted(mut run: Run) -> (Run, TearLog) {
+    let mut log = TearLog::new(&run);
+    while !run.is_over() {
+        let step = run.step().expect("a step");
+        log.note(&run, &step);
+    }
+    (run, log)
 }
 
 /// The scene of this name that stands ready.

@@ -34,7 +34,7 @@ pub(super) fn oscillation(method: &str, z: f64, steps: usize) -> Option<Vec<f64>
         all
     };
     match method {
-        "Verlet" => Some(times.map(|n| (turn * n as f64).cos()).collect()),
+        "Verlet" | "guarded" => Some(times.map(|n| (turn * n as f64).cos()).collect()),
         // The same recurrence, but velocities stand half a step apart.
         "Provot" => {
             let sine = ((1.0 - z * z) - turn.cos()) / turn.sin();
@@ -69,7 +69,7 @@ pub(super) fn fall(method: &str, dt: f64, steps: usize) -> f64 {
     for step in 0..steps {
         let (x_now, v_now) = (x, v);
         match method {
-            "Verlet" | "RK4" => {
+            "Verlet" | "guarded" | "RK4" => {
                 x += v * dt + 0.5 * 9.81 * dt * dt;
                 v += 9.81 * dt;
             }
