@@ -19,6 +19,18 @@ use values::{Value, Values};
 /// How many sequences of edits there are, unless `TEARMESH_CASES` says otherwise.
 const CASES: u64 = 100_000;
 
+fn vertex(index: usize) -> VertexId {
+    VertexId::new(index).expect("I1: ids fit")
+}
+
+fn face(index: usize) -> FaceId {
+    FaceId::new(index).expect("I1: ids fit")
+}
+
+fn half_edge(index: usize) -> HalfEdgeId {
+    HalfEdgeId::new(index).expect("I1: ids fit")
+}
+
 /// A mesh that is split, divided, sewn and slid at random.
 struct Work {
     mesh: Mesh,
@@ -51,8 +63,7 @@ impl Work {
         let torn = |&h: &HalfEdgeId| self.mesh.ghost_pair(h).is_some();
         let torn: Vec<HalfEdgeId> = self.mesh.half_edges().filter(torn).collect();
         if torn.is_empty() || self.random.next() < 0.5 {
-            let h = self.random.below(self.mesh.half_edge_count());
-            return HalfEdgeId::new(h).expect("I1: ids fit");
+            return half_edge(self.random.below(self.mesh.half_edge_count()));
         }
         torn[self.random.below(torn.len())]
     }
@@ -69,11 +80,11 @@ impl Work {
     fn split(&mut self) {
         let h = self.half_edge();
         let v = self.mesh.origin(h);
-        let faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
+        let mut faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
         let mask = self.random.below(1 << faces.len().min(10));
-        let moving = (0..faces.len()).filter(|i| mask >> (i % 10) & 1 == 1);
-        let moving: Vec<FaceId> = moving.map(|i| faces[i]).collect();
-        let done = split::vertex(&mut self.mesh, v, &moving, &mut self.edits).is_ok();
+        let mut bit = 0..;
+        faces.retain(|_| bit.next().is_some_and(|i: usize| mask >> (i % 10) & 1 == 1));
+        let done = split::vertex(&mut self.mesh, v, &faces, &mut self.edits).is_ok();
         self.counts[0] += usize::from(done);
     }
 
@@ -139,22 +150,20 @@ impl Work {
     }
 }
 
-fn vertex(index: usize) -> VertexId {
-    VertexId::new(index).expect("I1: ids fit")
-}
-
 /// A value of another crate, which knows nothing of this one: neither `Blend` nor `Clone`.
 #[derive(Debug, PartialEq)]
 struct Foreign(Value);
 
 impl Foreign {
+    fn all(values: &[Value]) -> Vec<Foreign> {
+        values.iter().map(|&value| Foreign(value)).collect()
+    }
+
     fn mixed(mix: Mix<&Foreign>) -> Foreign {
         Foreign(match mix {
             Mix::Copy(one) => one.0,
-            Mix::Between { ends: [a, b], t } => [0, 1].map(|i| a.0[i] - (a.0[i] - b.0[i]) * t),
-            Mix::Weighted { of, weights } => [0, 1].map(|i| {
-                of[0].0[i] * weights[0] + of[1].0[i] * weights[1] + of[2].0[i] * weights[2]
-            }),
+            Mix::Between { ends: [a, b], t } => values::between(a.0, b.0, t),
+            Mix::Weighted { of, weights } => values::weighted(of.map(|one| one.0), weights),
         })
     }
 }
@@ -163,17 +172,16 @@ impl Foreign {
 struct ForeignLists {
     vertices: (Cursor, Vec<Foreign>),
     corners: (Cursor, Vec<Foreign>),
-    faces: (Cursor, Vec<String>),
+    faces: (Cursor, Vec<u16>),
     indices: (Cursor, Vec<u32>),
 }
 
 impl ForeignLists {
     fn of(values: &Values, seen: Cursor) -> ForeignLists {
-        let foreign = |values: &[Value]| values.iter().map(|&value| Foreign(value)).collect();
         ForeignLists {
-            vertices: (seen, foreign(&values.vertices)),
-            corners: (seen, foreign(&values.corners)),
-            faces: (seen, values.faces.iter().map(u16::to_string).collect()),
+            vertices: (seen, Foreign::all(&values.vertices)),
+            corners: (seen, Foreign::all(&values.corners)),
+            faces: (seen, values.faces.clone()),
             indices: (seen, values.indices.clone()),
         }
     }
@@ -190,26 +198,16 @@ impl ForeignLists {
     }
 
     fn assert_are(&self, values: &Values, seed: u64) {
-        let same = |foreign: &[Foreign], own: &[Value]| {
-            assert!(
-                foreign.iter().map(|one| one.0).eq(own.iter().copied()),
-                "seed {seed}"
-            );
-        };
-        same(&self.vertices.1, &values.vertices);
-        same(&self.corners.1, &values.corners);
-        let faces = self.faces.1.iter().map(|face| face.parse().ok());
-        assert!(
-            faces.eq(values.faces.iter().copied().map(Some)),
-            "seed {seed}: faces"
-        );
+        assert_eq!(self.vertices.1, Foreign::all(&values.vertices), "{seed}");
+        assert_eq!(self.corners.1, Foreign::all(&values.corners), "{seed}");
+        assert_eq!(self.faces.1, values.faces, "seed {seed}: faces");
         assert_eq!(self.indices.1, values.indices, "seed {seed}: indices");
     }
 }
 
 #[test]
 fn followers_by_the_normal_form_keep_what_the_records_say() {
-    let (mut counts, mut records) = ([0; 5], 0);
+    let mut counts = [0; 5];
     let cases = cases(CASES);
     for seed in 0..cases {
         let mut work = Work::new(seed);
@@ -233,11 +231,9 @@ fn followers_by_the_normal_form_keep_what_the_records_say() {
                 assert_eq!(vertices.as_slice(), plain.vertices, "seed {seed}: vertices");
                 assert_eq!(corners.as_slice(), plain.corners, "seed {seed}: corners");
                 assert_eq!(faces.as_slice(), plain.faces, "seed {seed}: faces");
-                let points = positions.as_slice().iter().map(|p| [p.x, p.y]);
-                assert!(
-                    points.eq(plain.vertices.iter().copied()),
-                    "seed {seed}: positions"
-                );
+                let mut points = positions.as_slice().iter().zip(&plain.vertices);
+                let is_same = points.all(|(p, v)| [p.x, p.y] == *v);
+                assert!(is_same, "seed {seed}: positions");
                 if let Some(foreign) = &mut foreign {
                     ForeignLists::replay(foreign, &work.edits);
                     foreign.assert_are(&plain, seed);
@@ -251,33 +247,27 @@ fn followers_by_the_normal_form_keep_what_the_records_say() {
             }
         }
         assert_eq!(plain.indices, work.mesh.indices(), "seed {seed}");
-        records += work.edits.cursor().number();
-        for (sum, count) in counts.iter_mut().zip(work.counts) {
-            *sum += count;
-        }
+        counts = std::array::from_fn(|i| counts[i] + work.counts[i]);
     }
-    println!(
-        "{cases} sequences, {records} edits: {} splits, {} insertions, {} of them on torn edges, \
-         {} merges, {} slides",
-        counts[0], counts[1], counts[2], counts[3], counts[4]
-    );
+    let is_enough = counts.iter().all(|&count| count as u64 > cases / 4);
     assert!(
-        counts.iter().all(|&count| count as u64 > cases / 4),
-        "{counts:?}"
+        is_enough,
+        "splits, insertions, torn, merges, slides: {counts:?}"
     );
 }
 
-/// Three splits of one vertex, and the values of a follower that has seen them.
-fn three_splits() -> (Mesh, Edits, PerVertex<f64>) {
-    let (mut mesh, _) = shapes::fan(5, true);
-    let mut edits = Edits::new();
-    let mut values = PerVertex::new(vec![1.0; mesh.vertex_count()]);
-    for face in 0..3 {
-        let face = FaceId::new(face).expect("small");
-        split::vertex(&mut mesh, vertex(0), &[face], &mut edits).expect("others stay");
+/// The hub of a fan is split by these faces, one after the other.
+fn splits_of(faces: &[usize]) -> (Mesh, Edits) {
+    let (mut mesh, mut edits) = (shapes::fan(5, true).0, Edits::new());
+    for &f in faces {
+        split::vertex(&mut mesh, vertex(0), &[face(f)], &mut edits).expect("others stay");
     }
-    edits.replay(&mut values);
-    (mesh, edits, values)
+    (mesh, edits)
+}
+
+/// Values of the fan before any split.
+fn ones() -> PerVertex<f64> {
+    PerVertex::new(vec![1.0; 6])
 }
 
 fn panic_of(act: impl FnOnce()) -> String {
@@ -290,258 +280,220 @@ fn panic_of(act: impl FnOnce()) -> String {
 
 #[test]
 fn a_follower_that_is_not_in_step_is_told_why() {
-    let (mut mesh, mut edits, seen) = three_splits();
-
-    // One that comes to a log that was cleared before.
-    let mut late = PerVertex::new(vec![1.0; mesh.vertex_count()]);
-    edits.clear();
-    let told = panic_of(|| edits.replay(&mut late));
-    assert!(
-        told.starts_with("late: this follower has seen 0 edits"),
-        "{told}"
-    );
-    assert!(told.contains("starting_at(edits.cursor())"), "{told}");
-
-    // One that has seen more than there is.
-    let mut ahead = seen.clone();
-    let told = panic_of(|| Edits::new().replay(&mut ahead));
-    assert!(
-        told.starts_with("ahead: this follower has seen 3 edits, and there are 0"),
-        "{told}"
-    );
-
-    // One that has seen as many edits of another log, or more of them, or fewer: the same vertex was
-    // split, and one other face went.
-    let (mut other, mut others) = (shapes::fan(5, true).0, Edits::new());
-    for face in [4, 1, 2] {
-        let face = FaceId::new(face).expect("small");
-        split::vertex(&mut other, vertex(0), &[face], &mut others).expect("others stay");
+    let (_, edits) = splits_of(&[0, 1, 2]);
+    let mut seen = ones();
+    edits.replay(&mut seen);
+    let mut cleared = edits.clone();
+    cleared.clear();
+    let (_, others) = splits_of(&[4, 1, 2]);
+    let (_, more_of_others) = splits_of(&[4, 1, 2, 3]);
+    let late = "late: this follower has seen 0 edits";
+    let ahead = "ahead: this follower has seen 3 edits, and there are 0";
+    let foreign = "foreign: this follower has seen 3 edits, which are not";
+    for (why, log, values) in [
+        (late, &cleared, &ones()),
+        (ahead, &Edits::new(), &seen),
+        (foreign, &others, &seen),
+        ("foreign: ", &more_of_others, &seen),
+    ] {
+        let mut follower = values.clone();
+        let told = panic_of(|| log.replay(&mut follower));
+        assert!(told.starts_with(why), "{told}");
+        assert!(why != late || told.contains("starting_at(edits.cursor())"));
+        assert_eq!(follower, *values, "nothing was taken in");
     }
-    let mut foreign = seen.clone();
-    let told = panic_of(|| others.replay(&mut foreign));
-    assert!(
-        told.starts_with("foreign: this follower has seen 3 edits, which are not"),
-        "{told}"
-    );
-    let last = FaceId::new(3).expect("small");
-    split::vertex(&mut other, vertex(0), &[last], &mut others).expect("one stays");
-    let told = panic_of(|| others.replay(&mut foreign));
-    assert!(told.starts_with("foreign: "), "{told}");
-    assert_eq!(foreign, seen, "nothing was taken in");
-
-    // One whose record is shown to it out of turn.
-    split::vertex(&mut mesh, vertex(0), &[last], &mut edits).expect("one stays");
-    let record = edits.iter().next().expect("a record");
+    // A record is shown out of turn.
+    let (mesh, edits) = splits_of(&[0, 1, 2, 3]);
+    let record = edits.iter().next_back().expect("a record");
     let (grid, places) = shapes::grid(1, 1);
     let mut masses = Masses::area(&grid, &places, 1.0).expect("an area");
     let told = panic_of(|| record.pass_on(&mut masses));
     assert!(told.contains("has seen 0 edits was shown edit 3"), "{told}");
-
-    // And the one that is in step sees just what is new.
-    let mut values = seen;
-    edits.replay(&mut values);
-    assert_eq!(
-        (values.as_slice().len(), values.seen()),
-        (mesh.vertex_count(), edits.cursor())
-    );
+    // Who is in step sees just what is new.
+    edits.replay(&mut seen);
+    let counts = (seen.as_slice().len(), seen.seen());
+    assert_eq!(counts, (mesh.vertex_count(), edits.cursor()));
 }
 
 #[test]
-fn a_place_in_a_log_survives_saving_and_clearing_and_is_the_same_everywhere() {
-    let (mut mesh, mut edits, values) = three_splits();
-    let place = values.seen();
+fn a_place_in_a_log_survives_saving_and_clearing() {
+    let (mut mesh, mut edits) = splits_of(&[0, 1, 2]);
+    let place = edits.cursor();
     assert_eq!(place.number(), 3);
     // Of this sequence of edits, on every machine.
-    assert_eq!(
-        format!("{:032x}", u128::from_be_bytes(place.to_bytes())),
-        "0000000000000003e3b17fffd353e395"
-    );
-    assert_eq!(Cursor::from_bytes(place.to_bytes()), place);
+    let bits = u128::from_be_bytes(place.to_bytes());
+    assert_eq!(bits, 0x0000_0000_0000_0003_e3b1_7fff_d353_e395);
+    let saved = Cursor::from_bytes(place.to_bytes());
+    assert_eq!(saved, place);
+    let mut values = ones();
+    edits.replay(&mut values);
     edits.clear();
     assert_eq!(edits.cursor(), place);
-
     // A session goes on where another one ended.
-    let mut resumed = Edits::starting_at(Cursor::from_bytes(place.to_bytes()));
-    let mut saved = PerVertex::new(values.as_slice().to_vec()).starting_at(place);
-    let last = FaceId::new(3).expect("small");
-    split::vertex(&mut mesh.clone(), vertex(0), &[last], &mut resumed).expect("one stays");
-    split::vertex(&mut mesh, vertex(0), &[last], &mut edits).expect("one stays");
+    let mut resumed = Edits::starting_at(saved);
+    let mut values = PerVertex::new(values.as_slice().to_vec()).starting_at(saved);
+    let mut again = mesh.clone();
+    for (mesh, edits) in [(&mut mesh, &mut edits), (&mut again, &mut resumed)] {
+        split::vertex(mesh, vertex(0), &[face(3)], edits).expect("one stays");
+    }
     assert_eq!(resumed.cursor(), edits.cursor());
-    resumed.replay(&mut saved);
-    assert_eq!(saved.as_slice().len(), mesh.vertex_count());
+    resumed.replay(&mut values);
+    assert_eq!(values.as_slice().len(), mesh.vertex_count());
 }
 
 /// Every part of a record that says something makes another log of it.
 #[test]
 fn logs_that_differ_in_one_record_have_different_cursors() {
-    type Make = fn(&mut Mesh, &mut Edits);
-    fn on_edge(mesh: &mut Mesh, edits: &mut Edits, h: usize, t: f64) {
+    let on_edge = |mesh: &mut Mesh, edits: &mut Edits, h: usize, t: f64| {
         let mut plan = Plan::new();
-        plan.on_edge(HalfEdgeId::new(h).expect("small"), t);
+        plan.on_edge(half_edge(h), t);
         plan.apply(mesh, edits).expect("an edge");
-    }
-    fn split(mesh: &mut Mesh, edits: &mut Edits, nth: usize) {
+    };
+    let split = |mesh: &mut Mesh, edits: &mut Edits, nth: usize| {
         let is_shared = |h: &HalfEdgeId| mesh.faces_of(mesh.origin(*h)).count() > 1;
-        let h = mesh
-            .half_edges()
-            .filter(is_shared)
-            .nth(nth)
-            .expect("a corner");
+        let h = mesh.half_edges().filter(is_shared).nth(nth);
+        let h = h.expect("a corner");
         split::vertex(mesh, mesh.origin(h), &[h.face()], edits).expect("others stay");
-    }
-    let logs: [Make; 10] = [
-        |_, _| {},
-        |mesh, edits| split(mesh, edits, 0),
-        |mesh, edits| split(mesh, edits, 1),
-        |mesh, edits| split(mesh, edits, 2),
-        |mesh, edits| on_edge(mesh, edits, 0, 0.5),
-        |mesh, edits| on_edge(mesh, edits, 0, 0.25),
-        |mesh, edits| on_edge(mesh, edits, 1, 0.5),
-        |mesh, edits| {
-            slide::toward(mesh, vertex(0), vertex(1), 0.5, edits).expect("an edge");
-        },
-        |mesh, edits| {
-            slide::toward(mesh, vertex(0), vertex(1), 0.25, edits).expect("an edge");
-        },
-        |mesh, edits| {
-            slide::toward(mesh, vertex(1), vertex(0), 0.25, edits).expect("an edge");
-        },
+    };
+    let slide = |mesh: &mut Mesh, edits: &mut Edits, [v, w]: [usize; 2], t: f64| {
+        slide::toward(mesh, vertex(v), vertex(w), t, edits).expect("an edge");
+    };
+    type Make<'m> = &'m dyn Fn(&mut Mesh, &mut Edits);
+    let logs: [Make<'_>; 10] = [
+        &|_, _| {},
+        &|mesh, edits| split(mesh, edits, 0),
+        &|mesh, edits| split(mesh, edits, 1),
+        &|mesh, edits| split(mesh, edits, 2),
+        &|mesh, edits| on_edge(mesh, edits, 0, 0.5),
+        &|mesh, edits| on_edge(mesh, edits, 0, 0.25),
+        &|mesh, edits| on_edge(mesh, edits, 1, 0.5),
+        &|mesh, edits| slide(mesh, edits, [0, 1], 0.5),
+        &|mesh, edits| slide(mesh, edits, [0, 1], 0.25),
+        &|mesh, edits| slide(mesh, edits, [1, 0], 0.25),
     ];
     let mut cursors: Vec<Cursor> = Vec::new();
     for make in logs {
         let (mut mesh, mut edits) = (shapes::grid(2, 2).0, Edits::new());
         make(&mut mesh, &mut edits);
-        let same = cursors.iter().position(|&other| other == edits.cursor());
-        assert_eq!(same, None, "log {}", cursors.len());
+        assert!(!cursors.contains(&edits.cursor()), "log {}", cursors.len());
         cursors.push(edits.cursor());
     }
 }
 
 #[test]
-fn every_value_goes_to_the_nearest_source_where_there_is_none_between() {
+fn a_value_that_is_not_mixed_comes_from_the_nearest_source() {
     let of = [7, 8, 9];
-    let weighted = |weights| Mix::Weighted { of, weights }.nearest();
-    assert_eq!(
-        [0.0, 0.5].map(|t| Mix::Between { ends: [3, 4], t }.nearest()),
-        [3, 3]
-    );
-    assert_eq!(
-        Mix::Between {
-            ends: [3, 4],
-            t: 0.51
-        }
-        .nearest(),
-        4
-    );
-    assert_eq!(
-        [0.25, 0.5, 0.25].map(|_| weighted([0.25, 0.5, 0.25])),
-        [8; 3]
-    );
-    assert_eq!(weighted([0.4, 0.4, 0.2]), 7);
-    assert_eq!(weighted([0.2, 0.4, 0.4]), 8);
-    assert_eq!(weighted([0.2, 0.2, 0.6]), 9);
-    assert_eq!(
-        f64::blend(Mix::Between {
-            ends: [&2.0, &4.0],
-            t: 0.25
-        }),
-        2.5
-    );
+    let between = |t| Mix::Between { ends: [3, 4], t }.nearest();
+    assert_eq!([0.0, 0.5, 0.51].map(between), [3, 3, 4]);
+    for (weights, nearest) in [
+        ([0.25, 0.5, 0.25], 8),
+        ([0.4, 0.4, 0.2], 7),
+        ([0.2, 0.4, 0.4], 8),
+        ([0.2, 0.2, 0.6], 9),
+    ] {
+        assert_eq!(Mix::Weighted { of, weights }.nearest(), nearest);
+    }
+    let (ends, t) = ([&2.0, &4.0], 0.25);
+    assert_eq!(f64::blend(Mix::Between { ends, t }), 2.5);
 }
 
-/// The operations of an edit name what they are for.
 #[test]
-fn families_are_named_by_their_parent() {
+fn families_of_faces_are_named_by_their_parent() {
     let mut work = Work::new(3);
     let mut plan = Plan::new();
-    plan.on_edge(HalfEdgeId::new(2).expect("small"), 0.5);
+    plan.on_edge(half_edge(2), 0.5);
     plan.apply(&mut work.mesh, &mut work.edits)
         .expect("an edge");
     let edit: Edit<'_> = work.edits.iter().next().expect("a record");
+    assert!(edit.families().count() > 0);
     for family in edit.families() {
         assert_eq!(family.children()[0].face, family.parent());
         assert!(family.children().len() > 1);
         for child in family.children() {
-            let corners = child
-                .corner_mixes()
-                .map(|mix| mix.map(HalfEdgeId::face).nearest());
-            assert_eq!(corners, [family.parent(); 3]);
+            let mixes = child.corner_mixes();
+            let faces = mixes.map(|mix| mix.map(HalfEdgeId::face).nearest());
+            assert_eq!(faces, [family.parent(); 3]);
         }
     }
-    assert!(edit.families().count() > 0);
 }
 
-/// A log with one record for each kind of edit, the numbers of vertices and faces before that, and the
-/// name of the kind.
-fn one_edit_of_each_kind() -> Vec<(&'static str, Edits, [usize; 2])> {
-    let mut logs = Vec::new();
-    let face = FaceId::new(1).expect("small");
-    let (mut mesh, _) = shapes::fan(5, true);
+/// A log with one record for each kind of edit, and the numbers of vertices and faces before that.
+fn one_edit_of_each_kind() -> Vec<(Edits, [usize; 2])> {
+    let mut mesh = shapes::fan(5, true).0;
     let mut edits = Edits::new();
-    let mut log = |name, mesh: &Mesh, act: &mut dyn FnMut(&mut Edits)| {
+    type Act<'a> = &'a dyn Fn(&mut Mesh, &mut Edits);
+    let acts: [Act<'_>; 4] = [
+        &|mesh, edits| {
+            slide::toward(mesh, vertex(0), vertex(1), 0.25, edits).expect("an edge");
+        },
+        &|mesh, edits| {
+            split::vertex(mesh, vertex(0), &[face(1)], edits).expect("others stay");
+        },
+        &|mesh, edits| {
+            mend::merge(mesh, vertex(0), vertex(6), [1.0; 2], edits).expect("copies");
+        },
+        &|mesh, edits| {
+            let mut plan = Plan::new();
+            plan.in_face(face(1), [1.0; 3]);
+            plan.apply(mesh, edits).expect("a point");
+        },
+    ];
+    let log = |act: Act<'_>| {
         let size = [mesh.vertex_count(), mesh.face_count()];
         edits.clear();
-        act(&mut edits);
-        assert_eq!(edits.len(), 1, "{name}");
-        logs.push((name, edits.clone(), size));
+        act(&mut mesh, &mut edits);
+        assert_eq!(edits.len(), 1);
+        (edits.clone(), size)
     };
-    let at = mesh.clone();
-    log("slide", &at, &mut |edits| {
-        slide::toward(&mesh, vertex(0), vertex(1), 0.25, edits).expect("an edge");
-    });
-    log("split", &at, &mut |edits| {
-        split::vertex(&mut mesh, vertex(0), &[face], edits).expect("others stay");
-    });
-    let at = mesh.clone();
-    log("merge", &at, &mut |edits| {
-        mend::merge(&mut mesh, vertex(0), vertex(6), [1.0; 2], edits).expect("copies");
-    });
-    let at = mesh.clone();
-    log("insertion", &at, &mut |edits| {
-        let mut plan = Plan::new();
-        plan.in_face(face, [1.0; 3]);
-        plan.apply(&mut mesh, edits).expect("a point");
-    });
-    logs
+    acts.map(log).to_vec()
 }
 
 #[test]
 fn lists_of_the_wrong_length_are_refused_for_every_kind_of_edit() {
-    for (name, edits, [vertices, faces]) in one_edit_of_each_kind() {
-        let start = {
-            let first = edits.iter().next().expect("one edit");
-            first.before()
-        };
+    for (edits, [vertices, faces]) in one_edit_of_each_kind() {
+        let edit = edits.iter().next().expect("one edit");
+        let start = edit.before();
         type Replay<'e> = &'e dyn Fn(&mut Cursor, &mut Vec<u32>);
-        let replays: [(&str, usize, Replay<'_>); 4] = [
-            ("vertices", vertices, &|seen, list| {
+        let replays: [(usize, Replay<'_>); 4] = [
+            (vertices, &|seen, list| {
                 edits.replay_vertices(seen, list, |mix| *mix.nearest());
             }),
-            ("corners", 3 * faces, &|seen, list| {
+            (3 * faces, &|seen, list| {
                 edits.replay_corners(seen, list, |mix| *mix.nearest());
             }),
-            ("faces", faces, &|seen, list| edits.replay_faces(seen, list)),
-            ("indices", 3 * faces, &|seen, list| {
-                edits.replay_indices(seen, list);
-            }),
+            (faces, &|seen, list| edits.replay_faces(seen, list)),
+            (3 * faces, &|seen, list| edits.replay_indices(seen, list)),
         ];
-        for (of, right, replay) in replays {
+        for (right, replay) in replays {
             for length in [right - 1, right + 1, right] {
                 let (mut seen, mut list) = (start, vec![0; length]);
                 let replayed = catch_unwind(AssertUnwindSafe(|| replay(&mut seen, &mut list)));
-                assert_eq!(replayed.is_ok(), length == right, "{name}: {length} {of}");
-                if length != right {
-                    assert_eq!((seen, list.len()), (start, length), "{name}: {of} stay");
-                }
+                assert_eq!(replayed.is_ok(), length == right, "{edit:?}: {length}");
+                let stays = (seen, list.len()) == (start, length);
+                assert!(length == right || stays, "{edit:?}");
             }
         }
+    }
+}
+
+/// Panics at a call, and follows else.
+struct Fails(PerVertex<f64>, usize);
+
+impl Follower for Fails {
+    fn cursor(&mut self) -> &mut Cursor {
+        self.0.cursor()
+    }
+    fn follow(&mut self, edit: &Edit<'_>) {
+        self.1 += 1;
+        assert!(self.1 != 2, "{}", "a follower fails");
+        self.0.follow(edit);
     }
 }
 
 /// What panics half way may have changed some values and not others: that is told, not guessed.
 #[test]
 fn after_a_panic_half_way_the_next_replay_says_so() {
-    let (_, edits, _) = three_splits();
+    let (_, edits) = splits_of(&[0, 1, 2]);
     let (mut seen, mut list) = (Cursor::START, vec![1.0; 6]);
     let mut calls = 0;
     let mix = |mix: Mix<&f64>| {
@@ -549,31 +501,21 @@ fn after_a_panic_half_way_the_next_replay_says_so() {
         assert!(calls < 2, "{}", "a mix fails");
         *mix.nearest()
     };
-    assert_eq!(
-        panic_of(|| edits.replay_vertices(&mut seen, &mut list, mix)),
-        "a mix fails"
-    );
-    let told = panic_of(|| edits.replay_vertices(&mut seen, &mut list, |mix| *mix.nearest()));
-    assert!(told.starts_with("half way: "), "{told}");
+    let told = panic_of(|| edits.replay_vertices(&mut seen, &mut list, mix));
+    assert_eq!(told, "a mix fails");
+    let again = panic_of(|| edits.replay_vertices(&mut seen, &mut list, |mix| *mix.nearest()));
 
-    struct Fails(PerVertex<f64>, usize);
-    impl Follower for Fails {
-        fn cursor(&mut self) -> &mut Cursor {
-            self.0.cursor()
-        }
-        fn follow(&mut self, edit: &Edit<'_>) {
-            self.1 += 1;
-            assert!(self.1 != 2, "{}", "a follower fails");
-            self.0.follow(edit);
-        }
-    }
-    let mut fails = Fails(PerVertex::new(vec![1.0; 6]), 0);
-    assert_eq!(panic_of(|| edits.replay(&mut fails)), "a follower fails");
+    let mut fails = Fails(ones(), 0);
     let told = panic_of(|| edits.replay(&mut fails));
-    assert!(told.starts_with("half way: "), "{told}");
+    assert_eq!(told, "a follower fails");
+    let of_follower = panic_of(|| edits.replay(&mut fails));
+
     let first = edits.iter().next().expect("three splits");
-    let mut fails = Fails(PerVertex::new(vec![1.0; 6]), 1);
-    assert_eq!(panic_of(|| first.pass_on(&mut fails)), "a follower fails");
-    let told = panic_of(|| edits.replay(&mut fails.0));
-    assert!(told.starts_with("half way: "), "{told}");
+    let mut fails = Fails(ones(), 1);
+    let told = panic_of(|| first.pass_on(&mut fails));
+    assert_eq!(told, "a follower fails");
+    let of_record = panic_of(|| edits.replay(&mut fails.0));
+    for told in [again, of_follower, of_record] {
+        assert!(told.starts_with("half way: "), "{told}");
+    }
 }

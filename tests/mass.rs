@@ -1,7 +1,7 @@
 //! Masses: what is refused, what they start from, and what is conserved; and the sums that tell.
 
 use tearmesh::{
-    Cursor, Edits, ExactSum, MassError, MassLedger, Masses, Mesh, VertexId, mend, shapes, split,
+    Edits, ExactSum, MassError, MassLedger, Masses, Mesh, VertexId, mend, shapes, split,
 };
 
 const USUAL: &str = "nothing unusual";
@@ -26,33 +26,28 @@ fn a_flat_unit_square_weighs_its_density() {
         assert_eq!(masses.total(), halves.total());
     }
 }
+
 #[test]
-fn what_cannot_be_exact_is_refused() {
+fn masses_that_cannot_be_exact_are_refused() {
     let (mesh, positions) = shapes::fan(80, true);
+    let points: Vec<[f64; 3]> = positions.as_slice().iter().map(|&p| p.into()).collect();
+    let refused = |points: &[[f64; 3]], density| {
+        Masses::area(&mesh, points, density).expect_err("it is refused")
+    };
     assert_eq!(
-        Masses::area(&mesh, &positions, f64::NAN)
-            .expect_err("it is refused")
-            .to_string(),
+        refused(&points, f64::NAN).to_string(),
         "the density NaN is not a positive finite number"
     );
-    let flat = vec![[0.0; 3]; mesh.vertex_count()];
-    assert_eq!(
-        Masses::area(&mesh, &flat[..], 1.0).expect_err("it is refused"),
-        MassError::NoArea
-    );
-    let nan = vec![[f64::NAN; 3]; mesh.vertex_count()];
-    assert_eq!(
-        Masses::area(&mesh, &nan[..], 1.0).expect_err("it is refused"),
-        MassError::NoArea
-    );
+    for x in [0.0, f64::NAN] {
+        let nowhere = vec![[x; 3]; points.len()];
+        assert_eq!(refused(&nowhere, 1.0), MassError::NoArea);
+    }
     for density in [1e308, 1e-308] {
-        let error = Masses::area(&mesh, &positions, density).expect_err("it is refused");
-        assert!(
-            matches!(error, MassError::OutOfRange { .. }),
-            "{density}: {error}"
-        );
+        let error = refused(&points, density);
+        assert!(matches!(error, MassError::OutOfRange { .. }), "{error}");
     }
 }
+
 #[test]
 fn halving_is_refused_exactly_where_it_would_leave_the_normal_numbers() {
     // The hub could be halved 79 times, a vertex of the rim once.
@@ -70,6 +65,7 @@ fn halving_is_refused_exactly_where_it_would_leave_the_normal_numbers() {
     );
     assert!(Masses::area(&mesh, &positions, lightest / 2.0).is_ok());
 }
+
 #[test]
 fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
     let (mut mesh, mut positions) = shapes::fan(6, true);
@@ -95,36 +91,17 @@ fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
     assert_eq!(masses.at(hub), of_hub + of_first);
     assert!(masses.ledger().is_balanced());
 }
+
 #[test]
 fn a_ledger_sees_the_smallest_difference() {
-    let sum = |numbers: &[f64]| ExactSum::from_iter(numbers.iter().copied());
-    let balanced = MassLedger {
-        before: sum(&[1.0]),
-        after: sum(&[0.25, 0.75]),
+    let is_balanced = |before: &[f64], after: &[f64]| {
+        let [before, after] = [before, after].map(|x| x.iter().copied().collect());
+        MassLedger { before, after }.is_balanced()
     };
-    assert!(balanced.is_balanced());
-    let lost = MassLedger {
-        before: sum(&[1.0, 5e-324]),
-        after: sum(&[1.0]),
-    };
-    assert!(!lost.is_balanced());
+    assert!(is_balanced(&[1.0], &[0.25, 0.75]));
+    assert!(!is_balanced(&[1.0, 5e-324], &[1.0]));
 }
-#[test]
-fn masses_know_how_many_and_which_edit_comes_next() {
-    let (mesh, positions) = shapes::triangle();
-    for masses in [
-        Masses::area(&mesh, &positions, 1.0),
-        Masses::half(&mesh, &positions, 1.0),
-    ] {
-        let masses = masses.expect(USUAL);
-        assert_eq!(
-            (masses.len(), masses.is_empty(), masses.seen()),
-            (3, false, Cursor::START)
-        );
-        let seen = Cursor::from_bytes([7; 16]);
-        assert_eq!(masses.starting_at(seen).seen(), seen);
-    }
-}
+
 #[test]
 fn a_face_without_area_still_weighs_three_units() {
     let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect(USUAL);
@@ -140,66 +117,49 @@ fn a_face_without_area_still_weighs_three_units() {
 }
 
 #[test]
-fn one_number_comes_back_as_it_went_in() {
+fn sums_are_rounded_once_and_to_even() {
+    let (ulp, half) = (power_of_two(-52), power_of_two(-53));
+    let (dust, most) = (5e-324, f64::MAX);
+    for (numbers, sum) in [
+        (&[1.0, half][..], 1.0),
+        (&[1.0, half, dust], 1.0 + ulp),
+        (&[1.0, ulp, half], 1.0 + 2.0 * ulp),
+        (&[1.0, half, -dust], 1.0),
+        (&[most, most], f64::INFINITY),
+        (&[-most, -most], f64::NEG_INFINITY),
+    ] {
+        let exact = ExactSum::from_iter(numbers.iter().copied());
+        assert_eq!(exact.to_f64(), sum, "{numbers:?}");
+    }
     for x in [
         0.0,
-        1.0,
         -1.5,
         0.1,
         1e300,
         -1e-300,
-        5e-324,
-        f64::MAX,
+        dust,
+        most,
         f64::MIN_POSITIVE,
     ] {
         assert_eq!(ExactSum::from_iter([x]).to_f64(), x);
         assert_eq!(ExactSum::from_iter([x, -x]).to_f64(), 0.0);
     }
 }
+
 #[test]
-fn rounding_happens_once_and_to_even() {
-    let ulp = power_of_two(-52);
-    let half = power_of_two(-53);
-    let dust = 5e-324;
-    assert_eq!(ExactSum::from_iter([1.0, half]).to_f64(), 1.0);
-    assert_eq!(ExactSum::from_iter([1.0, half, dust]).to_f64(), 1.0 + ulp);
-    assert_eq!(
-        ExactSum::from_iter([1.0, ulp, half]).to_f64(),
-        1.0 + 2.0 * ulp
-    );
-    assert_eq!(ExactSum::from_iter([1.0, half, -dust]).to_f64(), 1.0);
-    assert_eq!(
-        ExactSum::from_iter([f64::MAX, f64::MAX]).to_f64(),
-        f64::INFINITY
-    );
-    assert_eq!(
-        ExactSum::from_iter([-f64::MAX, -f64::MAX]).to_f64(),
-        f64::NEG_INFINITY
-    );
-}
-#[test]
-fn the_order_of_the_numbers_does_not_matter() {
+fn sums_do_not_depend_on_the_order_of_their_numbers() {
     // Integers below 2^53 scaled apart by powers of two; the oracle is i128.
-    let numbers: Vec<i64> = (0..200i64)
-        .map(|i| (i * 7_919_993 % 1_000_003) - 500_000)
-        .collect();
-    let exact: i128 = numbers
-        .iter()
-        .enumerate()
-        .map(|(i, &n)| i128::from(n) << (i % 60))
+    let number = |i: i64| ((i * 7_919_993 % 1_000_003) - 500_000, i as i32 % 60);
+    let exact: i128 = (0..200)
+        .map(number)
+        .map(|(n, by)| i128::from(n) << by)
         .sum();
-    let float = |i: usize, n: i64| n as f64 * power_of_two(i as i32 % 60);
-    let forward: ExactSum = numbers
-        .iter()
-        .enumerate()
-        .map(|(i, &n)| float(i, n))
-        .collect();
-    let backward: ExactSum = numbers
-        .iter()
-        .enumerate()
-        .rev()
-        .map(|(i, &n)| float(i, n))
-        .collect();
+    let float = |i| {
+        let (n, by) = number(i);
+        n as f64 * power_of_two(by)
+    };
+    let forward: ExactSum = (0..200).map(float).collect();
+    let backward: ExactSum = (0..200).rev().map(float).collect();
     assert_eq!(forward, backward);
     assert_eq!(forward.to_f64(), exact as f64);
 }

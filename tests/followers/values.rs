@@ -4,11 +4,11 @@ use tearmesh::{CornerSource, Edit, InsertLocation, VertexId};
 
 pub(crate) type Value = [f64; 2];
 
-fn between(a: Value, b: Value, t: f64) -> Value {
+pub(super) fn between(a: Value, b: Value, t: f64) -> Value {
     [0, 1].map(|i| a[i] - (a[i] - b[i]) * t)
 }
 
-fn weighted([a, b, c]: [Value; 3], w: [f64; 3]) -> Value {
+pub(super) fn weighted([a, b, c]: [Value; 3], w: [f64; 3]) -> Value {
     [0, 1].map(|i| a[i] * w[0] + b[i] * w[1] + c[i] * w[2])
 }
 
