@@ -6,9 +6,10 @@
 
 use tearmesh::script::Script;
 use tearmesh::{
-    Cursor, CutEnd, CutLayers, CutMethod, Edits, FaceId, Masses, Mesh, PerCorner, Point, Positions,
-    Ray, Scissor, Vector, VertexId, mend,
+    Cursor, CutEnd, CutLayers, CutMethod, Mesh, Point, Positions, Ray, Scissor, VertexId,
 };
+
+use crate::work::{Work, area};
 
 /// A mesh, and what is done to it.
 #[derive(Debug)]
@@ -52,9 +53,9 @@ pub(crate) struct Done {
     /// Cuts that split something: by a plane alone, and of what rays see first.
     pub(crate) by_planes: usize,
     pub(crate) of_first: usize,
-    pub(crate) inserted: usize,
-    pub(crate) splits: usize,
-    pub(crate) merges: usize,
+    inserted: usize,
+    /// Of the inserted, those that are copies of others, on torn edges.
+    twins: usize,
 }
 
 const SNAPS: [f64; 6] = [0.0, 0.05, 0.2, 0.45, 1e-9, f64::NAN];
@@ -79,32 +80,26 @@ impl Case {
     }
 
     pub(crate) fn check(&self) -> Done {
-        let mut world = World::new(&self.mesh, &self.positions);
+        let mut world = World {
+            work: Work::new((self.mesh.clone(), self.positions.clone())),
+            area: area(&self.mesh, &self.positions),
+            done: Done::default(),
+        };
         let mut last = None;
         for &step in &self.steps {
             world.apply(step, &mut last);
-            world.is_sound();
         }
-        world.mend(|_| true);
-        world.is_sound();
-        let World { done, mesh, .. } = world;
-        assert!(
-            mesh.half_edges().all(|h| mesh.ghost_pair(h).is_none()),
-            "all is sewn"
-        );
-        assert_eq!(mesh.components().count(), self.mesh.components().count());
-        assert_eq!(
-            mesh.boundary_loops().len(),
-            self.mesh.boundary_loops().len()
-        );
-        assert_eq!(
-            mesh.vertex_count(),
-            self.mesh.vertex_count() + done.inserted - done.twins
-        );
+        world.work.sew_all();
+        let World { done, work, .. } = world;
+        let mesh = &work.mesh;
+        let counts = |mesh: &Mesh| (mesh.components().count(), mesh.boundary_loops().len());
+        assert_eq!(counts(mesh), counts(&self.mesh));
+        let vertices = self.mesh.vertex_count() + done.inserted - done.twins;
+        assert_eq!(mesh.vertex_count(), vertices);
         if done.inserted == 0 {
-            assert_eq!(mesh, self.mesh, "mended, and nothing inserted");
+            assert_eq!(*mesh, self.mesh, "mended, and nothing inserted");
         }
-        done.told
+        done
     }
 }
 
@@ -152,44 +147,14 @@ impl Step {
     }
 }
 
-struct Counts {
-    inserted: usize,
-    /// Of the inserted, those that are copies of others, on torn edges.
-    twins: usize,
-    told: Done,
-}
-
-/// A mesh and its followers.
+/// A mesh, its followers, and its area.
 struct World {
-    mesh: Mesh,
-    positions: Positions,
-    masses: Masses,
-    corners: PerCorner<[f64; 3]>,
-    edits: Edits,
+    work: Work,
     area: f64,
-    done: Counts,
+    done: Done,
 }
 
 impl World {
-    fn new(mesh: &Mesh, positions: &Positions) -> World {
-        let corners = mesh
-            .half_edges()
-            .map(|h| positions.at(mesh.origin(h)).into());
-        World {
-            corners: PerCorner::new(corners.collect()),
-            masses: Masses::area(mesh, positions, 1.0).expect("a shape has an area"),
-            area: area(mesh, positions),
-            mesh: mesh.clone(),
-            positions: positions.clone(),
-            edits: Edits::new(),
-            done: Counts {
-                inserted: 0,
-                twins: 0,
-                told: Done::default(),
-            },
-        }
-    }
-
     fn apply(&mut self, step: Step, last: &mut Option<CutEnd>) {
         match step {
             Step::Cut {
@@ -205,8 +170,8 @@ impl World {
                 let [Ok(a), Ok(b)] = rays else { return };
                 let scissor = match last {
                     Some(end) if continued => {
-                        self.edits.replay(end);
-                        Scissor::continued(end, b, &self.positions)
+                        self.work.edits.replay(end);
+                        Scissor::continued(end, b, &self.work.positions)
                     }
                     _ => Scissor::new(a, b),
                 };
@@ -217,113 +182,69 @@ impl World {
                     Span::Plane => Scissor::by_plane(scissor.plane()),
                 };
                 let scissor = scissor.snap(snap).snap_move(snap_move).through(through);
-                let first = self.edits.cursor();
-                let pieces_before = self.mesh.components().count();
-                let before = self.positions.clone();
-                let torn_before: Vec<VertexId> = self.mesh.vertices().collect();
-                let (cut, report) = scissor
-                    .cut_measured(method, &mut self.mesh, &mut self.positions, &mut self.edits)
-                    .expect("positions are in step");
-                if snap_move {
-                    // With a large snap, on a mesh of a few faces, that may be half of it.
-                    self.area = area(&self.mesh, &self.positions);
-                }
-                if !snap_move {
-                    for v in torn_before {
-                        assert_eq!(before.at(v), self.positions.at(v), "{v} stays");
-                    }
-                }
-                self.count(first);
-                self.done.told.cuts += 1;
-                self.done.told.splits += report.splits;
-                let splits = usize::from(report.splits > 0);
-                match span {
-                    Span::All => {}
-                    Span::First => self.done.told.of_first += splits,
-                    Span::Plane => self.done.told.by_planes += splits,
-                }
-                if report.splits == 0 && report.vertices_inserted == 0 {
-                    assert_eq!(self.edits.since(first).len(), 0, "nothing is cut");
-                }
-                self.done.told.inserted += report.vertices_inserted;
-                assert_eq!(report.pieces_before, pieces_before);
-                assert_eq!(report.pieces, self.mesh.components().count());
-                *last = cut.ends().map(|[_, end]| end.clone());
+                *last = self.cut(method, &scissor, span, snap_move);
             }
             Step::Mend { near, radius } => {
-                let points = self.positions.as_slice();
-                let centre = points[usize::from(near) % points.len()];
-                let positions = self.positions.clone();
-                self.mend(|v| (positions.at(v) - centre).norm() <= radius);
+                let positions = self.work.positions.clone();
+                let centre = positions.as_slice()[usize::from(near) % positions.len()];
+                let is_near = |v: VertexId| (positions.at(v) - centre).norm() <= radius;
+                self.work.sew(is_near);
             }
         }
-        self.edits
-            .replay(&mut (&mut self.masses, &mut self.corners));
+        self.the_area_stays();
+    }
+
+    /// Cuts; returns where the cut ended.
+    fn cut(
+        &mut self,
+        method: CutMethod,
+        scissor: &Scissor,
+        span: Span,
+        snap_move: bool,
+    ) -> Option<CutEnd> {
+        let (first, before) = (self.work.edits.cursor(), self.work.positions.clone());
+        let pieces_before = self.work.mesh.components().count();
+        let (cut, report) = self.work.cut(method, scissor);
+        if snap_move {
+            // With a large snap, on a mesh of a few faces, that may be half of it.
+            self.area = area(&self.work.mesh, &self.work.positions);
+        } else {
+            let now = &self.work.positions.as_slice()[..before.len()];
+            assert_eq!(now, before.as_slice(), "old vertices stay");
+        }
+        self.count(first);
+        self.done.cuts += 1;
+        let splits = usize::from(report.splits > 0);
+        match span {
+            Span::All => {}
+            Span::First => self.done.of_first += splits,
+            Span::Plane => self.done.by_planes += splits,
+        }
+        if report.splits == 0 && report.vertices_inserted == 0 {
+            let nothing = self.work.edits.since(first).len();
+            assert_eq!(nothing, 0, "nothing is cut");
+        }
+        assert_eq!(report.pieces_before, pieces_before);
+        cut.ends().map(|[_, end]| end.clone())
     }
 
     /// Counts what the edits from `first` on inserted.
     fn count(&mut self, first: Cursor) {
-        for edit in self.edits.since(first) {
+        for edit in self.work.edits.since(first) {
             if let tearmesh::Edit::Insert(insert) = edit {
                 self.done.inserted += insert.points.len();
-                let copies = insert.points.iter();
-                let copies = copies.filter(|point| self.mesh.root(point.vertex) != point.vertex);
+                let new = insert.points.iter().map(|point| point.vertex);
+                let copies = new.filter(|&v| self.work.mesh.root(v) != v);
                 self.done.twins += copies.count();
             }
         }
     }
 
-    fn mend(&mut self, chosen: impl Fn(VertexId) -> bool) {
-        let stitches = mend::stitches(&self.mesh, chosen);
-        let masses = &self.masses;
-        let (mesh, edits) = (&mut self.mesh, &mut self.edits);
-        let merges = mend::sew(
-            mesh,
-            &self.positions,
-            &stitches,
-            |v| masses.at(v),
-            f64::INFINITY,
-            edits,
-        )
-        .expect("stitches are of one root");
-        self.done.told.merges += merges;
-        edits.replay(&mut (&mut self.positions, &mut self.masses, &mut self.corners));
+    fn the_area_stays(&self) {
+        let area = area(&self.work.mesh, &self.work.positions);
+        let off = (area - self.area).abs();
+        assert!(off <= 1e-9 * self.area, "{area} of {}", self.area);
     }
-
-    fn is_sound(&self) {
-        assert_eq!(self.mesh.check(), []);
-        assert!(self.masses.ledger().is_balanced(), "mass stays");
-        let area = area(&self.mesh, &self.positions);
-        assert!(
-            (area - self.area).abs() <= 1e-9 * self.area,
-            "{area} of {}",
-            self.area
-        );
-        for (h, corner) in self.mesh.half_edges().zip(self.corners.as_slice()) {
-            let apart = (self.positions.at(self.mesh.origin(h)) - Point::from(*corner)).norm();
-            assert!(apart < 1e-9, "the data of {h} is {apart} off");
-        }
-        let triangles: Vec<[u32; 3]> = self
-            .mesh
-            .faces()
-            .map(|f| self.mesh.face_vertices(f).map(u32::from))
-            .collect();
-        let again = Mesh::build_torn(&triangles, &self.mesh.roots());
-        assert_eq!(
-            again.as_ref(),
-            Ok(&self.mesh),
-            "triangles and roots are all there is"
-        );
-    }
-}
-
-fn area(mesh: &Mesh, positions: &Positions) -> f64 {
-    let of = |f: FaceId| {
-        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
-        let (b, c): (Vector, Vector) = (b - a, c - a);
-        b.cross(&c).norm() / 2.0
-    };
-    mesh.faces().map(of).sum()
 }
 
 /// Bytes to be read, followed by zeros without end.

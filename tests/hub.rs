@@ -1,205 +1,99 @@
 //! Vertices with very many faces: whatever touches one takes time linear in its faces, not in their
 //! square.
-//!
-//! The table: `cargo test -p tearmesh --release --test main -- --ignored --nocapture hub`.
-
-use std::time::Instant;
 
 use tearmesh::{
-    CutMethod, Edits, FaceId, Masses, Mesh, Plane, Point, Positions, Ray, Scissor, Vector,
-    VertexId, mend, shapes, split,
+    CutMethod, FaceId, Mesh, Plane, Point, Positions, Scissor, Vector, VertexId, shapes, split,
 };
 
-use crate::cuts::METHODS;
 use crate::random::Random;
+use crate::work::{METHODS, Work, between, triangles};
 
-/// Steps and the nanoseconds a face that each took.
-struct Clock {
-    faces: f64,
-    steps: Vec<(String, f64)>,
+/// With a square in it, cutting a fan of so many faces takes minutes.
+const FACES: u32 = 50_000;
+
+fn hub() -> VertexId {
+    VertexId::new(0).expect("an id")
 }
 
-impl Clock {
-    fn new(faces: u32) -> Clock {
-        Clock {
-            faces: f64::from(faces),
-            steps: Vec::new(),
-        }
-    }
-
-    fn time<T>(&mut self, step: impl Into<String>, work: impl FnOnce() -> T) -> T {
-        let start = Instant::now();
-        let done = work();
-        let taken = start.elapsed().as_secs_f64() * 1e9 / self.faces;
-        self.steps.push((step.into(), taken));
-        done
-    }
+/// A fan whose rim has heights.
+fn crown(faces: u32, closed: bool, mut height: impl FnMut() -> f64) -> (Mesh, Positions) {
+    let (mesh, flat) = shapes::fan(faces, closed);
+    let mut points = flat.as_slice().to_vec();
+    points[1..].iter_mut().for_each(|p| p.z = height());
+    (mesh, Positions::new(points).expect("they are finite"))
 }
 
-/// A mesh with its followers, and the log.
-struct Sheet {
-    mesh: Mesh,
-    positions: Positions,
-    masses: Masses,
-    edits: Edits,
-}
-
-impl Sheet {
-    fn new(mesh: &Mesh, positions: &Positions) -> Sheet {
-        Sheet {
-            masses: Masses::area(mesh, positions, 1.0).expect("it has an area"),
-            mesh: mesh.clone(),
-            positions: positions.clone(),
-            edits: Edits::new(),
-        }
-    }
-
-    /// Checks the mesh, and sews everything.
-    fn check_and_sew(&mut self, what: &str, clock: &mut Clock) {
-        let Sheet {
-            mesh,
-            positions,
-            masses,
-            edits,
-        } = self;
-        edits.replay(&mut (&mut *positions, &mut *masses));
-        assert!(masses.ledger().is_balanced(), "{what}");
-        assert_eq!(clock.time(format!("{what}: check"), || mesh.check()), []);
-        clock.time(format!("{what}: sew"), || {
-            let stitches = mend::stitches(mesh, |_| true);
-            let weight = |v| masses.at(v);
-            mend::sew(mesh, &*positions, &stitches, weight, 1e-9, edits).expect("nothing moved");
-        });
-        edits.replay(&mut (positions, masses));
-        assert!(mesh.half_edges().all(|h| mesh.ghost_pair(h).is_none()));
-    }
-}
-
-/// The scissor with rays straight down at two places of the plane.
-fn scissor(a: [f64; 2], b: [f64; 2]) -> Scissor {
-    let down = Vector::new(0.0, 0.0, -1.0);
-    let ray = |[x, y]: [f64; 2]| Ray::new(Point::new(x, y, 5.0), down).expect("a ray");
-    Scissor::new(ray(a), ray(b)).expect("two rays")
-}
-
-/// Cuts a fan in all ways, and mends it.
-fn cut(faces: u32, closed: bool, clock: &mut Clock) {
-    let (mesh, positions) = clock.time("build", || shapes::fan(faces, closed));
+#[test]
+fn a_large_hub_is_cut_by_all_methods_and_mended() {
+    let whole = Work::new(shapes::fan(FACES, true));
     for method in METHODS {
-        for (place, y) in [("the hub", 0.0), ("near", 0.001), ("beside", 0.1)] {
-            for (extent, x) in [("finite", 0.5), ("through", 2.0)] {
-                let what = format!("{method:?}, {place}, {extent}");
-                let mut sheet = Sheet::new(&mesh, &positions);
-                let Sheet {
-                    mesh: cut,
-                    positions,
-                    edits,
-                    ..
-                } = &mut sheet;
-                let scissor = scissor([-x, y - 0.3 * x], [x, y + 0.3 * x]);
-                let scissor = scissor.through(extent == "through");
-                let report = clock.time(what.clone(), || {
-                    scissor.cut_measured(method, cut, positions, edits)
-                });
-                let (_, report) = report.expect("all is in step");
-                assert!(report.faces_crossed > 0, "{what}");
-                sheet.check_and_sew(&what, clock);
-                assert!(method == CutMethod::Exact || sheet.mesh == mesh, "{what}");
+        for y in [0.0, 0.001, 0.1] {
+            for (x, through) in [(0.5, false), (2.0, true)] {
+                let mut work = whole.clone();
+                let scissor = between([-x, y - 0.3 * x], [x, y + 0.3 * x]).through(through);
+                let (_, report) = work.cut(method, &scissor);
+                assert!(report.faces_crossed > 0, "{method:?}");
+                work.sew_all();
+                let is_whole = work.mesh == whole.mesh;
+                assert!(method == CutMethod::Exact || is_whole, "{method:?}");
             }
         }
     }
 }
 
-/// Cuts a crown, whose rim is before and behind a plane through the hub by turns, into as many fans.
-fn crown(faces: u32, closed: bool, clock: &mut Clock) {
-    let (mesh, positions) = shapes::fan(faces, closed);
-    let mut up = (0..).map(|i| if i % 8 < 4 { 0.5 } else { -0.5 });
-    let mut points = positions.as_slice().to_vec();
-    points[1..]
-        .iter_mut()
-        .for_each(|p| p.z = up.next().expect("without end"));
-    let positions = Positions::new(points).expect("they are finite");
-    let ray = |y| Ray::new(Point::new(-5.0, y, 0.0), Vector::x()).expect("a ray");
-    let scissor = Scissor::new(ray(-3.0), ray(3.0))
-        .expect("two rays")
-        .through(true);
-    for method in METHODS {
-        let what = format!("{method:?}, a crown");
-        let mut sheet = Sheet::new(&mesh, &positions);
-        let Sheet {
-            mesh: cut,
-            positions,
-            edits,
-            ..
-        } = &mut sheet;
-        let report = clock.time(what.clone(), || {
-            scissor.cut_measured(method, cut, positions, edits)
+/// The rim is before and behind the plane by turns.
+#[test]
+fn a_crown_is_cut_into_many_fans_and_mended() {
+    let level = Scissor::by_plane(Plane::new(Point::origin(), Vector::z()).expect("a plane"));
+    for closed in [true, false] {
+        let mut i = 0;
+        let crown = crown(FACES, closed, || {
+            i += 1;
+            if i % 8 < 4 { 0.5 } else { -0.5 }
         });
-        let splits = report.expect("all is in step").1.splits as u32;
-        let is_uniform = method == CutMethod::Uniform;
-        assert!(splits > faces / 5 || is_uniform, "{what}: {splits}");
-        sheet.check_and_sew(&what, clock);
+        for method in METHODS {
+            let mut work = Work::new(crown.clone());
+            let (_, report) = work.cut(method, &level);
+            let is_uniform = method == CutMethod::Uniform;
+            let is_apart = report.splits as u32 > FACES / 5;
+            assert!(is_apart || is_uniform, "{method:?}: {report:?}");
+            work.sew_all();
+        }
     }
 }
 
-/// Tears a fan face by face until each face has a vertex of its own, and mends it.
-fn tear(faces: u32, closed: bool, order: &str, clock: &mut Clock) {
-    let (mesh, positions) = shapes::fan(faces, closed);
-    let mut sheet = Sheet::new(&mesh, &positions);
-    let hub = VertexId::new(0).expect("an id");
-    let mut all: Vec<FaceId> = mesh.faces().collect();
-    match order {
-        "descending" => all.reverse(),
-        "shuffled" => {
-            let mut random = Random(7);
-            random.shuffle(&mut all);
+/// Face by face, until each has a vertex of its own.
+#[test]
+fn a_large_hub_is_torn_in_any_order_built_again_and_mended() {
+    let mut random = Random(7);
+    for order in ["ascending", "descending", "shuffled"] {
+        let mut work = Work::new(shapes::fan(FACES, order == "shuffled"));
+        let whole = work.mesh.clone();
+        let mut all: Vec<FaceId> = whole.faces().collect();
+        match order {
+            "descending" => all.reverse(),
+            "shuffled" => random.shuffle(&mut all),
+            _ => {}
         }
-        _ => {}
-    }
-    let last = all.pop().expect("a face");
-    clock.time(format!("torn, {order}"), || {
+        let last = all.pop().expect("a face");
         for &face in &all {
-            split::vertex(&mut sheet.mesh, hub, &[face], &mut sheet.edits).expect("one stays");
+            split::vertex(&mut work.mesh, hub(), &[face], &mut work.edits).expect("one stays");
         }
-    });
-    let refused = split::vertex(&mut sheet.mesh, hub, &[last], &mut sheet.edits);
-    assert!(matches!(
-        refused,
-        Err(split::SplitRefusal::Everything { .. })
-    ));
-    assert_eq!(sheet.mesh.half_edge_of(hub).map(|h| h.face()), Some(last));
-    let torn = sheet.mesh.clone();
-    sheet.edits.replay(&mut sheet.positions);
-    let place = Positions::new(sheet.positions.as_slice().to_vec()).expect("they were accepted");
-    sheet.check_and_sew(&format!("torn, {order}"), clock);
-    assert_eq!(sheet.mesh, mesh, "{order}");
-    if order == "shuffled" {
-        rebuild_and_cut(&torn, &place, clock);
-    }
-}
-
-/// Builds a torn mesh again from its triangles and roots, and cuts it beside the hub.
-fn rebuild_and_cut(torn: &Mesh, positions: &Positions, clock: &mut Clock) {
-    let again = clock.time("torn: roots, build", || {
-        let faces = torn.faces();
-        let triangles: Vec<[u32; 3]> = faces
-            .map(|f| torn.face_vertices(f).map(u32::from))
-            .collect();
-        Mesh::build_torn(&triangles, &torn.roots())
-    });
-    assert_eq!(again.as_ref(), Ok(torn));
-    for (what, y) in [("near", 0.001), ("beside", 0.1)] {
-        let (mut mesh, mut positions) = (torn.clone(), positions.clone());
-        let scissor = scissor([-2.0, y], [2.0, 1.1 * y]).through(true);
-        let mut edits = Edits::new();
-        let report = clock.time(format!("torn: cut {what}"), || {
-            scissor.cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
-        });
-        assert!(report.expect("all is in step").1.faces_crossed > 0);
-        assert_eq!(
-            clock.time(format!("torn: cut {what}: check"), || mesh.check()),
-            []
-        );
+        let refused = split::vertex(&mut work.mesh, hub(), &[last], &mut work.edits);
+        assert!(matches!(
+            refused,
+            Err(split::SplitRefusal::Everything { .. })
+        ));
+        assert_eq!(work.mesh.half_edge_of(hub()).map(|h| h.face()), Some(last));
+        work.follow();
+        work.is_sound();
+        for y in [0.001, 0.1] {
+            let through = between([-2.0, y], [2.0, 1.1 * y]).through(true);
+            let (_, report) = work.clone().cut(CutMethod::Exact, &through);
+            assert!(report.faces_crossed > 0);
+        }
+        work.sew_all();
+        assert_eq!(work.mesh, whole, "{order}");
     }
 }
 
@@ -207,45 +101,40 @@ fn rebuild_and_cut(torn: &Mesh, positions: &Positions, clock: &mut Clock) {
 fn cut_by_paper(
     (point, normal): (Point, Vector),
     is_alternating: bool,
-    sheet: &mut Sheet,
+    work: &mut Work,
 ) -> [usize; 2] {
-    let Sheet {
-        mesh,
-        positions,
-        edits,
-        ..
-    } = sheet;
     let plane = Plane::new(point, normal).expect("a plane");
     let is_positive = |at: Point| plane.offset(at) >= 0.0;
-    let count = |mesh: &Mesh, positions: &Positions, f| {
-        let corners = mesh.face_vertices(f).into_iter();
-        corners.filter(|&v| is_positive(positions.at(v))).count()
+    let count = |work: &Work, f| {
+        let corners = work.mesh.face_vertices(f).map(|v| work.positions.at(v));
+        corners.into_iter().filter(|&at| is_positive(at)).count()
     };
-    let faces = mesh.faces();
-    let crossed = faces.filter(|&f| [1, 2].contains(&count(mesh, positions, f)));
+    let crossed = work
+        .mesh
+        .faces()
+        .filter(|&f| [1, 2].contains(&count(work, f)));
     let crossed: Vec<FaceId> = crossed.collect();
     let [mut splits, mut refused] = [0; 2];
     for f in crossed {
-        let corners = mesh.face_vertices(f).map(|v| positions.at(v));
+        let corners = work.mesh.face_vertices(f).map(|v| work.positions.at(v));
         let negative = (0..3).find(|&i| !is_positive(corners[i]));
-        let along_edge = (is_alternating && count(mesh, positions, f) == 2).then(|| {
+        let along_edge = (is_alternating && count(work, f) == 2).then(|| {
             let [c, d, e] = [1, 2, 3].map(|i| corners[(negative.expect("one") + i) % 3]);
             (d - c).cross(&(e - c)).cross(&(d - c))
         });
         for h in f.half_edges() {
-            let v = mesh.origin(h);
-            let at = positions.at(v);
+            let v = work.mesh.origin(h);
+            let at = work.positions.at(v);
             if !is_positive(at) {
                 continue;
             }
             let plane = Plane::new(at, along_edge.unwrap_or(normal)).expect("it has an area");
-            let split = split::by_plane(mesh, v, &plane, &*positions, edits).is_some();
-            if split {
-                splits += 1;
-                edits.replay(positions);
-            } else {
-                refused += 1;
+            let (mesh, positions) = (&mut work.mesh, &work.positions);
+            match split::by_plane(mesh, v, &plane, positions, &mut work.edits) {
+                Some(_) => splits += 1,
+                None => refused += 1,
             }
+            work.edits.replay(&mut work.positions);
         }
     }
     [splits, refused]
@@ -259,29 +148,19 @@ fn the_papers_methods_at_a_hub_are_those_of_by_plane() {
     let mut splits_of_all = 0;
     for case in 0..600 {
         let faces = [12, 64, 65, 66, 150, 400][case % 6];
-        let (mesh, flat) = shapes::fan(faces, case % 4 < 2);
-        // In any order, so that a walk round the hub begins anywhere.
-        let mut triangles: Vec<[u32; 3]> = mesh.indices().as_chunks().0.to_vec();
-        random.shuffle(&mut triangles);
-        let mesh = Mesh::build(mesh.vertex_count(), &triangles).expect("a fan");
-        let mut points = flat.as_slice().to_vec();
         let steps = [0.0, 2.0, 1000.0][case / 6 % 3];
-        for p in &mut points[1..] {
-            p.z = (steps * (random.next() - 0.5)).round() / f64::max(steps, 1.0);
+        let mut height = || (steps * (random.next() - 0.5)).round() / f64::max(steps, 1.0);
+        let (mesh, positions) = crown(faces, case % 4 < 2, &mut height);
+        // In any order, so that a walk round the hub begins anywhere.
+        let mut shuffled = triangles(&mesh).to_vec();
+        random.shuffle(&mut shuffled);
+        let mesh = Mesh::build(mesh.vertex_count(), &shuffled).expect("a fan");
+        let mut work = Work::new((mesh, positions));
+        for _ in 0..if case % 5 == 0 { 10 } else { 0 } {
+            let f = FaceId::new(random.below(faces as usize)).expect("a face");
+            let _refused = split::vertex(&mut work.mesh, hub(), &[f], &mut work.edits);
         }
-        let positions = Positions::new(points).expect("they are finite");
-        let mut sheet = Sheet::new(&mesh, &positions);
-        let hub = VertexId::new(0).expect("an id");
-        if case % 5 == 0 {
-            for _ in 0..10 {
-                let f = mesh
-                    .faces()
-                    .nth((random.next() * f64::from(faces)) as usize);
-                let f = f.expect("a face");
-                let _refused = split::vertex(&mut sheet.mesh, hub, &[f], &mut sheet.edits);
-            }
-            sheet.edits.replay(&mut sheet.positions);
-        }
+        work.follow();
         let mut part = |scale: f64| scale * (random.next() - 0.5);
         let point = Point::new(0.0, [0.0, part(0.4)][case / 18 % 2], 0.0);
         let normal = match case / 36 % 3 {
@@ -290,73 +169,17 @@ fn the_papers_methods_at_a_hub_are_those_of_by_plane() {
             _ => Vector::new(part(1.0), part(1.0), 0.0),
         };
         for method in [CutMethod::Uniform, CutMethod::Alternating] {
-            let copy = || Sheet {
-                mesh: sheet.mesh.clone(),
-                positions: sheet.positions.clone(),
-                masses: sheet.masses.clone(),
-                edits: sheet.edits.clone(),
-            };
-            let (mut one, mut other) = (copy(), copy());
+            let (mut one, mut other) = (work.clone(), work.clone());
             let counts = cut_by_paper((point, normal), method == CutMethod::Alternating, &mut one);
             let scissor = Scissor::by_plane(Plane::new(point, normal).expect("a plane"));
-            let made = scissor.cut_measured(
-                method,
-                &mut other.mesh,
-                &mut other.positions,
-                &mut other.edits,
-            );
-            let (_, report) = made.expect("all is in step");
+            let (_, report) = other.cut(method, &scissor);
             let what = format!("case {case}, {method:?}");
             assert_eq!([report.splits, report.refused], counts, "{what}");
             assert!(one.mesh == other.mesh, "{what}");
-            assert!(one.edits.iter().eq(other.edits.iter()), "{what}");
+            let [is, told] = [&one.edits, &other.edits];
+            assert!(is.iter().eq(told.iter()), "{what}");
             splits_of_all += report.splits;
         }
     }
     assert!(splits_of_all > 5000, "{splits_of_all}");
-}
-
-const ORDERS: [&str; 3] = ["ascending", "descending", "shuffled"];
-
-/// With a square in it this takes minutes; as it is, a few seconds.
-#[test]
-fn a_large_hub_is_cut_torn_and_mended() {
-    let faces = 100_000;
-    let mut clock = Clock::new(faces);
-    cut(faces, true, &mut clock);
-    for closed in [true, false] {
-        crown(faces, closed, &mut clock);
-    }
-    for order in ORDERS {
-        tear(faces, order == "shuffled", order, &mut clock);
-    }
-}
-
-#[test]
-#[ignore = "a table of times"]
-fn hub_table() {
-    let sizes: Vec<u32> = (0..8).map(|i| 10_000 << i).collect();
-    for closed in [true, false] {
-        let mut clocks: Vec<Clock> = Vec::new();
-        for &faces in &sizes {
-            let mut clock = Clock::new(faces);
-            cut(faces, closed, &mut clock);
-            crown(faces, closed, &mut clock);
-            for order in ORDERS {
-                tear(faces, closed, order, &mut clock);
-            }
-            clocks.push(clock);
-        }
-        println!("\nclosed: {closed}; ns a face, by thousands of faces round one vertex");
-        print!("{:44}", "");
-        sizes.iter().for_each(|faces| print!("{:>7}", faces / 1000));
-        println!();
-        for (i, (step, _)) in clocks[0].steps.iter().enumerate() {
-            print!("{step:44}");
-            for clock in &clocks {
-                print!("{:7.0}", clock.steps[i].1);
-            }
-            println!();
-        }
-    }
 }

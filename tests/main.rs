@@ -43,6 +43,8 @@ mod sheet;
 mod shrink;
 mod straight;
 mod straight_polylines;
+mod surfaces;
 mod tear;
 mod tips;
 mod undo;
+mod work;

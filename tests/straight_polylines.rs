@@ -6,7 +6,9 @@ use crate::oracle::naive_cut;
 use crate::oracle::spoil::{BUGS, Bug, spoil};
 use crate::oracle::straight::{Check, Cut, Surface, is_generic, judge_polyline};
 use crate::random::Random;
-use crate::straight::{delaunay, down, jittered, said, surface};
+use crate::straight::said;
+use crate::surfaces::sheets;
+use crate::work::down;
 
 /// Polylines that each sheet gets.
 const POLYLINES: usize = 20;
@@ -60,15 +62,6 @@ fn go_on(before: &Surface, cut: &Cut, [x, y]: [f64; 2], to: [f64; 2], gap: f64) 
     let by = gap / along[0].hypot(along[1]);
     let late = straight([x + by * along[0], y + by * along[1]], to);
     Some(naive_cut::cut(before, &late))
-}
-
-pub(crate) fn sheets() -> Vec<Surface> {
-    let mut random = Random(23);
-    vec![
-        surface(&tearmesh::shapes::grid(8, 8)),
-        jittered(9, &mut random),
-        delaunay(140, 9, &mut random),
-    ]
 }
 
 /// The corners of a polyline of two or three cuts, which turns by less than a right angle.

@@ -5,9 +5,9 @@
 //! one after. How the cut was made, in which order, and how the crossed faces were
 //! triangulated, it neither knows nor asks.
 //!
-//! It is valid for **generic** cuts, which [`is_generic`] tells, made without a snap or with
-//! one below [`least_fraction`]: then no old vertex lies on the seam, so that old
-//! vertices keep their numbers and positions, and every seam vertex is new.
+//! It is valid for **generic** cuts, which [`is_generic`] tells, made without a snap: then no old
+//! vertex lies on the seam, so that old vertices keep their numbers and positions, and every seam
+//! vertex is new.
 //!
 //! The surface before may have been cut already. What hangs together is told by numbers of
 //! vertices, never by positions, so a torn edge is boundary on both of its sides although
@@ -28,7 +28,7 @@ use std::fmt;
 
 use super::joined_sets;
 use expected::Expected;
-pub(crate) use expected::{is_generic, least_fraction};
+pub(crate) use expected::is_generic;
 pub(crate) use surface::{Cut, Surface, cross, dot, length, minus, on_the_way};
 use surface::{bits, place};
 

@@ -169,11 +169,7 @@ fn clip(cut: &Cut, p: [f64; 3], q: [f64; 3]) -> Option<(f64, f64)> {
 /// Vertices count where a face of theirs may reach into the strip.
 pub(crate) fn is_generic(before: &Surface, cut: &Cut) -> bool {
     let margin = MARGIN * before.mean_edge();
-    let mut longest = 0.0f64;
-    for (a, b) in before.edges() {
-        let [p, q] = [a, b].map(|v| before.points[v as usize]);
-        longest = longest.max(length(minus(q, p)));
-    }
+    let longest = before.longest_edge();
     let clear =
         |p: [f64; 3]| cut.plane.distance(p).abs() > margin || cut.depth(p) < -longest - margin;
     let mut corners = before.faces.iter().flatten();
@@ -201,31 +197,6 @@ fn is_inside(before: &Surface, face: &[u32; 3], p: [f64; 3], margin: f64) -> boo
         let across = cross(minus(b, a), minus(p, a));
         length(across) > margin * length(minus(b, a))
     })
-}
-
-/// The least fraction of an edge at which the seam crosses it, from its nearer end, and of
-/// what plane and face have in common, at which the seam ends on it. A snap below
-/// this changes nothing.
-pub(crate) fn least_fraction(before: &Surface, cut: &Cut) -> f64 {
-    let mut least = 0.5f64;
-    for face in &before.faces {
-        let Some(slit) = Slit::of(before, cut, face) else {
-            continue;
-        };
-        for ((a, b), _) in slit.nodes() {
-            let [d, e] = [a, b].map(|v| cut.plane.distance(before.points[v as usize]).abs());
-            least = least.min(d.min(e) / (d + e));
-        }
-        if let Some((from, to)) = slit.inside {
-            for t in [from, to].into_iter().filter(|&t| t > 0.0 && t < 1.0) {
-                least = least.min(t).min(1.0 - t);
-            }
-            if slit.tips().count() == 2 {
-                least = least.min(to - from);
-            }
-        }
-    }
-    least
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::oracle::joined_sets;
 
 /// Triangles. What hangs together shares numbers of vertices.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Surface {
     pub(crate) points: Vec<[f64; 3]>,
     pub(crate) faces: Vec<[u32; 3]>,
@@ -115,6 +115,12 @@ impl Surface {
     pub(crate) fn mean_edge(&self) -> f64 {
         let edges = self.edges();
         self.total_length(&edges) / edges.len() as f64
+    }
+
+    pub(crate) fn longest_edge(&self) -> f64 {
+        let edges = self.edges();
+        let lengths = edges.iter().map(|&edge| self.total_length(&[edge]));
+        lengths.fold(0.0, f64::max)
     }
 
     pub(super) fn area(&self) -> f64 {

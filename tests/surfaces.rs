@@ -1,0 +1,163 @@
+//! Surfaces to be cut, for the library and for the oracle of straight cuts.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use tearmesh::{Mesh, Positions, shapes};
+
+use crate::delaunay;
+use crate::oracle::naive_cut;
+use crate::oracle::straight::{Cut, Surface};
+use crate::random::Random;
+use crate::work::{Work, down, triangles};
+
+/// What the oracle is to see of a mesh.
+pub(crate) fn surface((mesh, positions): &(Mesh, Positions)) -> Surface {
+    Surface {
+        points: positions.as_slice().iter().map(|&p| p.into()).collect(),
+        faces: triangles(mesh).to_vec(),
+    }
+}
+
+/// The mesh of a surface. Edges that were torn are plain boundary in it.
+pub(crate) fn built(surface: &Surface) -> (Mesh, Positions) {
+    let mesh = Mesh::build(surface.points.len(), &surface.faces).expect("a manifold");
+    let positions = Positions::new(surface.points.clone()).expect("finite");
+    (mesh, positions)
+}
+
+impl Work {
+    pub(crate) fn of(surface: &Surface) -> Work {
+        Work::new(built(surface))
+    }
+
+    pub(crate) fn surface(&self) -> Surface {
+        surface(&(self.mesh.clone(), self.positions.clone()))
+    }
+}
+
+pub(crate) fn jittered(n: u32, random: &mut Random) -> Surface {
+    let mut sheet = surface(&shapes::grid_with_diagonals(n, n, |x, y| (x * y) % 3 == 1));
+    let by = 0.48 / f64::from(n);
+    for [x, y, z] in &mut sheet.points {
+        if [*x, *y].iter().all(|c| *c > 0.0 && *c < 1.0) {
+            *x += by * (random.next() - 0.5);
+            *y += by * (random.next() - 0.5);
+        }
+        *z = 0.1 * (*x + 2.0 * *y * *x);
+    }
+    sheet
+}
+
+/// Random points in the unit square with so many on each side, and their triangles.
+pub(crate) fn delaunay(count: usize, border: u32, random: &mut Random) -> Surface {
+    let points = delaunay::points(count, border, 0.6 / (count as f64).sqrt(), random);
+    let faces = delaunay::triangles(&points).into_iter();
+    Surface {
+        faces: faces.map(|t| t.map(|i| i as u32)).collect(),
+        points: points.into_iter().map(|[x, y]| [x, y, 0.0]).collect(),
+    }
+}
+
+/// An octahedron, subdivided and blown up.
+fn sphere(times: usize) -> Surface {
+    let mut sphere = surface(&shapes::octahedron());
+    for _ in 0..times {
+        let mut middles = BTreeMap::new();
+        let mut faces = Vec::new();
+        for [a, b, c] in sphere.faces {
+            let [d, e, f] = [(b, c), (c, a), (a, b)].map(|(v, w)| {
+                let edge = (v.min(w), v.max(w));
+                *middles.entry(edge).or_insert_with(|| {
+                    let [p, q] = [v, w].map(|v| sphere.points[v as usize]);
+                    let sum = [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
+                    let size = sum.iter().map(|x| x * x).sum::<f64>().sqrt();
+                    sphere.points.push(sum.map(|x| x / size));
+                    sphere.points.len() as u32 - 1
+                })
+            });
+            faces.extend([[a, f, e], [b, d, f], [c, e, d], [d, e, f]]);
+        }
+        sphere.faces = faces;
+    }
+    sphere
+}
+
+/// Surfaces with names. One was cut before, so that some of its edges are torn.
+pub(crate) fn surfaces() -> Vec<(&'static str, Surface)> {
+    let mut random = Random(11);
+    let mut torn = jittered(9, &mut random);
+    for (a, b) in [([0.21, 0.13], [0.69, 0.77]), ([-0.5, 0.61], [1.5, 0.43])] {
+        torn = naive_cut::cut(&torn, &Cut::between([down(a), down(b)]));
+    }
+    vec![
+        ("triangle", surface(&shapes::triangle())),
+        ("grid", surface(&shapes::grid(9, 9))),
+        ("jittered", jittered(10, &mut random)),
+        ("random", delaunay(150, 9, &mut random)),
+        ("torn", torn),
+        ("sleeve", surface(&shapes::tube(12, 6))),
+        ("sphere", sphere(2)),
+        ("torus", surface(&shapes::torus(14, 9))),
+    ]
+}
+
+/// Flat sheets on the unit square, regular and not; the second is bent a little.
+pub(crate) fn sheets() -> [Surface; 3] {
+    let mut random = Random(23);
+    [
+        surface(&shapes::grid(8, 8)),
+        jittered(9, &mut random),
+        delaunay(140, 9, &mut random),
+    ]
+}
+
+/// What a file says in the plainest way: `v x y z`, `vt u v` and `f a/b c/d e/f`, counted from 1.
+#[derive(Default)]
+pub(crate) struct File {
+    pub(crate) surface: Surface,
+    pub(crate) texture: Vec<[f64; 2]>,
+    /// For each corner the numbers of its point and its texture.
+    pub(crate) corners: Vec<[usize; 2]>,
+}
+
+impl File {
+    pub(crate) fn read(path: &Path) -> File {
+        let text = std::fs::read_to_string(path).expect("a file");
+        let mut file = File::default();
+        for line in text.lines() {
+            let (keyword, rest) = line.split_once(' ').unwrap_or_default();
+            let words = rest.split_whitespace();
+            let number = |i: usize| words.clone().nth(i)?.parse().ok();
+            let number = |i| number(i).expect("a number");
+            match keyword {
+                "v" => file.surface.points.push([0, 1, 2].map(number)),
+                "vt" => file.texture.push([0, 1].map(number)),
+                "f" => {
+                    let index = |word: Option<&str>| word?.parse::<usize>().ok();
+                    let corner = |word: &str| {
+                        let mut parts = word.split('/').map(Some);
+                        [(); 2].map(|()| index(parts.next().flatten()).unwrap_or(1) - 1)
+                    };
+                    let corners: Vec<[usize; 2]> = words.map(corner).collect();
+                    for two in corners[1..].windows(2) {
+                        let face = [corners[0], two[0], two[1]];
+                        file.surface.faces.push(face.map(|[v, _]| v as u32));
+                        file.corners.extend(face);
+                    }
+                }
+                _ => {}
+            }
+        }
+        file
+    }
+}
+
+/// The files of these names in the folder that `TEARMESH_CORPUS` names, if it names one.
+pub(crate) fn corpus(names: &[&str]) -> Vec<PathBuf> {
+    let Some(folder) = std::env::var_os("TEARMESH_CORPUS") else {
+        return Vec::new();
+    };
+    let path = |name| Path::new(&folder).join(name).with_extension("obj");
+    names.iter().map(path).collect()
+}

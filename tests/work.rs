@@ -1,0 +1,185 @@
+//! A mesh and all that follows it, cut and mended; what holds of every cut is checked after each.
+//!
+//! The fuzz target `cut_mend` uses this too.
+
+use tearmesh::{
+    Cut, CutMethod, CutReport, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray, Scissor,
+    Vector, VertexId, mend,
+};
+
+/// Two rays: an origin and a direction each.
+pub(crate) type Rays = [([f64; 3], [f64; 3]); 2];
+
+/// All ways to cut, first the one that adds faces.
+pub(crate) const METHODS: [CutMethod; 4] = [
+    CutMethod::Exact,
+    CutMethod::Partition,
+    CutMethod::Uniform,
+    CutMethod::Alternating,
+];
+
+/// The ways to cut along edges, that add no face.
+pub(crate) const ALONG_EDGES: [CutMethod; 3] = [METHODS[1], METHODS[2], METHODS[3]];
+
+pub(crate) fn ray((origin, along): ([f64; 3], [f64; 3])) -> Ray {
+    Ray::new(Point::from(origin), Vector::from(along)).expect("a ray")
+}
+
+pub(crate) fn scissor([a, b]: Rays) -> Scissor {
+    Scissor::new(ray(a), ray(b)).expect("a plane")
+}
+
+/// A ray down on a point of the plane z = 0.
+pub(crate) fn down([x, y]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+    ([x, y, 5.0], [0.0, 0.0, -1.0])
+}
+
+/// The cut from above between two points of the plane z = 0.
+pub(crate) fn between(a: [f64; 2], b: [f64; 2]) -> Scissor {
+    scissor([down(a), down(b)])
+}
+
+/// The triangles of a mesh.
+pub(crate) fn triangles(mesh: &Mesh) -> &[[u32; 3]] {
+    mesh.indices().as_chunks().0
+}
+
+/// The sum of the areas of all faces.
+pub(crate) fn area(mesh: &Mesh, positions: &Positions) -> f64 {
+    let of = |f| {
+        let [a, b, c] = mesh.face_vertices(f).map(|v| positions.at(v));
+        (b - a).cross(&(c - a)).norm() / 2.0
+    };
+    mesh.faces().map(of).sum()
+}
+
+/// A mesh and its followers.
+#[derive(Clone, Debug)]
+pub(crate) struct Work {
+    pub(crate) mesh: Mesh,
+    pub(crate) positions: Positions,
+    pub(crate) masses: Masses,
+    /// For each corner where it is: linear data, which has to stay so.
+    pub(crate) corners: PerCorner<[f64; 3]>,
+    pub(crate) edits: Edits,
+}
+
+impl Work {
+    pub(crate) fn new((mesh, positions): (Mesh, Positions)) -> Work {
+        let place = |h| positions.at(mesh.origin(h)).into();
+        Work {
+            masses: Masses::area(&mesh, &positions, 1.0).expect("it has an area"),
+            corners: PerCorner::new(mesh.half_edges().map(place).collect()),
+            edits: Edits::new(),
+            mesh,
+            positions,
+        }
+    }
+
+    /// Cuts, and checks what holds of every cut.
+    pub(crate) fn cut(&mut self, method: CutMethod, scissor: &Scissor) -> (Cut, CutReport) {
+        let (mesh, positions) = (&mut self.mesh, &mut self.positions);
+        let made = scissor.cut_measured(method, mesh, positions, &mut self.edits);
+        let (cut, report) = made.expect("positions are in step");
+        self.follow();
+        self.is_sound();
+        assert_eq!(report.pieces, self.mesh.components().count());
+        let seam = cut.seam().map(|line| 2 * line.lips.len()).sum();
+        assert_eq!(report.ghost_pairs, seam);
+        (cut, report)
+    }
+
+    /// Has all that follows the mesh replay the log.
+    pub(crate) fn follow(&mut self) {
+        let beside = (&mut self.masses, &mut self.corners);
+        self.edits.replay(&mut (&mut self.positions, beside));
+    }
+
+    /// Sews all copies of the chosen vertices; the number of merges.
+    pub(crate) fn sew(&mut self, chosen: impl Fn(VertexId) -> bool) -> usize {
+        let stitches = mend::stitches(&self.mesh, chosen);
+        let (weight, far) = (|v| self.masses.at(v), f64::INFINITY);
+        let (mesh, edits) = (&mut self.mesh, &mut self.edits);
+        let merges = mend::sew(mesh, &self.positions, &stitches, weight, far, edits);
+        self.follow();
+        self.is_sound();
+        merges.expect("copies have one root")
+    }
+
+    /// Sews everything, and checks that nothing is torn any more.
+    pub(crate) fn sew_all(&mut self) {
+        self.sew(|_| true);
+        assert_eq!(self.torn(), 0, "all is sewn");
+    }
+
+    /// The number of half-edges that are torn.
+    pub(crate) fn torn(&self) -> usize {
+        let is_torn = |&h: &_| self.mesh.ghost_pair(h).is_some();
+        self.mesh.half_edges().filter(is_torn).count()
+    }
+
+    /// What holds whatever was done, as long as copies stay together.
+    pub(crate) fn is_sound(&self) {
+        let Work {
+            mesh, positions, ..
+        } = self;
+        assert_eq!(mesh.check(), []);
+        assert!(self.masses.ledger().is_balanced(), "mass stays");
+        for (h, &corner) in mesh.half_edges().zip(self.corners.as_slice()) {
+            let at = positions.at(mesh.origin(h));
+            let apart = (at - Point::from(corner)).norm();
+            let large = at.coords.amax().max(1.0);
+            assert!(apart < 1e-12 * large, "the data of {h} is {apart} off");
+        }
+        let again = Mesh::build_torn(triangles(mesh), &mesh.roots());
+        assert_eq!(again.as_ref(), Ok(mesh), "triangles and roots are all");
+    }
+
+    /// The smallest altitude of each face.
+    pub(crate) fn altitudes(&self) -> Vec<f64> {
+        let of = |f| {
+            let [a, b, c] = self.mesh.face_vertices(f).map(|v| self.positions.at(v));
+            let sides = [b - a, c - b, a - c].map(|side| side.norm());
+            sides[0].max(sides[1]).max(sides[2]).recip() * (b - a).cross(&(c - a)).norm()
+        };
+        self.mesh.faces().map(of).collect()
+    }
+
+    /// For each face the part of an altitude that it keeps of the face from which the edits cut it.
+    pub(crate) fn kept(&self, before: &[f64]) -> Vec<f64> {
+        let mut parents: Vec<usize> = (0..before.len()).collect();
+        for edit in self.edits.iter() {
+            if let tearmesh::Edit::Insert(insert) = edit {
+                let new = insert.children.iter().filter(|c| c.face != c.parent);
+                for child in new {
+                    parents.push(parents[child.parent.index()]);
+                }
+            }
+        }
+        let after = self.altitudes().into_iter().zip(parents);
+        after
+            .map(|(after, parent)| after / before[parent])
+            .collect()
+    }
+}
+
+/// Asserts that the report has the smallest angle, the smallest altitude and the mean edge of plain
+/// loops; the last is that before the cut.
+pub(crate) fn is_measured(report: &CutReport, work: &Work, mean_edge: f64, name: &str) {
+    let (mut angle, mut altitude) = (f64::INFINITY, f64::INFINITY);
+    for f in work.mesh.faces() {
+        let corners = work.mesh.face_vertices(f).map(|v| work.positions.at(v));
+        for i in 0..3 {
+            let [a, b, c] = [0, 1, 2].map(|k| corners[(i + k) % 3]);
+            angle = angle.min((b - a).angle(&(c - a)).to_degrees());
+            let (along, across) = ((b - a).normalize(), c - a);
+            altitude = altitude.min((across - along * across.dot(&along)).norm());
+        }
+    }
+    let off = [report.angle_min_deg - angle, report.altitude_min - altitude];
+    assert!(off[0].abs() < 1e-5, "{name}: {angle}, {report:?}");
+    assert!(off[1].abs() < 1e-9, "{name}: {altitude}, {report:?}");
+    let edges = report.seam_deviation_max_edges * mean_edge;
+    let off = report.seam_deviation_max - edges;
+    assert!(off.abs() < 1e-12, "{name}: {mean_edge}, {report:?}");
+}
