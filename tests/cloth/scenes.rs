@@ -432,7 +432,8 @@ fn scenes_that_make_no_sense_are_refused_at_once() {
     let no_times = |step_s, duration_s| RunError::Times { step_s, duration_s };
     let no_moves = RunError::Moves { number: 0 };
     let same = vec![(1.0, Vector::zeros()); 2];
-    let changes: [(&dyn Fn(&mut Scene), RunError); 8] = [
+    type Change<'a> = &'a dyn Fn(&mut Scene);
+    let changes: [(Change<'_>, RunError); 8] = [
         (&|scene| scene.step_s = Some(0.0), no_times(0.0, 2.0)),
         (&|scene| scene.step_s = Some(1e-30), no_times(1e-30, 2.0)),
         (&|scene| scene.holds[1].region = nowhere(), none("hold", 1)),

@@ -89,7 +89,8 @@ fn it_is_as_strict_as_the_reader() {
     };
     let smooth = HashMap::from([1, 2].map(|number| (number, group(0, 1))));
     let silk = HashMap::from([("silk".to_owned(), group(1, 0))]);
-    let cases: [(&dyn Fn(&mut RawObj), &str); 7] = [
+    type Damage<'a> = &'a dyn Fn(&mut RawObj);
+    let cases: [(Damage<'_>, &str); 7] = [
         (
             &|raw| raw.polygons.clear(),
             "cannot read: `g` \"default\" covers 0 up to 1, of 0",
