@@ -25,7 +25,7 @@ pub(crate) fn extend<T: Copy>(list: &mut Vec<T>, values: &[T]) {
 
 #[cold]
 fn grow<T>(list: &mut Vec<T>, least: usize) {
-    list.reserve_exact((list.len() / 2 + 64).max(least));
+    list.reserve_exact((list.len() / 2 + 4).max(least));
 }
 
 /// The most numbers of a `v` statement: a position, a weight, a colour with alpha, and as many again.
