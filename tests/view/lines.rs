@@ -20,7 +20,7 @@ fn cut(mesh: &mut Mesh, positions: &mut Positions, rays: [Ray; 2], snap: f64) ->
 fn picture(mesh: &Mesh, positions: &Positions) -> Picture {
     let size = PictureSize::new(320, 240).expect("a size");
     let camera = fit(mesh, positions, Vector::y(), 35.0, size.as_f64());
-    let camera = camera.expect("a camera").expect("faces");
+    let camera = camera.expect("a camera");
     render(mesh, positions, &camera, size, &RenderOptions::default())
 }
 

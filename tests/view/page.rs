@@ -5,7 +5,7 @@ use std::io::Read as _;
 use proptest::prelude::*;
 use serde_json::Value;
 use tearmesh::{CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
-use tearmesh_view::{CutLine, Moment, Page, PageError, Plot, is_page};
+use tearmesh_view::{CameraError, CutLine, Moment, Page, Plot, is_page};
 
 use crate::digest;
 use crate::meshes::soup;
@@ -394,11 +394,11 @@ fn what_cannot_be_seen_is_refused() {
     let nothing = Mesh::build(3, &[]).expect("no face");
     let mut page = Page::new("", Vector::y());
     let refused = page.add(&nothing, &positions, Moment::default());
-    assert_eq!(refused, Err(PageError::Empty));
+    assert_eq!(refused, Err(CameraError::Empty));
     let mut page = Page::new("", Vector::zeros());
     assert!(matches!(
         page.add(&mesh, &positions, Moment::default()),
-        Err(PageError::Camera(_))
+        Err(CameraError::Up)
     ));
     assert_eq!(page.moment_count(), 0);
 }

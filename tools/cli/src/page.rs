@@ -5,10 +5,10 @@ use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use tearmesh::{Mesh, Place, Vector};
-use tearmesh_view::{CutLine, Moment, Page, PageError, is_page};
+use tearmesh_view::{CutLine, Moment, Page, is_page};
 
 use crate::exit::Stop;
-use crate::say::{Fault, quoted};
+use crate::say::quoted;
 use crate::{files, output, picture};
 
 /// Adds a mesh to a page.
@@ -18,10 +18,8 @@ pub(crate) fn add(
     place: &(impl Place + ?Sized),
     moment: Moment,
 ) -> Result<(), Stop> {
-    page.add(mesh, place, moment).map_err(|error| match error {
-        PageError::Camera(error) => picture::no_camera(error).into(),
-        error @ PageError::Empty => Fault::error("E-VIEW-EMPTY", error.to_string()).into(),
-    })
+    let added = page.add(mesh, place, moment);
+    Ok(added.map_err(picture::no_camera)?)
 }
 
 /// Writes a page of one mesh beside it. `name` is the file that it was written to.
@@ -35,9 +33,8 @@ pub(crate) fn write_beside(
     let mut page = Page::new(title(name), up);
     let moment = Moment {
         label: title(name),
-        time_s: None,
         cut: name.map(|name| cut_line(name, "")),
-        torn_at_rest_m: None,
+        ..Moment::default()
     };
     add(&mut page, mesh, place, moment)?;
     Ok(output::write(path, |out| page.write(out))?)
@@ -45,16 +42,9 @@ pub(crate) fn write_beside(
 
 /// What a page is called that shows a file.
 pub(crate) fn title(name: Option<&str>) -> String {
-    match name {
-        Some(name) if name != "-" => {
-            let last = Path::new(name).file_name();
-            last.map_or_else(
-                || name.to_owned(),
-                |last| last.to_string_lossy().into_owned(),
-            )
-        }
-        _ => "mesh".to_owned(),
-    }
+    let name = name.filter(|name| *name != "-").unwrap_or("mesh");
+    let last = Path::new(name).file_name().unwrap_or(name.as_ref());
+    last.to_string_lossy().into_owned()
 }
 
 /// How a file is cut, with these options.
@@ -82,10 +72,8 @@ pub(crate) fn place(
     if named.is_none() && path.is_file() && !is_page_there(&path) {
         let name = path.display();
         let message = format!("`{name}` is there already, and is no page of tearmesh");
-        return Err(Stop::usage(
-            message,
-            format!("to replace it, add -o {name}"),
-        ));
+        let help = format!("to replace it, add -o {name}");
+        return Err(Stop::usage(message, help));
     }
     files::check_page(&path)?;
     files::check_shown(&path, inputs, "an input")?;

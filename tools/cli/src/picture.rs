@@ -3,27 +3,17 @@
 use std::path::Path;
 
 use tearmesh::{Mesh, Place, Vector};
-use tearmesh_obj::Document;
-use tearmesh_view::{ANGLE_OF_VIEW, Camera, CameraError, PictureSize, RenderOptions, fit, render};
+use tearmesh_obj::{Corner, Document};
+use tearmesh_view::{ANGLE_OF_VIEW, CameraError, PictureSize, RenderOptions, fit, render};
 
 use crate::output;
 use crate::say::Fault;
 
-/// The camera that sees all of a mesh.
-pub(crate) fn camera(
-    mesh: &Mesh,
-    place: &(impl Place + ?Sized),
-    up: Vector,
-    angle: f64,
-    size: PictureSize,
-) -> Result<Camera, Fault> {
-    let fitted = fit(mesh, place, up, angle, size.as_f64()).map_err(no_camera)?;
-    fitted.ok_or_else(|| Fault::error("E-VIEW-EMPTY", "the mesh has no visible face"))
-}
-
 /// Why there is no such camera.
 pub(crate) fn no_camera(error: CameraError) -> Fault {
-    Fault::error("E-CAMERA", error.to_string()).help(match error {
+    let fault = Fault::error("E-CAMERA", error.to_string());
+    fault.help(match error {
+        CameraError::Empty => return Fault::error("E-VIEW-EMPTY", error.to_string()),
         CameraError::At => "aim it at another point",
         CameraError::Up => "name another direction with --up, as in --up 0,0,1",
         CameraError::Angle => {
@@ -41,7 +31,7 @@ pub(crate) fn write_beside(
     crease_deg: Option<f64>,
 ) -> Result<(), Fault> {
     let size = PictureSize::default();
-    let camera = camera(mesh, place, up, ANGLE_OF_VIEW, size)?;
+    let camera = fit(mesh, place, up, ANGLE_OF_VIEW, size.as_f64()).map_err(no_camera)?;
     let options = RenderOptions {
         crease_deg,
         ground: Some(up),
@@ -53,22 +43,24 @@ pub(crate) fn write_beside(
 
 /// The texture coordinates of each corner of a document's triangles; empty if a corner has none.
 pub(crate) fn texture(document: &Document) -> Vec<[f64; 2]> {
-    let triangles = 0..document.triangles().len();
-    let corners = triangles.flat_map(|triangle| [0, 1, 2].map(|i| document.corner(triangle, i)));
-    let texture = corners.map(|corner| match document.texture(corner.texture? as usize) {
-        &[u, v, ..] => Some([u, v]),
-        _ => None,
-    });
+    let texture =
+        corners(document).map(|corner| match document.texture(corner.texture? as usize) {
+            &[u, v, ..] => Some([u, v]),
+            _ => None,
+        });
     texture.collect::<Option<Vec<_>>>().unwrap_or_default()
+}
+
+/// All corners of a document's triangles.
+fn corners(document: &Document) -> impl Iterator<Item = Corner> {
+    let triangles = 0..document.triangles().len();
+    triangles.flat_map(|triangle| [0, 1, 2].map(|i| document.corner(triangle, i)))
 }
 
 /// The angle from which on a mesh has creases: those of a file whose normals differ at a vertex.
 pub(crate) fn crease(document: &Document) -> Option<f64> {
     let mut of_vertex = vec![None; document.positions().len()];
-    let triangles = 0..document.triangles().len();
-    let mut corners =
-        triangles.flat_map(|triangle| [0, 1, 2].map(|i| document.corner(triangle, i)));
-    let differs = corners.any(|corner| {
+    let differs = corners(document).any(|corner| {
         let Some(normal) = corner.normal else {
             return false;
         };

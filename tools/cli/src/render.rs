@@ -5,13 +5,13 @@ mod strip;
 use std::path::Path;
 
 use tearmesh::{Ray, Scissor};
-use tearmesh_view::{Camera, RenderOptions};
+use tearmesh_view::{Camera, RenderOptions, fit};
 
 use crate::args::RenderArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::exit::Stop;
 use crate::say::{Fault, count};
-use crate::session::{self, Opened};
+use crate::session;
 use crate::streams::Streams;
 use crate::{files, output, picture, rays};
 
@@ -26,18 +26,13 @@ pub(crate) fn run(
     let inputs = std::slice::from_ref(&args.input);
     files::check_shown(&args.output, inputs, "the input")?;
     let size = args.size.as_f64();
-    let given = args
-        .camera
-        .map(|look| Camera::new(look, args.up.coords, args.fov, size));
-    let given = given.transpose().map_err(picture::no_camera)?;
+    let camera = |look| Camera::new(look, args.up.coords, args.fov, size);
+    let given = args.camera.map(camera).transpose();
+    let given = given.map_err(picture::no_camera)?;
     let mut options = options(args, faults)?;
 
     let (_, opened) = session::look(&args.input, &args.look, faults, streams)?;
-    let Opened {
-        document,
-        mesh,
-        positions,
-    } = &opened;
+    let (document, mesh, positions) = (&opened.document, &opened.mesh, &opened.positions);
     options.texture = picture::texture(document);
     options.crease_deg = match args.flat {
         true => Some(0.0),
@@ -46,9 +41,8 @@ pub(crate) fn run(
     let drawn = match args.strip {
         Some(count) => strip::draw(count, &opened, given, &options, args, streams)?,
         None => {
-            let up = args.up.coords;
-            let fitted = || picture::camera(mesh, positions, up, args.fov, args.size);
-            let camera = given.map_or_else(fitted, Ok)?;
+            let fitted = || fit(mesh, positions, args.up.coords, args.fov, size);
+            let camera = given.map_or_else(fitted, Ok).map_err(picture::no_camera)?;
             tearmesh_view::render(mesh, positions, &camera, args.size, &options)
         }
     };

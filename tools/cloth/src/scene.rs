@@ -14,6 +14,7 @@ mod tear_log;
 mod warning;
 
 pub use frame::{Axis, Frame};
+pub use presets::Preset;
 pub use run::{CutMade, EnergyGain, Run, RunError, RunTally};
 pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
 pub use warning::Warning;

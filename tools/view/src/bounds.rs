@@ -23,14 +23,13 @@ impl Bounds {
     /// Returns the box around points, or `None` if there are no points.
     pub(crate) fn around(points: impl IntoIterator<Item = Point>) -> Option<Bounds> {
         let boxes = points.into_iter().map(|p| Bounds { least: p, most: p });
-        boxes.reduce(|a, b| Bounds {
+        let of = |a: Point, b: Point, end: fn(f64, f64) -> f64| {
             // Adding zero turns −0 into 0.
-            least: Point::from(
-                a.least
-                    .coords
-                    .zip_map(&b.least.coords, |x, y| x.min(y) + 0.0),
-            ),
-            most: Point::from(a.most.coords.zip_map(&b.most.coords, |x, y| x.max(y) + 0.0)),
+            Point::from(a.coords.zip_map(&b.coords, |x, y| end(x, y) + 0.0))
+        };
+        boxes.reduce(|a, b| Bounds {
+            least: of(a.least, b.least, f64::min),
+            most: of(a.most, b.most, f64::max),
         })
     }
 

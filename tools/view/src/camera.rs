@@ -21,7 +21,7 @@ pub struct Camera {
     size: [f64; 2],
 }
 
-/// The reason why a camera cannot be created.
+/// The reason why a camera cannot be created, or placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CameraError {
     /// The point to look at equals the eye, or is not finite.
@@ -30,6 +30,8 @@ pub enum CameraError {
     Up,
     /// The angle of view is not between 0 and 180 degrees, both excluded.
     Angle,
+    /// The mesh to look at has no visible face.
+    Empty,
 }
 
 impl fmt::Display for CameraError {
@@ -38,6 +40,7 @@ impl fmt::Display for CameraError {
             CameraError::At => "the camera looks at its own eye",
             CameraError::Up => "the camera looks along what is to be upright in its picture",
             CameraError::Angle => "the angle of view is not between 0 and 180 degrees",
+            CameraError::Empty => "the mesh has no visible face",
         })
     }
 }
@@ -139,20 +142,15 @@ impl Camera {
 
     /// The eye, and the direction in which a line of sight goes that [`Camera::seen`] gives as this.
     pub(crate) fn sight(&self, seen: Vector) -> (Point, Vector) {
-        (
-            self.eye,
-            self.right * seen.x + self.up * seen.y + self.middle * seen.z,
-        )
+        let direction = self.right * seen.x + self.up * seen.y + self.middle * seen.z;
+        (self.eye, direction)
     }
 
     /// The direction from the surface to the eye and those of the picture, each of length one: backward,
     /// right and up.
     pub(crate) fn axes(&self) -> [Vector; 3] {
-        [
-            -self.middle,
-            self.right / length(self.right),
-            self.up / length(self.up),
-        ]
+        let [right, up] = [self.right, self.up].map(|axis| axis / length(axis));
+        [-self.middle, right, up]
     }
 }
 
@@ -162,6 +160,14 @@ pub(crate) fn unit(v: Vector) -> Option<Vector> {
     let scaled = v / largest;
     let length = length(scaled);
     (largest > 0.0 && length.is_finite()).then(|| scaled / length)
+}
+
+/// One of the first two axes, whichever is not nearly along a unit vector.
+pub(crate) fn aside(v: Vector) -> Vector {
+    match v.x.abs() < 0.9 {
+        true => Vector::x(),
+        false => Vector::y(),
+    }
 }
 
 /// The tangent of an angle in degrees, from 0 to 90: that of its half by Lambert's continued fraction,

@@ -13,9 +13,8 @@ use crate::strokes::Kind;
 /// there is none.
 pub(crate) fn crease_cosine(degrees: Option<f64>) -> f64 {
     // Below all cosines, also those that rounding leaves below −1.
-    degrees.map_or(-2.0, |degrees| {
-        sine_and_cosine(degrees.clamp(0.0, 180.0).to_radians()).1
-    })
+    let cosine = |degrees: f64| sine_and_cosine(degrees.clamp(0.0, 180.0).to_radians()).1;
+    degrees.map_or(-2.0, cosine)
 }
 
 /// How many threads hang out of each torn edge.
@@ -75,22 +74,22 @@ impl Figure {
                 }
             }
         }
-        figure.lines = lines(mesh, place, edges)
-            .map(|(kind, h)| {
-                let [from, to] =
-                    [h, h.next()].map(|h| figure.faces[h.face().index()][h.index() % 3]);
-                (kind, [from, to])
-            })
-            .collect();
+        let lines = lines(mesh, place, edges);
+        let lines = lines.map(|(kind, h)| (kind, [h, h.next()].map(|h| figure.corner(h))));
+        figure.lines = lines.collect();
         figure
+    }
+
+    /// The point at the corner of a face where a half-edge begins.
+    fn corner(&self, h: HalfEdgeId) -> u32 {
+        self.faces[h.face().index()][h.index() % 3]
     }
 
     /// Adds short threads along the sides of tears that gape: their places and lengths follow from the index
     /// of the half-edge, so a picture is the same each time, and a film does not flicker.
     pub(crate) fn fringe(&mut self, mesh: &Mesh, place: &(impl Place + ?Sized)) {
         for (_, h) in lines(mesh, place, false).filter(|(kind, _)| *kind == Kind::Seam) {
-            let corner = |h: HalfEdgeId| self.faces[h.face().index()][h.index() % 3] as usize;
-            let [from, to] = [corner(h), corner(h.next())];
+            let [from, to] = [h, h.next()].map(|h| self.corner(h) as usize);
             let along = self.points[to] - self.points[from];
             let normal = self.normals[from] + self.normals[to];
             let Some(outward) = unit(cross(along, normal)) else {
@@ -101,10 +100,9 @@ impl Figure {
                 let root = self.points[from] + along * at;
                 let reach = outward * (length(along) * (0.1 + 0.3 * long));
                 let first = self.points.len() as u32;
-                self.points
-                    .extend([root, root + reach + along * (0.2 * (aside - 0.5))]);
-                self.normals
-                    .extend([normal, normal].map(|n| unit(n).unwrap_or_default()));
+                let end = root + reach + along * (0.2 * (aside - 0.5));
+                self.points.extend([root, end]);
+                self.normals.extend([unit(normal).unwrap_or_default(); 2]);
                 if let Some(&texture) = self.texture.get(from) {
                     self.texture.extend([texture; 2]);
                 }
@@ -156,11 +154,10 @@ impl Figure {
             let at = |i: u32, j: u32| grid[(row(i) + j) as usize];
             for i in 0..n {
                 for j in 0..n - i {
-                    finer.faces.push([at(i, j), at(i + 1, j), at(i, j + 1)]);
+                    let (below, beside) = (at(i + 1, j), at(i, j + 1));
+                    finer.faces.push([at(i, j), below, beside]);
                     if j + 1 < n - i {
-                        finer
-                            .faces
-                            .push([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+                        finer.faces.push([below, at(i + 1, j + 1), beside]);
                     }
                 }
             }
@@ -189,20 +186,17 @@ impl Figure {
         if second.1 == 0 {
             return first.0;
         }
-        let edge = [first, second];
-        if third.1 == 0
-            && let Some(&known) = on_edges.get(&edge)
-        {
-            return known;
-        }
         let number = self.points.len() as u32;
         if third.1 == 0 {
-            on_edges.insert(edge, number);
+            let known = *on_edges.entry([first, second]).or_insert(number);
+            if known != number {
+                return known;
+            }
         }
         // In one order whichever face asks, so that both have the same point.
         let sum: u32 = weights.iter().sum();
-        let parts =
-            ends.map(|(corner, weight)| (corner as usize, f64::from(weight) / f64::from(sum)));
+        let part = |weight| f64::from(weight) / f64::from(sum);
+        let parts = ends.map(|(corner, weight)| (corner as usize, part(weight)));
         let origin = coarse.points[parts[0].0];
         let (mut flat, mut normal, mut texture) = (Vector::zeros(), Vector::zeros(), [0.0; 2]);
         for (corner, part) in parts {
@@ -313,9 +307,10 @@ fn piece_colors(mesh: &Mesh) -> Vec<Color> {
     let mut by_size: Vec<usize> = (0..sizes.len()).collect();
     by_size.sort_by_key(|&piece| std::cmp::Reverse(sizes[piece]));
     let mut rank = vec![0; sizes.len()];
-    for (number, &piece) in by_size.iter().enumerate() {
-        rank[piece] = number;
-    }
+    by_size
+        .iter()
+        .zip(0..)
+        .for_each(|(&piece, number)| rank[piece] = number);
     let color = |f| palette::piece(rank[components.of(f)]);
     mesh.faces().map(color).collect()
 }

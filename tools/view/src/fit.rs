@@ -3,7 +3,7 @@
 use tearmesh::geometry::{check_point, cross, dot, length, max_abs};
 use tearmesh::{Mesh, Place, Point, Vector};
 
-use crate::camera::{Camera, CameraError, tangent, unit};
+use crate::camera::{Camera, CameraError, aside, tangent, unit};
 
 /// The part of the picture, across and upward, that the mesh may fill.
 const FILLED: f64 = 0.92;
@@ -24,7 +24,7 @@ struct Sides {
 /// Places a camera so that the pieces of a mesh fit into its picture. Small pieces may be left out, so that
 /// the crumbs of a tear that fly away do not decide what is seen: the largest pieces that hold nine tenths
 /// of the area fit. The camera looks at the broad side of the mesh and a little from above. It looks from higher up at a mesh that lies flat, and from a corner at
-/// a deep mesh. The result is `None` if the mesh has no face.
+/// a deep mesh.
 ///
 /// `up` is upright in the picture, `degrees` is the angle of view from the lower edge to the upper edge, and
 /// `size` is the width and height of the picture, in pixels.
@@ -33,8 +33,7 @@ struct Sides {
 /// use tearmesh::{shapes, Vector};
 ///
 /// let (mesh, positions) = shapes::grid(8, 8);
-/// let camera = tearmesh_view::fit(&mesh, &positions, Vector::y(), 35.0, [800.0, 600.0]);
-/// let camera = camera?.expect("the grid has faces");
+/// let camera = tearmesh_view::fit(&mesh, &positions, Vector::y(), 35.0, [800.0, 600.0])?;
 /// let [x, y] = camera.pixel(camera.seen(positions.as_slice()[0]));
 /// assert!((0.0..800.0).contains(&x) && (0.0..600.0).contains(&y));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -42,7 +41,8 @@ struct Sides {
 ///
 /// # Errors
 ///
-/// [`CameraError`] if `up` is zero or not finite, or if `degrees` is not between 0 and 180.
+/// [`CameraError`] if `up` is zero or not finite, if `degrees` is not between 0 and 180, or if the mesh has no
+/// visible face.
 ///
 /// # Panics
 ///
@@ -53,7 +53,7 @@ pub fn fit(
     up: Vector,
     degrees: f64,
     size: [f64; 2],
-) -> Result<Option<Camera>, CameraError> {
+) -> Result<Camera, CameraError> {
     fit_all([(mesh, place)], up, degrees, size)
 }
 
@@ -71,20 +71,15 @@ pub fn fit_all<'m, P: Place + ?Sized + 'm>(
     up: Vector,
     degrees: f64,
     size: [f64; 2],
-) -> Result<Option<Camera>, CameraError> {
+) -> Result<Camera, CameraError> {
     let up = unit(up).ok_or(CameraError::Up)?;
-    let across = match up.x.abs() < 0.9 {
-        true => Vector::x() - up * up.x,
-        false => Vector::y() - up * up.y,
-    };
+    let across = aside(up) - up * dot(up, aside(up));
     let across = unit(across).ok_or(CameraError::Up)?;
     let axes = [across, up, cross(across, up)];
     let moments = moments.into_iter();
     let shown = moments.flat_map(|(mesh, place)| large_pieces(mesh, place));
     let shown: Vec<Point> = shown.collect();
-    let Some(sides) = Sides::of(&shown, axes) else {
-        return Ok(None);
-    };
+    let sides = Sides::of(&shown, axes).ok_or(CameraError::Empty)?;
     let backward = unit(backward(axes, sides.halves)).expect("a sum of axes with positive weights");
     let right = unit(cross(up, backward)).expect("it is never looked straight down");
     let upward = cross(backward, right);
@@ -113,7 +108,7 @@ pub fn fit_all<'m, P: Place + ?Sized + 'm>(
     let far = ((r + l) / 2.0 / wide).max((t + b) / 2.0 / tall);
     let far = far.max(least * 0.1 - nearest);
     let at = sides.middle + right * ((r - l) / 2.0) + upward * ((t - b) / 2.0);
-    Camera::new([at + backward * far, at], up, degrees, size).map(Some)
+    Camera::new([at + backward * far, at], up, degrees, size)
 }
 
 /// The part of the area that has to be in the picture.

@@ -9,8 +9,6 @@ mod codec;
 mod motion;
 mod pieces;
 
-use std::error::Error;
-use std::fmt;
 use std::io::{self, Write};
 
 use base64::Engine as _;
@@ -49,7 +47,7 @@ use crate::shade;
 /// assert!(html.starts_with(b"<!doctype html>"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Page {
     title: String,
     up: Vector,
@@ -100,26 +98,6 @@ pub struct Plot {
     pub lines: Vec<(String, Vec<[f64; 2]>)>,
 }
 
-/// The reason why a mesh cannot be shown on a page.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PageError {
-    /// The mesh has no face.
-    Empty,
-    /// No camera can be placed, because the upward direction of the page is not valid.
-    Camera(CameraError),
-}
-
-impl fmt::Display for PageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PageError::Empty => f.write_str("the mesh has no face to be seen"),
-            PageError::Camera(error) => error.fmt(f),
-        }
-    }
-}
-
-impl Error for PageError {}
-
 /// The number of moments per second for moments without a [`Moment::time_s`], on a page with at least
 /// twelve moments.
 pub const MOMENTS_PER_S: f64 = 30.0;
@@ -162,11 +140,7 @@ impl Page {
             title: title.into(),
             up,
             look: up,
-            facts: Vec::new(),
-            plots: Vec::new(),
-            pieces: Pieces::default(),
-            states: Vec::new(),
-            shots: Vec::new(),
+            ..Page::default()
         }
     }
 
@@ -195,7 +169,7 @@ impl Page {
     ///
     /// # Errors
     ///
-    /// [`PageError`] if the mesh has no face, or if the upward direction of the page is not valid.
+    /// [`CameraError`] if the mesh has no face, or if the upward direction of the page is not valid.
     ///
     /// # Panics
     ///
@@ -205,13 +179,12 @@ impl Page {
         mesh: &Mesh,
         place: &(impl Place + ?Sized),
         moment: Moment,
-    ) -> Result<(), PageError> {
+    ) -> Result<(), CameraError> {
         if mesh.face_count() == 0 {
-            return Err(PageError::Empty);
+            return Err(CameraError::Empty);
         }
         if self.shots.is_empty() {
-            let camera = fit(mesh, place, self.up, ANGLE_OF_VIEW, [4.0, 3.0]);
-            let camera = camera.map_err(PageError::Camera)?.ok_or(PageError::Empty)?;
+            let camera = fit(mesh, place, self.up, ANGLE_OF_VIEW, [4.0, 3.0])?;
             [self.look, ..] = camera.axes();
         }
         let kind = |h: HalfEdgeId| match (mesh.pair(h), mesh.ghost_pair(h)) {
@@ -252,20 +225,13 @@ impl Page {
     /// If the page has no moment.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let (text, bytes) = self.content();
-        let packed = packed(&text, &bytes)?;
-        fill(
-            FRAME,
-            &[
-                ("{title}", &escaped(&self.title)),
-                ("{style}", STYLE),
-                ("{data}", &packed),
-                (
-                    "{script}",
-                    &[SHARED_SCRIPTS.concat(), SCRIPTS.concat()].concat(),
-                ),
-            ],
-            out,
-        )
+        let parts = [
+            ("{title}", &*escaped(&self.title)),
+            ("{style}", STYLE),
+            ("{data}", &packed(&text, &bytes)?),
+            ("{script}", &script(&SCRIPTS)),
+        ];
+        fill(FRAME, &parts, out)
     }
 
     /// All that is shown: the text, and the bytes behind it.
@@ -278,12 +244,11 @@ impl Page {
         let lattice = motion::Lattice::round(&bounds);
         let mut faces = Vec::new();
         let nothing = State::default();
-        let mut before = &nothing;
-        for state in &self.states {
+        let before = std::iter::once(&nothing).chain(&self.states);
+        for (before, state) in before.zip(&self.states) {
             codec::write_change(&before.corners, &state.corners, &mut faces);
             codec::write_change(&before.kinds, &state.kinds, &mut faces);
             codec::write_change(&before.pieces, &state.pieces, &mut faces);
-            before = state;
         }
         let moments = self.shots.iter().map(|shot| {
             let state = &self.states[shot.state];
@@ -314,20 +279,15 @@ impl Page {
 
     fn moments(&self) -> Vec<Value> {
         let told = |shot: &Shot| {
-            let Moment {
-                label,
-                time_s,
-                cut,
-                torn_at_rest_m,
-            } = &shot.moment;
+            let (moment, cut) = (&shot.moment, shot.moment.cut.as_ref());
             json!({
-                "label": label,
-                "time": time_s,
-                "cut": cut.as_ref().map(|cut| [&cut.file, &cut.options, &cut.output]),
+                "label": moment.label,
+                "time": moment.time_s,
+                "cut": cut.map(|cut| [&cut.file, &cut.options, &cut.output]),
                 "state": shot.state,
                 "vertices": shot.points.len(),
                 "torn": shot.torn,
-                "torn_at_rest": torn_at_rest_m.is_some(),
+                "torn_at_rest": moment.torn_at_rest_m.is_some(),
                 "loops": shot.loops,
             })
         };
@@ -384,25 +344,21 @@ pub(crate) fn fill(frame: &str, parts: &[(&str, &str)], mut out: impl Write) -> 
 
 /// A text as HTML.
 pub(crate) fn escaped(text: &str) -> String {
-    let mut html = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => html.push_str("&amp;"),
-            '<' => html.push_str("&lt;"),
-            '>' => html.push_str("&gt;"),
-            '"' => html.push_str("&quot;"),
-            '\'' => html.push_str("&#39;"),
-            c => html.push(c),
-        }
-    }
-    html
+    let html = text.replace('&', "&amp;").replace('<', "&lt;");
+    let html = html.replace('>', "&gt;").replace('"', "&quot;");
+    html.replace('\'', "&#39;")
+}
+
+/// The script of a page: what all have, and its own.
+pub(crate) fn script(own: &[&str]) -> String {
+    SHARED_SCRIPTS.concat() + &own.concat()
 }
 
 /// The page round its parts.
 pub(crate) const FRAME: &str = include_str!("page/page.html");
 pub(crate) const STYLE: &str = include_str!("page/page.css");
 /// What every page begins its script with, file by file: each uses those before it.
-pub(crate) const SHARED_SCRIPTS: [&str; 6] = [
+const SHARED_SCRIPTS: [&str; 6] = [
     include_str!("page/vectors.js"),
     include_str!("page/packed.js"),
     include_str!("page/camera.js"),

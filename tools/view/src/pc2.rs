@@ -40,9 +40,8 @@ where
     out.write_all(b"POINTCACHE2\0")?;
     out.write_all(&1i32.to_le_bytes())?;
     out.write_all(&counted(points)?.to_le_bytes())?;
-    for number in [FIRST_FRAME, FRAMES_PER_SAMPLE] {
-        out.write_all(&number.to_le_bytes())?;
-    }
+    // The first frame, and the frames of a sample.
+    out.write_all(&[1.0f32, 1.0].map(f32::to_le_bytes).concat())?;
     out.write_all(&counted(samples.len())?.to_le_bytes())?;
     for sample in samples {
         let mut written = 0;
@@ -58,9 +57,6 @@ where
     }
     Ok(())
 }
-
-const FIRST_FRAME: f32 = 1.0;
-const FRAMES_PER_SAMPLE: f32 = 1.0;
 
 fn counted(count: usize) -> io::Result<i32> {
     i32::try_from(count).map_err(|_| invalid(format!("{count} are too many for a point cache")))

@@ -36,9 +36,8 @@ impl PictureSize {
     #[must_use]
     pub fn new(width: u32, height: u32) -> Option<PictureSize> {
         let pixels = u64::from(width) * u64::from(height);
-        (1..=PIXELS_MAX)
-            .contains(&pixels)
-            .then_some(PictureSize { width, height })
+        let is_possible = (1..=PIXELS_MAX).contains(&pixels);
+        is_possible.then_some(PictureSize { width, height })
     }
 
     /// Returns the width, in pixels.
@@ -73,11 +72,8 @@ impl Default for PictureSize {
 impl Picture {
     /// A picture of these pixels, whose count the caller answers for.
     pub(crate) fn new(size: PictureSize, pixels: Vec<Color>) -> Picture {
-        assert_eq!(
-            pixels.len() as u64,
-            u64::from(size.width) * u64::from(size.height),
-            "there is a colour for each pixel"
-        );
+        let count = u64::from(size.width) * u64::from(size.height);
+        assert_eq!(pixels.len() as u64, count, "a colour for each pixel");
         Picture {
             width: size.width,
             height: size.height,
@@ -93,10 +89,8 @@ impl Picture {
     #[must_use]
     pub fn beside(pictures: &[Picture]) -> Picture {
         let height = pictures[0].height;
-        assert!(
-            pictures.iter().all(|one| one.height == height),
-            "of one height"
-        );
+        let is_as_high = |one: &Picture| one.height == height;
+        assert!(pictures.iter().all(is_as_high), "of one height");
         let rows = (0..height as usize).flat_map(|row| {
             pictures.iter().flat_map(move |one| {
                 let length = 3 * one.width as usize;

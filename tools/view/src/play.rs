@@ -9,7 +9,7 @@ use base64::Engine as _;
 use serde_json::json;
 
 use crate::fit::ANGLE_OF_VIEW;
-use crate::page::{FRAME, SHARED_SCRIPTS, STYLE, colors, escaped, fill, packed};
+use crate::page::{FRAME, STYLE, colors, escaped, fill, packed, script};
 use crate::shade;
 
 /// An HTML page on which a cloth is grabbed, ripped, cut and mended by hand. It needs no network.
@@ -72,10 +72,7 @@ impl PlayPage {
             ("{style}", &[STYLE, PLAY_STYLE].concat()),
             ("{data}", &packed(&text.to_string(), bytes)?),
             ("{module}", &module),
-            (
-                "{script}",
-                &[SHARED_SCRIPTS.concat(), SCRIPTS.concat()].concat(),
-            ),
+            ("{script}", &script(&SCRIPTS)),
         ];
         fill(PLAY_FRAME, &parts, out)
     }

@@ -58,7 +58,7 @@ const BAND: usize = 1 << 21;
 ///
 /// let (mesh, positions) = shapes::torus(24, 12);
 /// let size = PictureSize::new(64, 48).expect("a size");
-/// let camera = fit(&mesh, &positions, Vector::y(), 35.0, size.as_f64())?.expect("it has faces");
+/// let camera = fit(&mesh, &positions, Vector::y(), 35.0, size.as_f64())?;
 /// let picture = render(&mesh, &positions, &camera, size, &RenderOptions::default());
 /// assert_eq!((picture.width(), picture.height()), (64, 48));
 /// assert_ne!(picture.at(10, 24), picture.at(0, 0)); // the torus, and nothing
@@ -108,9 +108,8 @@ fn in_bands(
     // Lines at the edge of a band look at the surface beside it.
     let margin = (SIDE * 4) as usize;
     let rows = view.lattice.rows;
-    let step = (band / view.lattice.columns)
-        .max(1)
-        .next_multiple_of(SIDE as usize);
+    let step = (band / view.lattice.columns).max(1);
+    let step = step.next_multiple_of(SIDE as usize);
     let mut pixels = Vec::with_capacity(size.width() as usize * size.height() as usize);
     for from in (0..rows).step_by(step) {
         let to = (from + step).min(rows);
@@ -203,8 +202,8 @@ impl Scene<'_> {
         let lattice = self.view.lattice;
         let mut strokes = Strokes::new(surface, lattice);
         for &stroke in &self.strokes {
-            let width = look(stroke.kind).width * f64::from(SIDE);
-            strokes.add(stroke, width, surface, lattice);
+            let (_, width, _) = look(stroke.kind);
+            strokes.add(stroke, width * f64::from(SIDE), surface, lattice);
         }
         let side = SIDE as usize;
         for top in rows.step_by(side) {
@@ -282,10 +281,9 @@ impl Weave {
     /// None if there is no texture, or no part of it.
     fn new(texture: &[[f64; 2]]) -> Option<Weave> {
         let [u, v] = [0, 1].map(|axis| {
-            let along = texture.iter().map(|at| at[axis]);
-            along.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| {
-                [least.min(x), most.max(x)]
-            })
+            let along = || texture.iter().map(|at| at[axis]);
+            let least = along().fold(f64::INFINITY, f64::min);
+            [least, along().fold(f64::NEG_INFINITY, f64::max)]
         });
         let thread = (u[1] - u[0]).max(v[1] - v[0]) / THREADS;
         (thread > 0.0 && thread.is_finite()).then_some(Weave {
@@ -303,17 +301,9 @@ impl Weave {
     }
 }
 
-/// How a line is drawn.
-struct Look {
-    color: Color,
-    /// In pixels.
-    width: f64,
-    /// How much of what is below it hides.
-    cover: f64,
-}
-
-fn look(kind: Kind) -> Look {
-    let (color, width, cover) = match kind {
+/// How a line is drawn: its colour, its width in pixels, and how much of what is below it hides.
+fn look(kind: Kind) -> (Color, f64, f64) {
+    match kind {
         Kind::Edge => (palette::LIGHT.edge, 0.7, 0.45),
         Kind::Box => (palette::LIGHT.bounding_box, 1.0, 1.0),
         Kind::Boundary => (palette::LIGHT.boundary, 1.0, 0.7),
@@ -321,16 +311,11 @@ fn look(kind: Kind) -> Look {
         Kind::Slit => (palette::LIGHT.seam, 1.5, 1.0),
         Kind::Seam => (palette::LIGHT.seam, 2.4, 1.0),
         Kind::Trace => (palette::LIGHT.trace, 2.4, 1.0),
-    };
-    Look {
-        color,
-        width,
-        cover,
     }
 }
 
 fn drawn_over(below: [f64; 3], line: Option<Kind>) -> [f64; 3] {
-    let Some(Look { color, cover, .. }) = line.map(look) else {
+    let Some((color, _, cover)) = line.map(look) else {
         return below;
     };
     [0, 1, 2].map(|i| below[i] + cover * (f64::from(color[i]) - below[i]))
@@ -387,7 +372,7 @@ mod tests {
         assert!(cut.is_ok());
         let size = PictureSize::new(60, 50).expect("a size");
         let camera = fit(&mesh, &positions, Vector::y(), 35.0, size.as_f64());
-        let camera = camera.expect("a camera").expect("faces");
+        let camera = camera.expect("a camera");
         let options = RenderOptions {
             edges: true,
             bounding_box: true,

@@ -53,12 +53,9 @@ impl Light {
         let [r, g, b] = color;
         let grey = (r + g + b) / 3.0;
         // The back is duller and darker than the front, so that they are told apart.
-        let side = |x: f64| {
-            if is_front {
-                x
-            } else {
-                (kept * x + (1.0 - kept) * grey) * bright
-            }
+        let side = |x: f64| match is_front {
+            true => x,
+            false => (kept * x + (1.0 - kept) * grey) * bright,
         };
         color.map(|x| (side(x) * light).min(255.0))
     }

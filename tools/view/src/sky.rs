@@ -6,7 +6,7 @@
 use tearmesh::geometry::{cross, dot, length};
 use tearmesh::{Point, Vector};
 
-use crate::camera::unit;
+use crate::camera::{aside, unit};
 use crate::figure::Figure;
 
 /// The side of a map of depths, in texels.
@@ -51,46 +51,32 @@ pub(crate) struct Ground {
 impl Sky {
     /// What a figure leaves of the sky, with a ground if there is an upward direction.
     pub(crate) fn new(figure: &Figure, up: Option<Vector>) -> Sky {
-        let all = vec![[1.0; 2]; figure.points.len()];
         let Some((middle, radius)) = sphere(figure) else {
-            return Sky {
-                seen: all,
-                ground: None,
-            };
+            let seen = vec![[1.0; 2]; figure.points.len()];
+            return Sky { seen, ground: None };
         };
-        let mut ground = up
-            .and_then(unit)
-            .map(|up| Ground::below(figure, middle, radius, up));
-        let points: Vec<Vector> = figure
-            .points
-            .iter()
-            .map(|p| (p - middle) / radius)
-            .collect();
+        let up = up.and_then(unit);
+        let mut ground = up.map(|up| Ground::below(figure, middle, radius, up));
+        let points = figure.points.iter().map(|p| (p - middle) / radius);
+        let points: Vec<Vector> = points.collect();
         let mut seen = vec![[[0.0; 2]; 2]; points.len()];
-        let mut cells: Vec<[f64; 2]> = Vec::new();
-        let cell_points = ground.as_ref().map_or(Vec::new(), |ground| {
-            cells = vec![[0.0; 2]; CELLS * CELLS];
+        let mut cells = vec![[0.0; 2]; CELLS * CELLS];
+        let cell_points = ground.iter().flat_map(|ground| {
             let place = |cell: usize| (ground.cell(cell) - middle) / radius;
-            (0..CELLS * CELLS).map(place).collect()
+            (0..CELLS * CELLS).map(place)
         });
-        let n = if figure.faces.len() < MANY_FACES {
-            4
-        } else {
-            2
-        };
+        let cell_points: Vec<Vector> = cell_points.collect();
+        let has_many = figure.faces.len() >= MANY_FACES;
+        let n = if has_many { 2 } else { 4 };
         let mut map = DepthMap::default();
         for (towards, weight) in directions(n) {
             map.look(&points, &figure.faces, towards);
             for ((&p, &normal), seen) in points.iter().zip(&figure.normals).zip(&mut seen) {
                 let cosine = dot(normal, towards);
-                let [side, sign] = if cosine < 0.0 {
-                    [1.0, -1.0]
-                } else {
-                    [0.0, 1.0]
-                };
+                let (side, sign) = if cosine < 0.0 { (1, -1.0) } else { (0, 1.0) };
                 let part = weight * cosine.abs();
                 let from = p + normal * (sign * OFFSET * map.texel());
-                let [is, could] = &mut seen[side as usize];
+                let [is, could]: &mut [f64; 2] = &mut seen[side];
                 *could += part;
                 *is += part * map.free(from);
             }
@@ -120,12 +106,8 @@ impl Ground {
     fn below(figure: &Figure, middle: Point, radius: f64, up: Vector) -> Ground {
         let heights = figure.points.iter().map(|p| dot(p - middle, up));
         let lowest = heights.fold(0.0, f64::min) - BELOW * radius;
-        let aside = if up.x.abs() < 0.9 {
-            Vector::x()
-        } else {
-            Vector::y()
-        };
-        let aside = unit(aside - up * dot(aside, up)).expect("it is not along `up`");
+        let aside = aside(up) - up * dot(aside(up), up);
+        let aside = unit(aside).expect("it is not along `up`");
         Ground {
             middle: middle + up * lowest,
             sides: [aside, cross(up, aside)].map(|side| side * (radius * GROUND / 2.0)),
@@ -143,25 +125,23 @@ impl Ground {
                     let at = cell / axis % CELLS;
                     let near = at.saturating_sub(BLUR)..=(at + BLUR).min(CELLS - 1);
                     let count = near.clone().count() as f64;
-                    near.map(|other| before[cell + other * axis - at * axis])
-                        .sum::<f64>()
-                        / count
+                    let near = near.map(|other| before[cell + other * axis - at * axis]);
+                    near.sum::<f64>() / count
                 };
                 self.cells = (0..before.len()).map(mean).collect();
             }
         }
         for cell in 0..self.cells.len() {
-            let off = [cell % CELLS, cell / CELLS].map(|i| (2 * i + 1) as f64 / CELLS as f64 - 1.0);
-            let near = (1.0 - off[0] * off[0] - off[1] * off[1]).max(0.0);
+            let [x, y] = parts(cell);
+            let near = (1.0 - x * x - y * y).max(0.0);
             self.cells[cell] = 1.0 - (1.0 - self.cells[cell]) * near;
         }
     }
 
     /// The middle of a cell.
     fn cell(&self, cell: usize) -> Point {
-        let part = |i: usize| (2 * i + 1) as f64 / CELLS as f64 - 1.0;
-        let [x, y] = self.sides;
-        self.middle + x * part(cell % CELLS) + y * part(cell / CELLS)
+        let ([x, y], [across, down]) = (self.sides, parts(cell));
+        self.middle + x * across + y * down
     }
 
     /// How much of the sky the ground sees where a ray from above meets it; none where it does not.
@@ -187,6 +167,11 @@ impl Ground {
             row(j) + down * (row(j + 1) - row(j))
         })
     }
+}
+
+/// Where the middle of a cell is, from −1 to 1 along both sides.
+fn parts(cell: usize) -> [f64; 2] {
+    [cell % CELLS, cell / CELLS].map(|i| (2 * i + 1) as f64 / CELLS as f64 - 1.0)
 }
 
 /// The middle of the box around all points, and the distance of the farthest point; none if that is no
@@ -235,12 +220,7 @@ impl DepthMap {
     }
 
     fn look(&mut self, points: &[Vector], faces: &[[u32; 3]], towards: Vector) {
-        let aside = if towards.x.abs() < 0.9 {
-            Vector::x()
-        } else {
-            Vector::y()
-        };
-        let right = unit(cross(aside, towards)).expect("it is not along the view");
+        let right = unit(cross(aside(towards), towards)).expect("it is not along the view");
         self.axes = [right, cross(towards, right), towards];
         self.nearest.clear();
         self.nearest.resize(TEXELS * TEXELS, f64::NEG_INFINITY);

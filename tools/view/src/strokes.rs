@@ -53,14 +53,11 @@ impl Strokes {
         let Some(ends) = in_front(stroke.ends) else {
             return;
         };
-        let Some([a, b]) = within(
-            ends.map(|end| [lattice.place(end), [1.0 / end.z; 2]]),
-            lattice,
-            width,
-        ) else {
+        let ends = ends.map(|end| [lattice.place(end), [1.0 / end.z; 2]]);
+        let Some([[from, [near_from, _]], [to, [near_to, _]]]) = within(ends, lattice, width)
+        else {
             return;
         };
-        let ([from, [near_from, _]], [to, [near_to, _]]) = (a, b);
         let along = [to[0] - from[0], to[1] - from[1]];
         let square = along[0] * along[0] + along[1] * along[1];
         let radius = width / 2.0;
@@ -71,13 +68,12 @@ impl Strokes {
             for column in columns.start..columns.end.min(self.columns) {
                 let at = [column as f64 + 0.5, y];
                 let off = [at[0] - from[0], at[1] - from[1]];
-                let part = (off[0] * along[0] + off[1] * along[1]) / square;
                 // A line without length is a dot.
-                let part = if square > 0.0 {
-                    part.clamp(0.0, 1.0)
-                } else {
-                    0.0
+                let part = match square > 0.0 {
+                    true => (off[0] * along[0] + off[1] * along[1]) / square,
+                    false => 0.0,
                 };
+                let part = part.clamp(0.0, 1.0);
                 let near = [off[0] - part * along[0], off[1] - part * along[1]];
                 if near[0] * near[0] + near[1] * near[1] > radius * radius {
                     continue;
@@ -149,12 +145,8 @@ fn across(
     radius: f64,
     y: f64,
 ) -> std::ops::Range<usize> {
-    let [least, most] = [
-        from[0].min(from[0] + along[0]),
-        from[0].max(from[0] + along[0]),
-    ];
-    let whole = [least - radius, most + radius];
-    let [mut left, mut right] = whole;
+    let to = from[0] + along[0];
+    let (mut left, mut right) = (from[0].min(to) - radius, from[0].max(to) + radius);
     if along[1] != 0.0 {
         let middle = from[0] + (y - from[1]) * along[0] / along[1];
         let half = radius * square.sqrt() / along[1].abs();

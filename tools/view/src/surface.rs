@@ -126,22 +126,17 @@ impl Surface {
     }
 
     fn add(&mut self, number: u32, corners: [Vector; 3], lattice: Lattice) {
-        let Some([columns, rows]) = extent(corners, lattice, &self.rows) else {
-            return;
-        };
-        let Some(face) = Facing::new(corners) else {
+        let extent = extent(corners, lattice, &self.rows);
+        let Some(([columns, rows], face)) = extent.zip(Facing::new(corners)) else {
             return;
         };
         for row in rows {
             let first = (row - self.rows.start) * self.columns;
             for column in columns.clone() {
-                let Some(nearness) = face.nearness(lattice.sight(column, row)) else {
-                    continue;
-                };
+                let nearness = face.nearness(lattice.sight(column, row));
                 let at = first + column;
-                if nearness > self.nearness[at] {
-                    self.nearness[at] = nearness;
-                    self.faces[at] = number;
+                if let Some(nearness) = nearness.filter(|&near| near > self.nearness[at]) {
+                    (self.nearness[at], self.faces[at]) = (nearness, number);
                 }
             }
         }

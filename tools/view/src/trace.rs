@@ -28,15 +28,14 @@ use tearmesh::{Mesh, Place, Plane, Point, Scissor};
 #[must_use]
 pub fn trace(mesh: &Mesh, place: &(impl Place + ?Sized), scissor: &Scissor) -> Vec<[Point; 2]> {
     let plane = scissor.plane();
-    let corners = mesh
-        .faces()
-        .map(|f| mesh.face_vertices(f).map(|v| place.at(v)));
-    let met = corners.filter_map(|corners| met(&plane, corners));
-    met.filter_map(|segment| match scissor.sides() {
-        None => Some(segment),
-        Some([a, b]) => inside(&a, segment).and_then(|segment| inside(&b, segment)),
-    })
-    .collect()
+    let met = mesh.faces().filter_map(|f| {
+        let segment = met(&plane, mesh.face_vertices(f).map(|v| place.at(v)))?;
+        match scissor.sides() {
+            None => Some(segment),
+            Some([a, b]) => inside(&b, inside(&a, segment)?),
+        }
+    });
+    met.collect()
 }
 
 /// Where a plane meets a triangle.

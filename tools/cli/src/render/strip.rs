@@ -30,9 +30,7 @@ pub(super) fn draw(
     streams: &mut Streams<'_>,
 ) -> Result<Picture, Stop> {
     let source = SceneFile::find(args.scene.as_deref().unwrap_or_default(), streams)?;
-    let Opened {
-        mesh, positions, ..
-    } = opened;
+    let (mesh, positions) = (&opened.mesh, &opened.positions);
     let frame = Frame::new(mesh, positions.as_slice(), source.up());
     let begin = || {
         let mut scene = source.scene(&frame, None)?;
@@ -45,10 +43,8 @@ pub(super) fn draw(
     while !run.is_over() && run.tally().splits == 0 {
         step(&mut run)?;
     }
-    let first = match run.tally() {
-        tally if tally.splits > 0 => tally.steps - 1,
-        _ => 0,
-    };
+    let has_torn = run.tally().splits > 0;
+    let first = if has_torn { run.tally().steps - 1 } else { 0 };
     let last = run.steps_planned();
 
     let mut run = begin()?;
@@ -76,31 +72,21 @@ pub(super) fn draw(
     let seen = moments.iter().map(|moment| (&moment.mesh, &*moment.points));
     let camera = match given {
         Some(camera) => camera,
-        None => fit_all(seen, up, args.fov, args.size.as_f64())
-            .map_err(no_camera)?
-            .expect("a scene has faces"),
+        None => fit_all(seen, up, args.fov, args.size.as_f64()).map_err(no_camera)?,
     };
-    let pictures: Vec<Picture> = moments
-        .into_iter()
-        .map(|moment| {
-            let options = RenderOptions {
-                texture: moment.texture,
-                ground: Some(up),
-                ..options.clone()
-            };
-            render(&moment.mesh, &*moment.points, &camera, args.size, &options)
-        })
-        .collect();
-    Ok(Picture::beside(&pictures))
+    let pictures = moments.into_iter().map(|moment| {
+        let options = RenderOptions {
+            texture: moment.texture,
+            ground: Some(up),
+            ..options.clone()
+        };
+        render(&moment.mesh, &*moment.points, &camera, args.size, &options)
+    });
+    Ok(Picture::beside(&pictures.collect::<Vec<_>>()))
 }
 
 /// Takes a step that has to be good.
 fn step(run: &mut Run) -> Result<(), Stop> {
-    match run.step() {
-        Ok(_) => Ok(()),
-        Err(error) => Err(Stop::new(
-            Exit::Simulation,
-            tear::advice::failure(&error, run),
-        )),
-    }
+    let stepped = run.step().map(|_| ());
+    stepped.map_err(|error| Stop::new(Exit::Simulation, tear::advice::failure(&error, run)))
 }

@@ -21,6 +21,16 @@ impl Axis {
     /// The positive z-axis, which is the direction up in many programs.
     pub const Z: Axis = Axis::new(2);
 
+    /// The six directions, by their names.
+    pub const NAMED: [(&str, Axis); 6] = [
+        ("x", Axis::X),
+        ("y", Axis::Y),
+        ("z", Axis::Z),
+        ("-x", Axis::X.opposite()),
+        ("-y", Axis::Y.opposite()),
+        ("-z", Axis::Z.opposite()),
+    ];
+
     const fn new(number: u8) -> Axis {
         Axis {
             number,

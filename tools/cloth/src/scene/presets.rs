@@ -8,11 +8,23 @@ use crate::load::Wind;
 use crate::method::Method;
 use crate::{Tearing, Threshold};
 
+/// A built-in scene, for a mesh with a frame.
+pub type Preset = fn(&Frame) -> Scene;
+
 impl Scene {
     /// The magnitude of gravity in the built-in scenes except [`Scene::trouser`], in m/s².
     pub const GRAVITY_M_PER_S2: f64 = 9.81;
     /// The ratio of length to rest length at which an edge tears in built-in scenes with tearing.
     pub const STRETCH_RATIO: f64 = 1.5;
+
+    /// The built-in scenes by their names, each for a mesh with a frame.
+    pub const PRESETS: [(&str, Preset); 5] = [
+        ("hang", Scene::hang),
+        ("flag", Scene::flag),
+        ("rip", Scene::rip),
+        ("trouser", Scene::trouser),
+        ("fall", |frame| Scene::fall(frame.up)),
+    ];
 
     /// Returns a scene in which nothing holds the cloth: it falls for two seconds, and can tear.
     #[must_use]

@@ -75,8 +75,8 @@ extern "C" fn take_file() {
 #[unsafe(no_mangle)]
 extern "C" fn start() -> bool {
     MODULE.with_borrow_mut(|module| {
-        let text = String::from_utf8_lossy(&module.input).into_owned();
-        let started = text.parse().and_then(|settings: Settings| {
+        let settings = module.input_text().parse();
+        let started = settings.and_then(|settings: Settings| {
             let document = module.document(&settings)?;
             Player::new(document, settings)
         });
@@ -88,7 +88,7 @@ extern "C" fn start() -> bool {
 #[unsafe(no_mangle)]
 extern "C" fn replay() -> bool {
     MODULE.with_borrow_mut(|module| {
-        let text = String::from_utf8_lossy(&module.input).into_owned();
+        let text = module.input_text();
         let replayed = Player::settings_of(&text).and_then(|settings| {
             let document = module.document(&settings)?;
             Player::replayed(document, &text)
@@ -124,10 +124,8 @@ extern "C" fn grab(x: f64, y: f64, z: f64, dx: f64, dy: f64, dz: f64) -> i32 {
 /// Leads a hand to a point.
 #[unsafe(no_mangle)]
 extern "C" fn lead(hand: usize, x: f64, y: f64, z: f64) -> bool {
-    verb(false, |player| {
-        player.lead(hand, Point::new(x, y, z))?;
-        Ok(true)
-    })
+    let to = Point::new(x, y, z);
+    verb(false, |player| player.lead(hand, to).map(|()| true))
 }
 
 /// Releases a hand.
@@ -178,14 +176,12 @@ extern "C" fn heal() -> u32 {
 /// Has another wind blow; none if its coefficient is 0.
 #[unsafe(no_mangle)]
 extern "C" fn wind(x: f64, y: f64, z: f64, coefficient: f64) -> bool {
-    verb(false, |player| {
-        let wind = Wind {
-            velocity_m_per_s: Vector::new(x, y, z),
-            coefficient,
-        };
-        player.set_wind(Some(wind).filter(|wind| wind.coefficient > 0.0))?;
-        Ok(true)
-    })
+    let wind = Wind {
+        velocity_m_per_s: Vector::new(x, y, z),
+        coefficient,
+    };
+    let wind = Some(wind).filter(|wind| wind.coefficient > 0.0);
+    verb(false, |player| player.set_wind(wind).map(|()| true))
 }
 
 /// Has the wind of the scene blow again.
@@ -246,31 +242,35 @@ fn tell(text: impl FnOnce(&Player<'static>) -> Result<Vec<u8>, String>) -> bool 
     })
 }
 
+/// Puts other elements in the place of those of a block.
+fn refill<T>(block: &mut Vec<T>, elements: impl IntoIterator<Item = T>) {
+    block.clear();
+    block.extend(elements);
+}
+
 impl Module {
     fn document(&mut self, settings: &Settings) -> Result<&'static Document, String> {
-        match &self.document {
-            Some((cloth, document)) if *cloth == settings.cloth => Ok(document),
-            _ => {
-                let document: &'static Document =
-                    Box::leak(Box::new(settings.document(&self.obj)?));
-                self.document = Some((settings.cloth.clone(), document));
-                Ok(document)
-            }
+        let known = self.document.as_ref();
+        if let Some((_, document)) = known.filter(|(cloth, _)| *cloth == settings.cloth) {
+            return Ok(document);
         }
+        let document: &'static Document = Box::leak(Box::new(settings.document(&self.obj)?));
+        self.document = Some((settings.cloth.clone(), document));
+        Ok(document)
+    }
+
+    fn input_text(&self) -> String {
+        String::from_utf8_lossy(&self.input).into_owned()
     }
 
     fn replace(&mut self, player: Result<Player<'static>, String>) -> bool {
-        match player {
-            Ok(player) => {
-                self.player = Some(player);
-                self.draw();
-                true
-            }
-            Err(why) => {
-                self.text = why.into_bytes();
-                false
-            }
+        let player = player.map_err(|why| self.text = why.into_bytes());
+        let is_there = player.is_ok();
+        if let Ok(player) = player {
+            self.player = Some(player);
+            self.draw();
         }
+        is_there
     }
 
     fn draw(&mut self) {
@@ -278,24 +278,18 @@ impl Module {
             return;
         };
         let buffers = player.draw_buffers();
-        self.positions.clear();
-        self.positions.extend_from_slice(buffers.positions());
-        self.indices.clear();
-        self.indices.extend_from_slice(buffers.indices());
-        self.pieces.clear();
-        self.pieces.extend_from_slice(buffers.pieces());
+        refill(&mut self.positions, buffers.positions().iter().copied());
+        refill(&mut self.indices, buffers.indices().iter().copied());
+        refill(&mut self.pieces, buffers.pieces().iter().copied());
         let (sim, facts) = (player.simulation(), player.facts());
         let mesh = sim.mesh();
-        self.held.clear();
-        self.held
-            .extend(mesh.vertices().map(|v| u8::from(player.is_held(v))));
+        let held = mesh.vertices().map(|v| u8::from(player.is_held(v)));
+        refill(&mut self.held, held);
+        let last_piece = self.pieces.iter().max();
         let numbers = [
             mesh.vertex_count(),
             mesh.face_count(),
-            self.pieces
-                .iter()
-                .max()
-                .map_or(0, |&last| last as usize + 1),
+            last_piece.map_or(0, |&last| last as usize + 1),
             facts.held_first,
             facts.tears,
             facts.heals,
@@ -303,8 +297,7 @@ impl Module {
             facts.left,
             sim.open_pairs(),
         ];
-        self.facts.clear();
-        self.facts.extend(numbers.map(|number| number as f64));
+        refill(&mut self.facts, numbers.map(|number| number as f64));
         self.facts.extend([sim.time_s(), sim.step_s()]);
         self.facts.extend(facts.grabbed_at);
     }

@@ -1,5 +1,7 @@
 //! A simulation together with the file of its cloth, and everything that a page does with both.
 
+use std::fmt::Display;
+
 use tearmesh::geometry::{Plane, Point, Ray, length};
 use tearmesh::{CutLayers, Edits, HalfEdgeId, Mesh, Positions, Scissor, VertexId};
 use tearmesh_cloth::scene::{Frame, Scene, SwayingWind};
@@ -91,11 +93,9 @@ impl<'d> Player<'d> {
     /// Why it cannot be simulated, in words.
     pub fn new(document: &'d Document, settings: Settings) -> Result<Player<'d>, String> {
         let start = Start::new(document, &settings)?;
-        let sim = Simulation::new(start.mesh, start.positions, start.def);
-        let sim = sim.map_err(|error| error.to_string())?;
+        let sim = words(Simulation::new(start.mesh, start.positions, start.def))?;
         let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
-        let held = player.sim.hold(start.held.iter().copied());
-        held.map_err(|error| error.to_string())?;
+        words(player.sim.hold(start.held.iter().copied()))?;
         for scissor in &start.cuts {
             player.cut_by(scissor)?;
         }
@@ -111,9 +111,7 @@ impl<'d> Player<'d> {
     pub fn replayed(document: &'d Document, log: &str) -> Result<Player<'d>, String> {
         let settings = Player::settings_of(log)?;
         let (_, inputs) = split_log(log).ok_or("the log has no inputs")?;
-        let inputs: InputLog = inputs
-            .parse()
-            .map_err(|error: tearmesh_cloth::LogError| error.to_string())?;
+        let inputs = words(inputs.parse::<InputLog>())?;
         let start = Start::new(document, &settings)?;
         let mut torn = TornDocument::new(document);
         let follow = |edits: &Edits, is_cut: bool| {
@@ -126,7 +124,7 @@ impl<'d> Player<'d> {
             }
         };
         let sim = Simulation::replayed(start.mesh, start.positions, start.def, &inputs, follow);
-        let sim = sim.map_err(|error| error.to_string())?;
+        let sim = words(sim)?;
         let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
         player.torn = torn;
         player.facts.held_first = start.held.len();
@@ -176,12 +174,12 @@ impl<'d> Player<'d> {
             let part = (self.sim.time_s() * SWAYS_PER_S).floor() / SWAYS_PER_S;
             let wind = self.wind.map(|wind| wind.at(part));
             if self.sim.cloth().system().loads().wind != wind {
-                self.sim.set_wind(wind).map_err(|error| error.to_string())?;
+                words(self.sim.set_wind(wind))?;
             }
         }
         let reached = self.sim.advance(dt_s, steps_max);
         self.follow();
-        Ok(reached.map_err(|error| error.to_string())?.steps)
+        Ok(words(reached)?.steps)
     }
 
     /// Brings the document up to date with what was torn or sewn.
@@ -218,9 +216,8 @@ impl<'d> Player<'d> {
         let Some(picked) = self.sim.pick(ray) else {
             return Ok(None);
         };
-        let hand = self.sim.grab(picked.vertex, self.grip_radius_m);
-        self.hands
-            .push(Some(hand.map_err(|error| error.to_string())?));
+        let hand = words(self.sim.grab(picked.vertex, self.grip_radius_m))?;
+        self.hands.push(Some(hand));
         let at = self.sim.cloth().positions()[picked.vertex.index()];
         self.facts.grabbed_at = at.into();
         Ok(Some(self.hands.len() - 1))
@@ -233,7 +230,7 @@ impl<'d> Player<'d> {
     /// Why it cannot be led there, in words.
     pub fn lead(&mut self, hand: usize, to: Point) -> Result<(), String> {
         match self.hands.get(hand).copied().flatten() {
-            Some(hand) => self.sim.lead(hand, to).map_err(|error| error.to_string()),
+            Some(hand) => words(self.sim.lead(hand, to)),
             None => Ok(()),
         }
     }
@@ -241,9 +238,8 @@ impl<'d> Player<'d> {
     /// Releases a hand, unless it was released before.
     pub fn release(&mut self, hand: usize) {
         if let Some(hand) = self.hands.get_mut(hand).and_then(Option::take) {
-            self.sim
-                .release(hand)
-                .expect("a hand that was not released");
+            let released = self.sim.release(hand);
+            released.expect("a hand that was not released");
         }
     }
 
@@ -257,11 +253,10 @@ impl<'d> Player<'d> {
             return Ok(None);
         };
         let is_held = self.is_held(picked.vertex);
-        let done = match is_held {
+        words(match is_held {
             true => self.sim.free([picked.vertex]),
             false => self.sim.hold([picked.vertex]),
-        };
-        done.map_err(|error| error.to_string())?;
+        })?;
         Ok(Some(!is_held))
     }
 
@@ -283,14 +278,14 @@ impl<'d> Player<'d> {
             true => CutLayers::First,
             false => CutLayers::All,
         };
-        let scissor = Scissor::new(a, b).map_err(|error| error.to_string())?;
+        let scissor = words(Scissor::new(a, b))?;
         self.cut_by(&scissor.layers(layers))
     }
 
     fn cut_by(&mut self, scissor: &Scissor) -> Result<usize, String> {
         // Tears before the cut are undone by themselves.
         self.torn.next_cut();
-        self.sim.cut(scissor).map_err(|error| error.to_string())?;
+        words(self.sim.cut(scissor))?;
         self.follow();
         self.torn.next_cut();
         Ok(self.facts.cut_splits)
@@ -298,9 +293,8 @@ impl<'d> Player<'d> {
 
     /// Begins to mend all tears and cuts. Returns the number of pairs of vertices that are drawn together.
     pub fn heal(&mut self) -> usize {
-        self.sim
-            .heal(Wounds::All)
-            .expect("all is no cut of its own")
+        let drawn = self.sim.heal(Wounds::All);
+        drawn.expect("all is no cut of its own")
     }
 
     /// Has the wind of the scene blow again.
@@ -315,7 +309,7 @@ impl<'d> Player<'d> {
     /// Which number cannot be used, in words.
     pub fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), String> {
         self.is_wind_of_scene = false;
-        self.sim.set_wind(wind).map_err(|error| error.to_string())
+        words(self.sim.set_wind(wind))
     }
 
     /// Returns the OBJ file of the cloth as it is now, with the record of its tears and cuts.
@@ -325,10 +319,9 @@ impl<'d> Player<'d> {
     /// Which vertex is nowhere, in words.
     pub fn obj(&self) -> Result<Vec<u8>, String> {
         let points = self.sim.cloth().positions().iter().copied();
-        let positions = Positions::new(points).map_err(|error| error.to_string())?;
+        let positions = words(Positions::new(points))?;
         let mut out = Vec::new();
-        let written = self.torn.write(self.sim.mesh(), &positions, &mut out);
-        written.map_err(|error| error.to_string())?;
+        words(self.torn.write(self.sim.mesh(), &positions, &mut out))?;
         Ok(out)
     }
 
@@ -346,10 +339,8 @@ impl<'d> Player<'d> {
         let numbers = points.iter().flat_map(|p| [p.x, p.y, p.z]);
         let ids = mesh.indices().iter().copied().chain(mesh.roots());
         let bytes = numbers.flat_map(f64::to_le_bytes);
-        hashed(
-            self.events_hash,
-            bytes.chain(ids.flat_map(u32::to_le_bytes)),
-        )
+        let bytes = bytes.chain(ids.flat_map(u32::to_le_bytes));
+        hashed(self.events_hash, bytes)
     }
 
     /// Returns what the cloth is drawn from: see [`Simulation::draw_buffers`].
@@ -389,10 +380,9 @@ struct Start {
 
 impl Start {
     fn new(document: &Document, settings: &Settings) -> Result<Start, String> {
-        let mesh = document.mesh().map_err(|error| error.to_string())?;
+        let mesh = words(document.mesh())?;
         let points = document.positions();
-        let positions = Positions::new(points.iter().copied());
-        let positions = positions.map_err(|error| error.to_string())?;
+        let positions = words(Positions::new(points.iter().copied()))?;
         let frame = Frame::new(&mesh, points, settings.up);
         let scene = settings.scene(&frame);
         let still = scene.holds.iter().filter(|hold| hold.moves.is_empty());
@@ -423,17 +413,15 @@ fn definition(scene: &Scene, settings: &Settings, frame: &Frame, is_loose: bool)
     let gravity = scene.gravity_m_per_s2;
     let floor = || {
         let below = frame.point([0.0; 3]) - frame.up.vector() * (0.5 * frame.size_m());
-        Plane::new(below, frame.up.vector())
-            .ok()
-            .map(Collider::Plane)
+        let plane = Plane::new(below, frame.up.vector()).ok();
+        plane.map(Collider::Plane)
     };
+    let threshold = settings.threshold.map(Threshold::Stretch);
     SimulationDef {
         density_kg_per_m2: scene.areal_density_kg_per_m2,
         fabric: scene.fabric,
         method: scene.solver.clone(),
-        tearing: settings
-            .threshold
-            .map(|ratio| Tearing::new(Threshold::Stretch(ratio))),
+        tearing: threshold.map(Tearing::new),
         loads: Loads {
             gravity_m_per_s2: Some(gravity).filter(|gravity| length(*gravity) > 0.0),
             drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag > 0.0),
@@ -443,6 +431,11 @@ fn definition(scene: &Scene, settings: &Settings, frame: &Frame, is_loose: bool)
         is_recorded: true,
         ..SimulationDef::default()
     }
+}
+
+/// Why something failed, in words.
+pub(crate) fn words<T>(done: Result<T, impl Display>) -> Result<T, String> {
+    done.map_err(|error| error.to_string())
 }
 
 fn edges(mesh: &Mesh) -> Vec<Edge> {

@@ -45,44 +45,12 @@ pub const VERTICES_MAX: usize = 20_000;
 /// The largest number of cells a side of a sheet: its vertices are fewer than [`VERTICES_MAX`].
 pub const CELLS_MAX: u32 = 128;
 
-/// Makes a scene for a mesh with this frame.
-type Preset = fn(&Frame) -> Scene;
-
-/// A name, and what it is of.
-type Named<T> = (&'static str, T);
-
-const SCENES: [Named<Preset>; 5] = [
-    ("rip", Scene::rip),
-    ("hang", Scene::hang),
-    ("flag", Scene::flag),
-    ("trouser", Scene::trouser),
-    ("fall", |frame| Scene::fall(frame.up)),
-];
-
-const METHODS: [Named<fn() -> Method>; 5] = [
-    ("verlet", || Method::Verlet),
-    ("xpbd", Method::xpbd),
-    ("pbd", Method::pbd),
-    ("provot", Method::provot),
-    ("implicit", Method::implicit),
-];
-
-const AXES: [(&str, Axis); 6] = [
-    ("x", Axis::X),
-    ("y", Axis::Y),
-    ("z", Axis::Z),
-    ("-x", Axis::X.opposite()),
-    ("-y", Axis::Y.opposite()),
-    ("-z", Axis::Z.opposite()),
-];
-
 impl Settings {
     /// Returns the scene for a cloth in this frame, with the chosen method.
     pub(crate) fn scene(&self, frame: &Frame) -> Scene {
-        let (_, scene) = find(&SCENES, self.scene).expect("the name of a scene");
-        let (_, method) = find(&METHODS, self.method).expect("the name of a method");
+        let (_, scene) = find(&Scene::PRESETS, self.scene).expect("the name of a scene");
         Scene {
-            solver: method(),
+            solver: Method::named(self.method).expect("the name of a method"),
             ..scene(frame)
         }
     }
@@ -93,12 +61,11 @@ impl Settings {
     ///
     /// What is wrong with the file, in words.
     pub fn document(&self, obj: &[u8]) -> Result<Document, String> {
-        let sheet = match self.cloth {
-            ClothSource::Sheet(cells) => Some(sheet(cells)),
-            ClothSource::File(_) => None,
+        let document = match self.cloth {
+            ClothSource::Sheet(cells) => Document::read(sheet(cells).as_bytes()),
+            ClothSource::File(_) => Document::read(obj),
         };
-        let bytes = sheet.as_ref().map_or(obj, |text| text.as_bytes());
-        let document = Document::read(bytes).map_err(|error| error.to_string())?;
+        let document = document.map_err(|error| error.to_string())?;
         match document.positions().len() {
             0..=VERTICES_MAX => Ok(document),
             given => Err(format!(
@@ -112,13 +79,9 @@ impl Settings {
 fn sheet(cells: u32) -> String {
     let (mesh, positions) = shapes::grid_with_diagonals(cells, cells, |i, j| (i + j) % 2 == 0);
     let mut text = "o sheet\n".to_owned();
-    let points = positions.as_slice();
-    text.extend(
-        points
-            .iter()
-            .map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)),
-    );
-    text.extend(points.iter().map(|p| format!("vt {} {}\n", p.x, p.y)));
+    let points = || positions.as_slice().iter();
+    text.extend(points().map(|p| format!("v {} {} {}\n", p.x, p.y, p.z)));
+    text.extend(points().map(|p| format!("vt {} {}\n", p.x, p.y)));
     for face in mesh.faces() {
         let corners = mesh.face_vertices(face).map(|v| v.index() + 1);
         let [a, b, c] = corners.map(|v| format!("{v}/{v}"));
@@ -137,7 +100,7 @@ impl fmt::Display for Settings {
             ClothSource::Sheet(cells) => writeln!(f, "cloth sheet {cells}")?,
             ClothSource::File(name) => writeln!(f, "cloth file {name}")?,
         }
-        let up = AXES.iter().find(|(_, axis)| *axis == self.up);
+        let up = Axis::NAMED.iter().find(|(_, axis)| *axis == self.up);
         let (up, _) = up.expect("six axes are all");
         writeln!(f, "scene {}\nup {up}\nmethod {}", self.scene, self.method)?;
         match self.threshold {
@@ -161,24 +124,25 @@ impl FromStr for Settings {
         let (cloth, scene) = (value("cloth")?, value("scene")?);
         let (up, method, threshold) = (value("up")?, value("method")?, value("threshold")?);
         let unknown = |what: &str, given: &str| format!("there is no {what} `{given}`");
-        let file = cloth.strip_prefix("file ");
+        let file = cloth.strip_prefix("file ").map(str::to_owned);
         let cells = cloth.strip_prefix("sheet ");
         let cells = cells.and_then(|cells| cells.parse().ok());
         let sheet = cells.filter(|cells| (1..=CELLS_MAX).contains(cells));
-        let cloth = match (file, sheet) {
-            (Some(name), _) => ClothSource::File(name.to_owned()),
-            (None, Some(cells)) => ClothSource::Sheet(cells),
-            (None, None) => return Err(unknown("cloth", cloth)),
-        };
+        let source = file.map(ClothSource::File);
+        let source = source.or(sheet.map(ClothSource::Sheet));
+        let cloth = source.ok_or_else(|| unknown("cloth", cloth))?;
+        let named = Method::named(method);
         let threshold = match threshold {
             "never" => None,
             ratio => Some(ratio.parse().map_err(|_| unknown("threshold", ratio))?),
         };
         Ok(Settings {
             cloth,
-            scene: find(&SCENES, scene).ok_or(unknown("scene", scene))?.0,
-            up: find(&AXES, up).ok_or(unknown("direction", up))?.1,
-            method: find(&METHODS, method).ok_or(unknown("method", method))?.0,
+            scene: find(&Scene::PRESETS, scene)
+                .ok_or(unknown("scene", scene))?
+                .0,
+            up: find(&Axis::NAMED, up).ok_or(unknown("direction", up))?.1,
+            method: named.ok_or(unknown("method", method))?.name(),
             threshold,
         })
     }

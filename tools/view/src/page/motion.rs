@@ -62,10 +62,8 @@ pub(super) fn write<'m>(
             let parts: Vec<[f32; 3]> = parts.iter().map(|part| part.map(|x| x as f32)).collect();
             bytes = floats(&parts);
             // Whoever reads them begins with what they were rounded to.
-            was = parts
-                .iter()
-                .map(|part| steps(part.map(f64::from)))
-                .collect();
+            let rounded = parts.iter().map(|part| steps(part.map(f64::from)));
+            was = rounded.collect();
             continue;
         }
         let now: Vec<[i32; 3]> = parts.into_iter().map(steps).collect();
@@ -96,9 +94,8 @@ fn unexpected(axis: usize, was: &[[i32; 3]], now: &[[i32; 3]], neighbours: &[u32
 fn floats(parts: &[[f32; 3]]) -> Vec<u8> {
     let axes = (0..3).flat_map(|axis| parts.iter().map(move |part| part[axis]));
     let all: Vec<[u8; 4]> = axes.map(f32::to_le_bytes).collect();
-    (0..4)
-        .flat_map(|byte| all.iter().map(move |float| float[byte]))
-        .collect()
+    let bytes = (0..4).flat_map(|byte| all.iter().map(move |float| float[byte]));
+    bytes.collect()
 }
 
 /// Whether any face has each vertex.
