@@ -71,16 +71,6 @@ pub(crate) enum Verb {
     Man(ManArgs),
 }
 
-/// The options whose values are numbers with commas between them, and how many of these each takes.
-const OF_NUMBERS: [(&str, usize); 6] = [
-    ("--rays", 2),
-    ("--points", 2),
-    ("--plane", 1),
-    ("--camera", 1),
-    ("--up", 1),
-    ("--near", 1),
-];
-
 /// Makes one argument of `--rays A B`, so that a negative number is no option, and an option is
 /// no second ray; and likewise of `--points A B`. A blank beside a comma, a colon or `@` makes two
 /// arguments of one ray: they are joined again.
@@ -99,27 +89,31 @@ fn join_rays(args: &[OsString]) -> Vec<OsString> {
         }
         let text = arg.to_str().unwrap_or_default();
         let (name, given) = text.split_once('=').unwrap_or((text, ""));
-        let Some(&(_, takes)) = OF_NUMBERS.iter().find(|(option, _)| *option == name) else {
-            joined.push(arg.clone());
-            continue;
+        // How many values of numbers with commas between them an option takes.
+        let takes = match name {
+            "--rays" | "--points" => 2,
+            "--plane" | "--camera" | "--up" | "--near" => 1,
+            _ => {
+                joined.push(arg.clone());
+                continue;
+            }
         };
         let mut value = given.to_owned();
         while let [next, after @ ..] = rest {
             let next = next.to_string_lossy();
+            let is_begun = !value.is_empty();
+            let goes_on = is_begun && (rays::goes_on(&value) || rays::is_continued(&next));
             let following = after.first().map(|arg| arg.to_string_lossy());
             let is_split = following.is_some_and(|arg| rays::is_continued(&arg));
-            if !value.is_empty() && (rays::goes_on(&value) || rays::is_continued(&next)) {
-                if !is_of_numbers(&next) {
-                    break;
-                }
-                value.push(' ');
-            } else if rays::split_pair(&value).count() < takes
-                && (looks_like_rays(&next) || is_split && is_of_numbers(&next))
-            {
-                value.push(';');
-            } else {
+            let is_new = looks_like_rays(&next) || is_split && is_of_numbers(&next);
+            let is_wanted = match goes_on {
+                true => is_of_numbers(&next),
+                false => is_new && rays::split_pair(&value).count() < takes,
+            };
+            if !is_wanted {
                 break;
             }
+            value.push(if goes_on { ' ' } else { ';' });
             value.push_str(&next);
             rest = after;
         }

@@ -18,13 +18,11 @@ pub(crate) fn report(args: &[OsString], input: Option<&Input>, broken: &[String]
         panic!("{}", broken.join("; "));
     }
     let written = output::write(Path::new(NAME), |out| reproducer(out, args, input, broken));
-    let help = match written {
-        Ok(()) => format!("this is a bug in tearmesh: please report it, with the file `{NAME}`"),
-        Err(fault) => {
-            let why = &fault.message;
-            format!("this is a bug in tearmesh: please report it ({why})")
-        }
+    let with = match written {
+        Ok(()) => format!(", with the file `{NAME}`"),
+        Err(fault) => format!(" ({})", fault.message),
     };
+    let help = format!("this is a bug in tearmesh: please report it{with}");
     Fault::error("E-BUG-INVARIANT", broken.join("; ")).help(help)
 }
 
@@ -34,29 +32,18 @@ fn reproducer(
     input: Option<&Input>,
     broken: &[String],
 ) -> io::Result<()> {
-    writeln!(
-        out,
-        "# tearmesh {} broke an invariant",
-        env!("CARGO_PKG_VERSION")
-    )?;
-    let command: Vec<_> = args
-        .iter()
-        .skip(1)
-        .map(|arg| arg.to_string_lossy())
-        .collect();
-    writeln!(
-        out,
-        "# command: tearmesh {}",
-        command.join(" ").replace(['\n', '\r'], " ")
-    )?;
+    let version = env!("CARGO_PKG_VERSION");
+    writeln!(out, "# tearmesh {version} broke an invariant")?;
+    let words = args.iter().skip(1).map(|arg| arg.to_string_lossy());
+    let command: Vec<_> = words.collect();
+    let command = command.join(" ").replace(['\n', '\r'], " ");
+    writeln!(out, "# command: tearmesh {command}")?;
     for line in broken.iter().flat_map(|text| text.lines()) {
         writeln!(out, "# {line}")?;
     }
     if let Some(input) = input {
-        let mut bytes = input
-            .open()
-            .map_err(|_| io::Error::other("the input cannot be read again"))?;
-        io::copy(&mut bytes, out)?;
+        let lost = |_| io::Error::other("the input cannot be read again");
+        io::copy(&mut input.open().map_err(lost)?, out)?;
     }
     Ok(())
 }

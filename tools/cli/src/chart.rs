@@ -34,10 +34,10 @@ pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>
             let guide = Guide::new(args.size, args.seeds, args.diagonals);
             (&args.draw, work(&guide, command, &args.draw, streams))
         }
-        What::Pareto(args) => {
-            let done = work(&pareto(args), command, &args.draw, streams);
-            (&args.draw, done)
-        }
+        What::Pareto(args) => (
+            &args.draw,
+            work(&pareto(args), command, &args.draw, streams),
+        ),
         What::Stability(args) => {
             let stiffness_n_per_m = args.stiffness.clone();
             let stability = Stability { stiffness_n_per_m };
@@ -53,8 +53,10 @@ pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>
         }
         What::Fig7(args) => {
             let cells = args.size.clone();
-            let done = work(&Fig7 { cells }, command, &args.draw, streams);
-            (&args.draw, done)
+            (
+                &args.draw,
+                work(&Fig7 { cells }, command, &args.draw, streams),
+            )
         }
     };
     done.unwrap_or_else(|stop| streams.conclude(Err(stop), Vec::new(), draw.color, true))
@@ -63,14 +65,12 @@ pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>
 fn pareto(args: &ParetoArgs) -> Pareto {
     let is_named = |name: &str, names: &[String]| names.iter().any(|other| other == name);
     let scenes = SCENES.into_iter();
+    let scenes = scenes.filter(|scene| is_named(scene.name, &args.scene));
     let meshes = MeshKind::ALL.into_iter();
+    let meshes = meshes.filter(|mesh| is_named(mesh.name(), &args.mesh));
     Pareto::new(pareto::Options {
-        scenes: scenes
-            .filter(|scene| is_named(scene.name, &args.scene))
-            .collect(),
-        meshes: meshes
-            .filter(|mesh| is_named(mesh.name(), &args.mesh))
-            .collect(),
+        scenes: scenes.collect(),
+        meshes: meshes.collect(),
         cells: args.size.clone(),
         stiffness_n_per_m: args.stiffness.clone(),
         mass_ratios: args.mass_ratio.clone(),
@@ -130,12 +130,6 @@ fn command_line(line: &[OsString]) -> String {
     text
 }
 
-/// The text of a file.
-fn read(path: &Path) -> Result<String, Fault> {
-    let text = std::fs::read_to_string(path);
-    text.map_err(|error| cannot_read(&path.display().to_string(), &error))
-}
-
 /// Runs an experiment or reads its table, and writes chart, table and figures, as far as they are wanted.
 fn work<E: Chart>(
     experiment: &E,
@@ -144,21 +138,30 @@ fn work<E: Chart>(
     streams: &mut Streams<'_>,
 ) -> Result<Exit, Stop> {
     let files = check(draw)?;
-    let mut provenance = provenance::<E>(command);
+    let mut provenance = Provenance {
+        command,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: env!("TEARMESH_COMMIT").to_owned(),
+        compiler: env!("TEARMESH_COMPILER").to_owned(),
+        processor: E::IS_TIMED.then(processor),
+    };
     let (rows, missing) = match &draw.from {
         Some(path) => {
-            provenance.command = format!("drawn from {}", path.display());
+            let name = path.display().to_string();
+            provenance.command = format!("drawn from {name}");
             provenance.processor = None;
-            let refused = |why: &str| {
-                let message = format!("{} is not a table of this chart: {why}", path.display());
+            let text = std::fs::read_to_string(path);
+            let text = text.map_err(|error| cannot_read(&name, &error))?;
+            let rows = match read_table(&text) {
+                Ok(rows) if rows.is_empty() => Err("it has no rows".to_owned()),
+                rows => rows.map_err(|error| error.to_string()),
+            };
+            let refused = |why: String| {
+                let message = format!("{name} is not a table of this chart: {why}");
                 let help = "give one that --csv of the same chart wrote";
                 Fault::error("E-CHART-TABLE", message).help(help)
             };
-            let rows = read_table(&read(path)?).map_err(|error| refused(&error.to_string()))?;
-            if rows.is_empty() {
-                return Err(refused("it has no rows").into());
-            }
-            (rows, 0)
+            (rows.map_err(refused)?, 0)
         }
         None => conducted(experiment, draw, streams)?,
     };
@@ -178,12 +181,15 @@ fn work<E: Chart>(
         let json = json.map_err(|error| bug(&error.to_string()))?;
         write(path, &(json + "\n"), streams)?;
     }
-    print_summary(
-        experiment.summary(&rows).trim(),
-        &files,
-        draw.quiet,
-        streams,
-    )?;
+    let is_streamed = files.first().is_some_and(|path| *path == Path::new("-"));
+    if !draw.quiet && !is_streamed {
+        let names = files.iter().map(|path| path.display().to_string());
+        let names: Vec<_> = names.collect();
+        let names = format!("wrote {}", names.join(", "));
+        let summary = experiment.summary(&rows);
+        let printed = output::print_text(streams.output, &format!("{}\n{names}\n", summary.trim()));
+        printed.map_err(|fault| fault.help(names))?;
+    }
     if missing == 0 {
         return Ok(Exit::Done);
     }
@@ -210,12 +216,13 @@ fn conducted<E: Experiment>(
     let threads = draw.threads.unwrap_or_else(workers);
     let about_s = guess_s(experiment, &plan) / experiment.threads(threads).get() as f64;
     if !draw.quiet {
+        let about = match about_s {
+            s if s < 90.0 => format!("{} s", s.ceil().max(1.0)),
+            s => format!("{} min", (s / 60.0).ceil()),
+        };
+        let begun = format!("{runs} runs, about {about} (Ctrl-C stops and keeps finished runs)");
         // Nowhere is left to say it if standard error is closed.
-        let about = some_time(about_s);
-        let _ = writeln!(
-            streams.error,
-            "{runs} runs, about {about} (Ctrl-C stops and keeps finished runs)"
-        );
+        let _ = writeln!(streams.error, "{begun}");
     }
     let bar = streams.bar(BAR as u64, "{wide_bar} {percent} % {eta}", !draw.quiet);
     let guard = Guard::new();
@@ -239,32 +246,13 @@ fn conducted<E: Experiment>(
 /// The length of a progress bar.
 const BAR: f64 = 1000.0;
 
-/// A duration in words, rounded up.
-fn some_time(seconds: f64) -> String {
-    match seconds {
-        s if s < 90.0 => format!("{} s", s.ceil().max(1.0)),
-        s => format!("{} min", (s / 60.0).ceil()),
-    }
-}
-
-fn provenance<E: Experiment>(command: String) -> Provenance {
-    Provenance {
-        command,
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: env!("TEARMESH_COMMIT").to_owned(),
-        compiler: env!("TEARMESH_COMPILER").to_owned(),
-        processor: E::IS_TIMED.then(processor),
-    }
-}
-
 /// The name of the processor if the system has one, or else its architecture.
 fn processor() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let mut lines = text.lines().filter(|line| line.starts_with("model name"));
     let named = lines.next().and_then(|line| line.split_once(':'));
-    named.map_or(std::env::consts::ARCH.to_owned(), |(_, name)| {
-        name.trim().to_owned()
-    })
+    let named = named.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
+    named.to_owned()
 }
 
 /// The files that are wanted. All must be places of their own that can be written, and only the chart may be
@@ -272,45 +260,22 @@ fn processor() -> String {
 fn check(draw: &DrawArgs) -> Result<Vec<&PathBuf>, Stop> {
     let files = [draw.output.as_ref(), draw.csv.as_ref(), draw.json.as_ref()];
     let files: Vec<&PathBuf> = files.into_iter().flatten().collect();
-    let is_output = |path: &PathBuf| path == Path::new("-") && draw.output.as_ref() == Some(path);
+    let is_stream = |path: &PathBuf| path == Path::new("-");
     for (i, path) in files.iter().enumerate() {
         let is_it = |other: &&PathBuf| other == path || output::is_same_place(other, path);
-        let is_twice = files[..i].iter().any(is_it);
-        if is_twice || (*path == Path::new("-") && !(i == 0 && is_output(path))) {
+        let is_chart = i == 0 && draw.output.is_some();
+        if files[..i].iter().any(is_it) || (is_stream(path) && !is_chart) {
             let message = format!("`{}` is named twice, or is not a file", path.display());
             return Err(Stop::usage(message, "name a file for each"));
         }
     }
-    for path in files.iter().filter(|path| **path != Path::new("-")) {
-        output::check(path)?;
-    }
+    let mut named = files.iter().filter(|path| !is_stream(path));
+    named.try_for_each(|path| output::check(path))?;
     Ok(files)
 }
 
 fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), Fault> {
     output::write_or_print(path, streams.output, |out| out.write_all(text.as_bytes())).map(|_| ())
-}
-
-/// Prints a summary and the names of the files, unless the chart is on standard output.
-fn print_summary(
-    summary: &str,
-    files: &[&PathBuf],
-    is_quiet: bool,
-    streams: &mut Streams<'_>,
-) -> Result<(), Fault> {
-    if is_quiet || files.first().is_some_and(|path| *path == Path::new("-")) {
-        return Ok(());
-    }
-    let names: Vec<_> = files
-        .iter()
-        .map(|path| path.display().to_string())
-        .collect();
-    let names = names.join(", ");
-    let printed = output::print(streams.output, |out| {
-        writeln!(out, "{summary}\nwrote {names}")
-    });
-    let printed = printed.map_err(|fault| fault.help(format!("wrote {names}")));
-    printed.map(|_| ())
 }
 
 fn bug(message: &str) -> Fault {

@@ -13,7 +13,7 @@ use crate::input::Input;
 use crate::input::named::named;
 use crate::measure::{Bounds, Edges, Piece};
 use crate::output;
-use crate::report::{Entry, File, Timing};
+use crate::report::{Entry, File};
 use crate::say::{Fault, count, place, short};
 use crate::session;
 use crate::streams::Streams;
@@ -34,18 +34,15 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
     }
     let files = named(&args.inputs, args.recursive);
     let names = files.iter().map(|file| match file {
-        Ok(path) | Err((path, _)) => name(path).chars().count(),
+        Ok(path) | Err((path, _)) => path.display().to_string().chars().count(),
     });
     let width = names.max().unwrap_or(0);
     let mut exit = Exit::Done;
     for file in files {
         let found = Found::of(file, streams);
-        exit = match (exit, found.exit()) {
-            (Exit::Input, _) | (_, Exit::Input) => Exit::Input,
-            (Exit::Bug, _) | (_, Exit::Bug) => Exit::Bug,
-            (one, Exit::Done) => one,
-            (_, other) => other,
-        };
+        let mut worst = [Exit::Input, Exit::Bug, Exit::NothingCut].into_iter();
+        let worst = worst.find(|one| [exit, found.exit()].contains(one));
+        exit = worst.unwrap_or(Exit::Done);
         if args.quiet && found.exit() == Exit::Done {
             continue;
         }
@@ -64,10 +61,6 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
         }
     }
     exit
-}
-
-fn name(path: &Path) -> String {
-    path.display().to_string()
 }
 
 /// What was found in a file.
@@ -104,11 +97,11 @@ impl Found {
     fn of(file: Result<PathBuf, (PathBuf, Fault)>, streams: &mut Streams<'_>) -> Found {
         let mut faults = Vec::new();
         let (path, measured) = match file {
-            Ok(path) => {
-                let measured = measure(&path, &mut faults, streams);
-                (path, measured)
-            }
-            Err((path, fault)) => (path, Err(fault.into())),
+            Ok(path) => (
+                path.display().to_string(),
+                measure(&path, &mut faults, streams),
+            ),
+            Err((path, fault)) => (path.display().to_string(), Err(fault.into())),
         };
         let (mesh, why) = match measured {
             Ok(measured) => (Some(measured), Vec::new()),
@@ -118,14 +111,12 @@ impl Found {
             "E-IO-DIRECTORY" => fault.help("add -r, to check the OBJ files in it"),
             _ => fault,
         }));
-        let path = name(&path);
         Found { path, mesh, faults }
     }
 
     fn errors(&self) -> impl Iterator<Item = &Fault> {
-        self.faults
-            .iter()
-            .filter(|fault| fault.level == Level::Error)
+        let faults = self.faults.iter();
+        faults.filter(|fault| fault.level == Level::Error)
     }
 
     fn exit(&self) -> Exit {
@@ -146,11 +137,9 @@ impl Found {
             }
             (first, _) => {
                 let first = first.map(Fault::line).unwrap_or_default();
-                let more = self.errors().count().saturating_sub(1);
-                let more = if more > 0 {
-                    format!(" and {more} more")
-                } else {
-                    String::new()
+                let more = match self.errors().count() {
+                    0 | 1 => String::new(),
+                    errors => format!(" and {} more", errors - 1),
                 };
                 format!("{path:width$}  FAIL  {first}{more}")
             }
@@ -159,16 +148,11 @@ impl Found {
 
     /// How large the mesh is, in lines below the first; nothing if there is none.
     fn size(&self, width: usize) -> String {
-        let Some(Measured {
-            bounds,
-            edges,
-            pieces,
-            ..
-        }) = &self.mesh
-        else {
+        let Some(mesh) = &self.mesh else {
             return String::new();
         };
-        let (least, most) = (place(bounds.min), place(bounds.max));
+        let (edges, pieces) = (&mesh.edges, &mesh.pieces);
+        let (least, most) = (place(mesh.bounds.min), place(mesh.bounds.max));
         let [shortest, mean, longest] = [edges.shortest, edges.mean, edges.longest].map(short);
         let mut lines = vec![format!(
             "from {least} to {most}, edges {shortest} to {longest} long, {mean} on average"
@@ -182,10 +166,8 @@ impl Found {
         }
         let more = pieces.len().saturating_sub(SHOWN);
         if more > 0 {
-            lines.push(format!(
-                "and {}",
-                count(more, "smaller piece", "smaller pieces")
-            ));
+            let more = count(more, "smaller piece", "smaller pieces");
+            lines.push(format!("and {more}"));
         }
         let indented = lines.iter().map(|line| format!("\n{:width$}  {line}", ""));
         indented.collect()
@@ -210,8 +192,7 @@ fn measure(
     streams: &mut Streams<'_>,
 ) -> Result<Measured, Stop> {
     let input = Input::find(path, streams.input)?;
-    let timing = &mut Timing::default();
-    let opened = session::open(&input, None, "or cut with", faults, timing)?;
+    let opened = session::open(&input, None, "or cut with", faults)?;
     let (mesh, positions) = (&opened.mesh, &opened.positions);
     // What no verb could weigh, none can cut.
     let masses = Masses::area(mesh, positions, 1.0);

@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tearmesh::{CutLayers, CutMethod, CutTips};
-use tearmesh_cloth::scene::{Axis, Frame, Scene};
+use tearmesh_cloth::scene::{Axis, Preset, Scene};
 use tearmesh_cloth::{Copies, Method, Unbend, implicit};
 
 /// A type of which users choose a value by a word.
@@ -25,8 +25,8 @@ pub(crate) trait Choice: Copy + Send + Sync + 'static {
         Self: PartialEq,
     {
         let mut all = Self::ALL.iter();
-        all.find(|(_, one)| one == self)
-            .map_or("", |(word, _)| word)
+        let found = all.find(|(_, one)| one == self);
+        found.map_or("", |(word, _)| word)
     }
 
     /// All words, with commas between them.
@@ -74,60 +74,23 @@ impl Choice for CutLayers {
         &[("all", CutLayers::All), ("first", CutLayers::First)];
 }
 
-/// A method of simulation with its default settings.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Solver(pub(crate) fn() -> Method);
-
-impl Choice for Solver {
-    const ALL: &'static [(&'static str, Solver)] = &[
-        (Method::NAMES[0], Solver(Method::provot)),
-        (Method::NAMES[1], Solver(Method::pbd)),
-        (Method::NAMES[2], Solver(|| Method::Verlet)),
-        (Method::NAMES[3], Solver(Method::xpbd)),
-        (Method::NAMES[4], Solver(Method::implicit)),
-    ];
-}
-
-/// A scene that is built in.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Preset(pub(crate) fn(&Frame) -> Scene);
-
 impl Choice for Preset {
-    const ALL: &'static [(&'static str, Preset)] = &[
-        ("hang", Preset(Scene::hang)),
-        ("flag", Preset(Scene::flag)),
-        ("rip", Preset(Scene::rip)),
-        ("trouser", Preset(Scene::trouser)),
-        ("fall", Preset(|frame| Scene::fall(frame.up))),
-    ];
+    const ALL: &'static [(&'static str, Preset)] = &Scene::PRESETS;
 }
 
 impl Choice for Axis {
-    const ALL: &'static [(&'static str, Axis)] = &[
-        ("x", Axis::X),
-        ("y", Axis::Y),
-        ("z", Axis::Z),
-        ("-x", Axis::X.opposite()),
-        ("-y", Axis::Y.opposite()),
-        ("-z", Axis::Z.opposite()),
-    ];
+    const ALL: &'static [(&'static str, Axis)] = &Axis::NAMED;
+}
+
+/// Reads the name of a method on the command line.
+pub(crate) fn method() -> impl TypedValueParser<Value = Method> {
+    let names = PossibleValuesParser::new(Method::NAMES);
+    names.map(|name| Method::named(&name).expect("the parser knows no other name"))
 }
 
 /// Reads an axis, as it is typed.
 pub(crate) fn axis(text: &str) -> Result<Axis, String> {
     Axis::of(text).ok_or_else(|| format!("expected one of {}", Axis::words()))
-}
-
-/// The law of bending: springs, or arcs that buckle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum BendLaw {
-    Spring,
-    Buckling,
-}
-
-impl Choice for BendLaw {
-    const ALL: &'static [(&'static str, BendLaw)] =
-        &[("spring", BendLaw::Spring), ("buckling", BendLaw::Buckling)];
 }
 
 impl Choice for Copies {

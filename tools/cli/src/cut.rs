@@ -9,6 +9,8 @@ mod seam;
 pub(crate) mod summary;
 
 use std::ffi::OsString;
+use std::io::Write;
+use std::time::Instant;
 
 use tearmesh::{
     Cursor, Cut, CutEnd, CutLayers, CutMethod, CutTips, Edit, Edits, Masses, Positions, Scissor,
@@ -20,24 +22,23 @@ use self::map::Map;
 use self::no_op::NoOpReason;
 use self::pieces::Pieces;
 use self::scissors::{Along, no_plane, warn_of_skew};
-use self::seam::Seam;
 use crate::args::{CutArgs, Gap, Mass};
 use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::measure::{Bounds, Edges};
-use crate::rays::{self, Pair};
+use crate::rays;
 use crate::say::Fault;
-use crate::session::{self, Clock, Opened, Session};
+use crate::session::{self, Session, milliseconds};
 use crate::streams::Streams;
 use crate::{output, report};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
     let (files, names) = (&args.files, names(args));
-    Session::run("cut", files, &names, typed, streams, |session, streams| {
+    Session::run("cut", files, &names, typed, streams, |session| {
         check(args)?;
-        work(args, session, streams)
+        work(args, session)
     })
 }
 
@@ -51,19 +52,16 @@ fn names(args: &CutArgs) -> Names<'_> {
     Names::new(&args.files, &read, &written)
 }
 
-fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
-    let cuts = scissors::cuts(args, streams)?;
+fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
+    let cuts = scissors::cuts(args, session.streams)?;
     for pair in cuts.iter().filter_map(Along::rays) {
         // Rays that span no plane are refused before a large file is read.
         let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
         warn_of_skew(&scissor, &mut session.faults);
     }
     let pieces = Pieces::of(args, &names(args))?;
-    let Opened {
-        document,
-        mut mesh,
-        mut positions,
-    } = session.open(session::repair(args.repair, args.separate_fans), streams)?;
+    let opened = session.open(session::repair(args.repair, args.separate_fans))?;
+    let (document, mut mesh, mut positions) = (opened.document, opened.mesh, opened.positions);
     let vertices_before = mesh.vertex_count();
     let masses = match args.mass {
         Mass::Area => Masses::area(&mesh, &positions, 1.0),
@@ -71,7 +69,7 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
     };
     let mut masses = masses.map_err(Fault::from)?;
 
-    let clock = Clock::start();
+    let start = Instant::now();
     let mut edits = Edits::new();
     let mut torn = TornDocument::new(&document);
     let gap = args.gap.map(|gap| match gap {
@@ -105,24 +103,23 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
             entry.equivalent = Some(typed);
         }
         session.report.cuts.push(entry);
-        let reason = if done.splits == 0 {
-            let how = (&scissor, args.method, args.snap);
-            no_op::reason(how, through, (&mesh, &positions), &done)
-        } else {
-            NoOpReason::Unknown
+        let how_cut = (&scissor, args.method, args.snap);
+        let reason = match done.splits {
+            0 => no_op::reason(how_cut, through, (&mesh, &positions), &done),
+            _ => NoOpReason::Unknown,
         };
         let extent = done.missed.then(|| Bounds::of(&mesh, &positions));
         let warnings = summary::warnings(number, how(args), &done, reason, extent);
         session.faults.extend(warnings);
         session.faults.extend(summary::of_layers(number, &cut));
-        seams.push(Seam::new(&cut, &mesh, &positions));
+        seams.push(seam::lines(&cut, &mesh, &positions));
     }
-    session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
+    session.timing.cut = milliseconds(start);
 
     let ledger = masses.ledger();
     let moved = || session::moved(&document, &mesh, &positions);
     let broken = (!slid).then(moved).flatten();
-    let mass = session.verify(&mesh, &ledger, report::MassUnit::Area, broken)?;
+    let mass = session.verify(&mesh, &ledger, report::AREA, broken)?;
     if edits.cursor() == Cursor::START && !args.allow_miss {
         return Err(session.nothing_done());
     }
@@ -135,19 +132,17 @@ fn work(args: &CutArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) ->
         shown = Some(points.clone());
         torn.set_apart(points);
     }
-    let fill = |mut out: &mut dyn std::io::Write| torn.write(&mesh, &positions, &mut out);
-    session.write(&mesh, fill, streams)?;
+    let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
+    session.write(&mesh, fill)?;
     let shown = shown.as_deref().unwrap_or(positions.as_slice());
     session.show_mesh(&document, &mesh, shown, Vector::y())?;
     session.show_page(&mesh, shown, Vector::y())?;
-    if let Some(path) = args.seam.as_ref().filter(|_| !args.files.dry_run) {
+    if let Some(path) = args.files.wanted(&args.seam) {
         output::write(path, |out| seam::write(&seams, out))?;
     }
-    let asked = args.map.as_ref().zip(map);
-    if let Some((path, map)) = asked.filter(|_| !args.files.dry_run) {
-        let name = |file: &Option<report::File>| file.as_ref().and_then(|file| file.path.clone());
-        let names = [&session.report.input, &session.report.output].map(name);
-        let names = names.each_ref().map(Option::as_deref);
+    if let Some((path, map)) = args.files.wanted(&args.map).zip(map) {
+        let files = [&session.report.input, &session.report.output];
+        let names = files.map(|file| file.as_ref().and_then(|file| file.path.as_deref()));
         output::write(path, |out| map.write(&torn, &mesh, names, out))?;
     }
     if let Some(pieces) = pieces {
@@ -169,23 +164,20 @@ struct Polyline {
 impl Polyline {
     /// Notes a cut. The log is that of this cut alone.
     fn go_on(&mut self, edits: &Edits, cut: &Cut) {
-        let Some([begin, end]) = cut.ends() else {
-            self.ends = None;
-            return;
-        };
-        let first = self
-            .ends
-            .take()
-            .filter(|[_, last]| last.ray() == begin.ray());
-        let first = first.map(|[mut first, _]| {
-            edits.replay(&mut first);
-            first
+        let before = self.ends.take();
+        self.ends = cut.ends().map(|[begin, end]| {
+            let goes_on = |[_, last]: &[CutEnd; 2]| last.ray() == begin.ray();
+            let first = before.filter(goes_on).map(|[mut first, _]| {
+                edits.replay(&mut first);
+                first
+            });
+            [first.unwrap_or_else(|| begin.clone()), end.clone()]
         });
-        self.ends = Some([first.unwrap_or_else(|| begin.clone()), end.clone()]);
     }
 }
 
-/// The scissor of a cut, by the options.
+/// The scissor of a cut, by the options. That of two rays goes on from where the last cut ended if that
+/// ended with the first of them, and ends where the first of those cuts began if it comes back there.
 fn scissor(
     args: &CutArgs,
     along: &Along,
@@ -193,31 +185,22 @@ fn scissor(
     positions: &Positions,
 ) -> Result<Scissor, Stop> {
     let scissor = match along {
-        Along::Rays(pair) => between(args, pair, line, positions)?,
         Along::Plane(plane) => Scissor::by_plane(*plane),
+        Along::Rays(pair) => {
+            let goes_on = |[_, last]: &&[CutEnd; 2]| last.ray() == pair[0] && !args.through;
+            let scissor = match line.ends.as_ref().filter(goes_on) {
+                Some([first, last]) if first.ray() == pair[1] => {
+                    Scissor::closed(last, first, positions)
+                }
+                Some([_, last]) => Scissor::continued(last, pair[1], positions),
+                None => Scissor::new(pair[0], pair[1]),
+            };
+            scissor.map_err(|error| no_plane(pair, error))?
+        }
     };
-    let scissor = scissor
-        .through(args.through)
-        .tips(args.tips)
-        .layers(args.layers);
-    Ok(scissor.snap(args.snap).snap_move(args.snap_move))
-}
-
-/// The scissor of two rays, which goes on from where the last cut ended if that ended with the
-/// first of them, and ends where the first of those cuts began if it comes back there.
-fn between(
-    args: &CutArgs,
-    pair: &Pair,
-    line: &Polyline,
-    positions: &Positions,
-) -> Result<Scissor, Stop> {
-    let goes_on = |[_, last]: &&[CutEnd; 2]| last.ray() == pair[0] && !args.through;
-    let scissor = match line.ends.as_ref().filter(goes_on) {
-        Some([first, last]) if first.ray() == pair[1] => Scissor::closed(last, first, positions),
-        Some([_, last]) => Scissor::continued(last, pair[1], positions),
-        None => Scissor::new(pair[0], pair[1]),
-    };
-    Ok(scissor.map_err(|error| no_plane(pair, error))?)
+    let scissor = scissor.through(args.through).tips(args.tips);
+    let scissor = scissor.layers(args.layers).snap(args.snap);
+    Ok(scissor.snap_move(args.snap_move))
 }
 
 /// The options that the report repeats.
@@ -231,35 +214,34 @@ fn how(args: &CutArgs) -> report::How {
 fn check(args: &CutArgs) -> Result<(), Stop> {
     let method = args.method.word();
     let is_exact = args.method == CutMethod::Exact;
-    let midpoint_help = match is_exact {
-        true => {
-            "leave it out, because exact ends at the rays themselves, or add --method partition"
-        }
-        false => "leave it out: the paper's methods split vertices between the rays",
-    };
-    let clashes = [
-        (
-            args.layers == CutLayers::First && !args.plane.is_empty(),
-            "`--layers first` is for rays: with a plane, no ray hits a layer first".to_owned(),
+    let refused = |message: &str, help: &str| Err(Stop::usage(message, help));
+    if args.layers == CutLayers::First && !args.plane.is_empty() {
+        let message = "`--layers first` is for rays: with a plane, no ray hits a layer first";
+        return refused(
+            message,
             "cut with --rays or --camera, or leave out --layers",
-        ),
-        (
-            args.tips == CutTips::Midpoint && args.method != CutMethod::Partition,
-            format!("`--tips midpoint` is for the method partition, not {method}"),
-            midpoint_help,
-        ),
-        (
-            args.mass == Mass::Half && is_exact,
-            "`--mass half` cannot follow inserted vertices, and the method exact inserts some"
-                .to_owned(),
-            "use --mass area, or --method partition",
-        ),
-        (
-            args.snap_move && !is_exact,
-            format!("`--snap-move` is for the method exact, not {method}"),
-            "leave it out: the other methods move no vertex",
-        ),
-    ];
-    let clash = clashes.into_iter().find(|(is_clash, ..)| *is_clash);
-    clash.map_or(Ok(()), |(_, message, help)| Err(Stop::usage(message, help)))
+        );
+    }
+    if args.tips == CutTips::Midpoint && args.method != CutMethod::Partition {
+        let message = format!("`--tips midpoint` is for the method partition, not {method}");
+        return refused(
+            &message,
+            match is_exact {
+                true => {
+                    "leave it out, because exact ends at the rays themselves, or add --method partition"
+                }
+                false => "leave it out: the paper's methods split vertices between the rays",
+            },
+        );
+    }
+    if args.mass == Mass::Half && is_exact {
+        let message =
+            "`--mass half` cannot follow inserted vertices, and the method exact inserts some";
+        return refused(message, "use --mass area, or --method partition");
+    }
+    if args.snap_move && !is_exact {
+        let message = format!("`--snap-move` is for the method exact, not {method}");
+        return refused(&message, "leave it out: the other methods move no vertex");
+    }
+    Ok(())
 }

@@ -23,10 +23,8 @@ const WIDTH: usize = 160;
 pub(crate) fn faults(input: &Input, document: Document, error: &MeshError, or: &str) -> Vec<Fault> {
     let lines_of = |defect| lines_of(defect, |face| document.line_of_triangle(face.index()));
     let shown = || error.error().defects().iter().zip(error.shown());
-    let wanted = shown()
-        .flat_map(|(defect, _)| lines_of(defect))
-        .map(|line| (line, String::new()));
-    let texts = read(input, wanted.collect());
+    let wanted = shown().flat_map(|(defect, _)| lines_of(defect));
+    let texts = read(input, wanted.map(|line| (line, String::new())).collect());
     let mut faults: Vec<Fault> = shown()
         .map(|(defect, diagnostic)| {
             let excerpt_of = |line: usize| {
@@ -40,8 +38,7 @@ pub(crate) fn faults(input: &Input, document: Document, error: &MeshError, or: &
             let last = lines.pop();
             let mut fault = Fault::of_file(&input.name, diagnostic);
             if let Some((location, excerpt)) = last.and_then(excerpt_of) {
-                fault.location = Some(location);
-                fault.excerpt = Some(excerpt);
+                (fault.location, fault.excerpt) = (Some(location), Some(excerpt));
             }
             fault.related = lines.into_iter().filter_map(excerpt_of).collect();
             fault
@@ -50,10 +47,8 @@ pub(crate) fn faults(input: &Input, document: Document, error: &MeshError, or: &
     let more = error.error().count() - faults.len();
     if let Some(last) = faults.last_mut() {
         if more > 0 {
-            last.message.push_str(&format!(
-                "; and {}",
-                count(more, "more defect", "more defects")
-            ));
+            let more = count(more, "more defect", "more defects");
+            last.message.push_str(&format!("; and {more}"));
         }
         if let (Some(option), Some(help)) = (option_that_repairs(document), &mut last.help) {
             help.push_str(&format!("; {or} {option}"));

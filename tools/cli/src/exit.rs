@@ -65,6 +65,12 @@ impl Stop {
         }
     }
 
+    /// A run whose end the report and the warnings explain.
+    pub(crate) fn explained(exit: Exit) -> Stop {
+        let faults = Vec::new();
+        Stop { exit, faults }
+    }
+
     /// A run that was asked for what cannot be done.
     pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Stop {
         Fault::error("E-USAGE", message).help(help).into()

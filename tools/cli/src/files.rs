@@ -28,13 +28,10 @@ pub(crate) fn check(args: &FileArgs) -> Result<(), Stop> {
         let help = "name the file to read, or leave out --in-place";
         return Err(Stop::usage("standard input cannot be replaced", help));
     }
-    let output = args.output.as_ref();
-    if let Some((path, help)) = output.and_then(|path| Some((path, foreign(path)?))) {
-        return Err(only("OBJ", path, &help));
-    }
+    args.output.as_deref().map_or(Ok(()), check_mesh)?;
     args.picture.as_deref().map_or(Ok(()), check_picture)?;
     args.view.as_deref().map_or(Ok(()), check_page)?;
-    if args.format == Format::Json && output.is_some_and(is_stream) {
+    if args.format == Format::Json && args.output.as_ref().is_some_and(is_stream) {
         let message = "`-o -` and `--format json` both use standard output";
         let help = "write the mesh to a file, or the report with --report FILE";
         return Err(Stop::usage(message, help));
@@ -63,14 +60,12 @@ impl<'a> Names<'a> {
             ("--picture", &args.picture, "the picture"),
             ("--view", &args.view, "the page"),
         ];
-        let written = written.iter().copied().chain(of_all);
+        let written = written.iter().chain(&of_all);
         let written =
-            written.filter_map(|(option, path, what)| Some((option, path.as_deref()?, what)));
+            written.filter_map(|&(option, path, what)| Some((option, path.as_deref()?, what)));
+        let input = [(&*args.input, "the input")].into_iter();
         Names {
-            read: [(&*args.input, "the input")]
-                .into_iter()
-                .chain(read)
-                .collect(),
+            read: input.chain(read).collect(),
             written: written.collect(),
             in_place: args.in_place,
         }
@@ -91,11 +86,9 @@ impl<'a> Names<'a> {
             let may_replace = |what| is_output && self.in_place && what == "the input";
             let is_lost = |(other, what): &&(&Path, _)| is_same(other, path) && !may_replace(*what);
             if let Some((_, lost)) = taken.iter().find(is_lost) {
-                let or = match is_output && *lost == "the input" {
-                    true => ", or add --in-place",
-                    false => "",
-                };
-                return Err(replaced(path, lost, or));
+                let can_be_meant = is_output && *lost == "the input";
+                let or = can_be_meant.then_some(", or add --in-place");
+                return Err(replaced(path, lost, or.unwrap_or_default()));
             }
             // The other two may be in a folder that is made for frames.
             if !matches!(option, "-o" | "--report") {
@@ -129,13 +122,11 @@ impl<'a> Names<'a> {
 /// Refuses more than one input from standard input.
 pub(crate) fn one_stream<P: AsRef<Path>>(inputs: &[P]) -> Result<(), Stop> {
     let is_stream = |path: &&P| path.as_ref() == Path::new("-");
-    match inputs.iter().filter(is_stream).count() {
-        0 | 1 => Ok(()),
-        _ => Err(Stop::usage(
-            "two inputs both come from standard input",
-            "name a file for one of them",
-        )),
+    if inputs.iter().filter(is_stream).count() > 1 {
+        let message = "two inputs both come from standard input";
+        return Err(Stop::usage(message, "name a file for one of them"));
     }
+    Ok(())
 }
 
 /// That a file is named like one of another format than the only one that is written.
@@ -147,46 +138,44 @@ fn only(format: &str, path: &Path, help: &str) -> Stop {
 
 /// Refuses a picture that is named like a file of another format.
 pub(crate) fn check_picture(path: &Path) -> Result<(), Stop> {
-    match has_ending(path, &["png"]) {
-        true => Ok(()),
-        false => Err(only("PNG", path, "name it x.png")),
+    match ending(path).as_deref() {
+        None | Some("png") => Ok(()),
+        _ => Err(only("PNG", path, "name it x.png")),
     }
 }
 
 /// Refuses a page that is named like a file of another format.
 pub(crate) fn check_page(path: &Path) -> Result<(), Stop> {
-    match has_ending(path, &["html", "htm"]) {
-        true => Ok(()),
-        false => Err(only("HTML", path, "name it x.html")),
+    match ending(path).as_deref() {
+        None | Some("html" | "htm") => Ok(()),
+        _ => Err(only("HTML", path, "name it x.html")),
     }
 }
 
-/// Whether a name has one of these endings, or none, as the names of streams and devices.
-fn has_ending(path: &Path, endings: &[&str]) -> bool {
-    let is_one =
-        |ending: &std::ffi::OsStr| endings.iter().any(|one| ending.eq_ignore_ascii_case(one));
-    path.extension().is_none_or(is_one)
+/// Refuses a mesh that is named like a file of a format other than OBJ.
+fn check_mesh(path: &Path) -> Result<(), Stop> {
+    let ending = ending(path).unwrap_or_default();
+    let is_of = |(endings, _): &&(&str, _)| endings.split(' ').any(|one| one == ending);
+    match FOREIGN.iter().find(is_of) {
+        Some((_, help)) => Err(only("OBJ", path, &format!("name it x.obj, and {help}"))),
+        None => Ok(()),
+    }
 }
 
-/// What to do instead, if a file's name promises a format that is not OBJ.
-fn foreign(path: &Path) -> Option<String> {
-    let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-    let of = |(endings, _): &&(&[&str], _)| endings.contains(&&*ending);
-    let found = FOREIGN.iter().find(of);
-    found.map(|(_, help)| format!("name it x.obj, and {help}"))
+/// The ending of a name in small letters. Those of streams and devices have none.
+fn ending(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_string_lossy().to_ascii_lowercase())
 }
 
-const FOREIGN: [(&[&str], &str); 5] = [
-    (&["png"], "draw a picture with --picture F.png"),
-    (&["htm", "html"], "show it on a page with --view F.html"),
-    (&["pc2"], "write the cache of `tear` with --cache F.pc2"),
-    (&["json"], "write the report with --report F.json"),
+/// Endings of names, and what to do instead.
+const FOREIGN: [(&str, &str); 5] = [
+    ("png", "draw a picture with --picture F.png"),
+    ("htm html", "show it on a page with --view F.html"),
+    ("pc2", "write the cache of `tear` with --cache F.pc2"),
+    ("json", "write the report with --report F.json"),
     (
-        &[
-            "3ds", "3mf", "abc", "blend", "bmp", "dae", "dxf", "fbx", "glb", "gltf", "jpeg", "jpg",
-            "mdd", "mtl", "off", "ply", "step", "stl", "stp", "svg", "usd", "usda", "usdc", "usdz",
-            "vtk", "vtp", "vtu", "wrl", "x3d",
-        ],
+        "3ds 3mf abc blend bmp dae dxf fbx glb gltf jpeg jpg mdd mtl off ply step stl stp svg usd usda usdc \
+         usdz vtk vtp vtu wrl x3d",
         "convert that, as with `assimp export x.obj x.ply`",
     ),
 ];
@@ -194,11 +183,10 @@ const FOREIGN: [(&[&str], &str); 5] = [
 /// What to say before anything is done, if a run writes no mesh and was not told so: it may take long.
 pub(crate) fn unwritten(args: &FileArgs, output_is_terminal: bool) -> Option<Fault> {
     let is_meant = args.dry_run || args.format == Format::Json || args.output.is_some();
-    (output_is_terminal && !is_meant).then(|| {
-        let message = "the mesh will not be written, because no -o OUT was given".to_owned();
-        Fault::warning("W-OUTPUT-NONE", message)
-            .help("add -o OUT, or --dry-run if that is intended")
-    })
+    let message = "the mesh will not be written, because no -o OUT was given";
+    let fault = Fault::warning("W-OUTPUT-NONE", message);
+    let fault = fault.help("add -o OUT, or --dry-run if that is intended");
+    (output_is_terminal && !is_meant).then_some(fault)
 }
 
 /// Refuses a page or a picture, or standard output, that would replace an input or cannot be written.
@@ -206,10 +194,10 @@ pub(crate) fn check_shown(path: &Path, inputs: &[PathBuf], what: &str) -> Result
     if inputs.iter().any(|input| is_same(input, path)) {
         return Err(replaced(path, what, ""));
     }
-    match path == Path::new("-") {
-        true => Ok(()),
-        false => Ok(output::check(path)?),
+    if path != Path::new("-") {
+        output::check(path)?;
     }
+    Ok(())
 }
 
 /// That a file would be written over that is `what`.

@@ -1,15 +1,13 @@
 //! Input files and standard input.
 
-mod foreign;
 pub(crate) mod named;
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use tearmesh_obj::Document;
+use tearmesh_obj::{Document, ReadError};
 
-use self::foreign::{Format, OPENING};
 use crate::exit::Stop;
 use crate::say::Fault;
 
@@ -75,41 +73,35 @@ impl Input {
         let mut text = String::new();
         let read = self.open()?.read_to_string(&mut text);
         read.map_err(|error| cannot_read(&self.name, &error))?;
-        match text.strip_prefix('\u{feff}') {
-            Some(rest) => Ok(rest.to_owned()),
-            None => Ok(text),
-        }
+        Ok(text.trim_start_matches('\u{feff}').to_owned())
     }
 
     /// The document in it.
     pub(crate) fn document(&self) -> Result<Document, Stop> {
         let name = &self.name;
-        Document::read(self.open()?).map_err(|error| {
-            Stop::from(match (error.diagnostic(), self.foreign_format()) {
-                (Some(_), Some(format)) => {
-                    let message = format!("`{name}` is {} file, not OBJ", format.name());
-                    Fault::error("E-IO-FORMAT", message).help(format.advice(name))
-                }
-                (Some(diagnostic), None) => Fault::of_file(name, diagnostic),
-                (None, _) => Fault::error("E-IO-READ", format!("`{name}`: {error}")),
-            })
-        })
-    }
-
-    /// The format of a file that is not OBJ, if it is known.
-    fn foreign_format(&self) -> Option<Format> {
-        let length = match &self.source {
-            Source::Bytes(bytes) => bytes.len() as u64,
-            Source::File(path) => path.metadata().ok()?.len(),
+        let refused = |error: ReadError| match (error.diagnostic(), foreign(name)) {
+            (Some(_), Some(fault)) => fault,
+            (Some(diagnostic), None) => Fault::of_file(name, diagnostic),
+            (None, _) => Fault::error("E-IO-READ", format!("`{name}`: {error}")),
         };
-        let mut opening = Vec::new();
-        let read = self
-            .open()
-            .ok()?
-            .take(OPENING as u64)
-            .read_to_end(&mut opening);
-        Format::of(&opening, length).filter(|_| read.is_ok())
+        Ok(Document::read(self.open()?).map_err(refused)?)
     }
+}
+
+/// That a file is of another format, if its name says so, and how it is converted.
+fn foreign(name: &str) -> Option<Fault> {
+    let (stem, ending) = name.rsplit_once('.')?;
+    let (format, options) = match &*ending.to_ascii_lowercase() {
+        "ply" => ("a PLY", "`"),
+        "stl" => (
+            "an STL",
+            " -jiv`, which joins the corners that STL has once a face",
+        ),
+        _ => return None,
+    };
+    let help = format!("convert it first, as with `assimp export {name} {stem}.obj{options}");
+    let message = format!("`{name}` is {format} file, not OBJ");
+    Some(Fault::error("E-IO-FORMAT", message).help(help))
 }
 
 /// That something cannot be read.
@@ -122,15 +114,12 @@ fn similar(path: &Path) -> Option<PathBuf> {
     let wanted = path.file_name()?.to_string_lossy();
     let folder = path.parent().filter(|folder| *folder != Path::new(""));
     let entries = folder.unwrap_or(Path::new(".")).read_dir().ok()?;
-    let names = entries.filter_map(|entry| Some(entry.ok()?.file_name()));
-    let near = names
-        .map(|name| {
-            (
-                strsim::damerau_levenshtein(&wanted, &name.to_string_lossy()),
-                name,
-            )
-        })
-        .filter(|(distance, _)| 3 * distance <= wanted.chars().count());
+    let distances = entries.filter_map(|entry| {
+        let name = entry.ok()?.file_name();
+        let distance = strsim::damerau_levenshtein(&wanted, &name.to_string_lossy());
+        Some((distance, name))
+    });
+    let near = distances.filter(|(distance, _)| 3 * distance <= wanted.chars().count());
     let (_, name) = near.min()?;
-    Some(folder.map_or_else(|| PathBuf::from(&name), |folder| folder.join(&name)))
+    Some(folder.unwrap_or(Path::new("")).join(name))
 }

@@ -72,24 +72,23 @@ pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -
         Ok(Verb::Chart(chart)) => chart::run(&chart, &args, &mut streams),
         Ok(Verb::Completions(shell)) => shell::complete(&shell, &mut streams),
         Ok(Verb::Man(man)) => shell::man(&man, &mut streams),
-        Err(help) if !help.use_stderr() => {
-            let text = help.render();
-            let is_terminal = streams.output_is_terminal;
-            let shown = output::print(streams.output, |out| match is_terminal {
-                true => write!(out, "{}", text.ansi()),
-                false => write!(out, "{text}"),
-            });
-            let shown = shown.map(|_| Exit::Done);
-            shown.unwrap_or_else(|fault| streams.fail(&fault, Color::Auto, Exit::Output))
-        }
-        Err(error) => {
-            let text = error.render();
-            // Nowhere is left to complain if standard error is closed.
-            let _ = if streams.error_is_terminal {
-                write!(streams.error, "{}", text.ansi())
-            } else {
-                write!(streams.error, "{text}")
+        Err(answer) => {
+            let is_help = !answer.use_stderr();
+            let is_terminal = match is_help {
+                true => streams.output_is_terminal,
+                false => streams.error_is_terminal,
             };
+            let text = match is_terminal {
+                true => answer.render().ansi().to_string(),
+                false => answer.render().to_string(),
+            };
+            if is_help {
+                let shown = output::print_text(streams.output, &text).map(|()| Exit::Done);
+                return shown
+                    .unwrap_or_else(|fault| streams.fail(&fault, Color::Auto, Exit::Output));
+            }
+            // Nowhere is left to complain if standard error is closed.
+            let _ = write!(streams.error, "{text}");
             Exit::Usage
         }
     }

@@ -13,20 +13,16 @@ pub(crate) struct Bounds {
 impl Bounds {
     /// Those of a mesh with a face; vertices without one do not count.
     pub(crate) fn of(mesh: &Mesh, positions: &Positions) -> Bounds {
-        let mut bounds = Bounds {
-            min: [f64::INFINITY; 3],
-            max: [f64::NEG_INFINITY; 3],
-        };
         let has_face = |&v: &_| mesh.half_edge_of(v).is_some();
-        for v in mesh.vertices().filter(has_face) {
-            let at: [f64; 3] = positions.at(v).into();
-            for (axis, x) in at.into_iter().enumerate() {
-                // Adding zero turns −0 into 0.
-                bounds.min[axis] = bounds.min[axis].min(x) + 0.0;
-                bounds.max[axis] = bounds.max[axis].max(x) + 0.0;
-            }
+        let end = |start: f64, end: fn(f64, f64) -> f64, axis: usize| {
+            let vertices = mesh.vertices().filter(has_face);
+            // Adding zero turns −0 into 0.
+            vertices.fold(start, |most, v| end(most, positions.at(v)[axis]) + 0.0)
+        };
+        Bounds {
+            min: [0, 1, 2].map(|axis| end(f64::INFINITY, f64::min, axis)),
+            max: [0, 1, 2].map(|axis| end(f64::NEG_INFINITY, f64::max, axis)),
         }
-        bounds
     }
 }
 
@@ -41,19 +37,12 @@ pub(crate) struct Edges {
 impl Edges {
     /// Those of a mesh with a face. The two sides of a torn edge are two.
     pub(crate) fn of(mesh: &Mesh, positions: &Positions) -> Edges {
-        let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
-        let (mut sum, mut count) = (0.0, 0.0);
-        for h in mesh.edges() {
-            let along = positions.at(mesh.target(h)) - positions.at(mesh.origin(h));
-            let length = along.norm();
-            (shortest, longest) = (shortest.min(length), longest.max(length));
-            sum += length;
-            count += 1.0;
-        }
+        let length = |h| (positions.at(mesh.target(h)) - positions.at(mesh.origin(h))).norm();
+        let lengths = || mesh.edges().map(length);
         Edges {
-            shortest,
-            mean: sum / count,
-            longest,
+            shortest: lengths().fold(f64::INFINITY, f64::min),
+            mean: lengths().sum::<f64>() / lengths().count() as f64,
+            longest: lengths().fold(0.0, f64::max),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::time::Instant;
 
 use tearmesh::mend::{self, SewError, Stitch, StitchError};
 use tearmesh::{Edit, Edits, Masses, Mesh, Positions, Vector, VertexId};
@@ -12,23 +13,20 @@ use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::report;
 use crate::say::{Fault, count};
-use crate::session::{self, Clock, Opened, Session};
+use crate::session::{self, Session, milliseconds};
 use crate::streams::Streams;
 
 /// Mends, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
     let (files, names) = (&args.files, Names::new(&args.files, &[], &[]));
-    Session::run("mend", files, &names, typed, streams, |session, streams| {
-        work(args, session, streams)
+    Session::run("mend", files, &names, typed, streams, |session| {
+        work(args, session)
     })
 }
 
-fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
-    let Opened {
-        mut document,
-        mut mesh,
-        mut positions,
-    } = session.open(None, streams)?;
+fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
+    let opened = session.open(None)?;
+    let (mut document, mut mesh, mut positions) = (opened.document, opened.mesh, opened.positions);
     if args.coincident {
         (document, mesh) = torn_at(document, &mesh)?;
     }
@@ -37,32 +35,30 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let mut masses = masses.map_err(Fault::from)?;
     let mut torn = TornDocument::new(&document);
 
-    let clock = Clock::start();
+    let start = Instant::now();
     let stitches = stitches(args, &mesh, &positions, &torn);
     let apart = |stitch: &Stitch| positions.at(stitch.kept()) != positions.at(stitch.gone());
     let moves = stitches.iter().any(apart);
     let mut edits = Edits::new();
     let (weight, farthest) = (|v| masses.at(v), args.max_distance.unwrap_or(f64::INFINITY));
-    let merged = mend::sew(
-        &mut mesh, &positions, &stitches, weight, farthest, &mut edits,
-    )
-    .map_err(|error| too_far(&error, &document))?;
+    let log = &mut edits;
+    let merged = mend::sew(&mut mesh, &positions, &stitches, weight, farthest, log);
+    let merged = merged.map_err(|error| too_far(&error, &document))?;
     edits.replay(&mut (&mut positions, &mut masses, &mut torn));
     close_gaps(&mut torn, &mesh, &edits, vertices_before);
-    session.report.timing_ms.get_or_insert_default().cut = clock.milliseconds();
+    session.timing.cut = milliseconds(start);
 
     let mut ledger = masses.ledger();
     let moved = || session::moved(&document, &mesh, &positions);
     let broken = (!moves).then(moved).flatten();
-    let mut mass = session.verify(&mesh, &ledger, report::MassUnit::Area, broken)?;
+    let mut mass = session.verify(&mesh, &ledger, report::AREA, broken)?;
 
     let simplified = match args.simplify {
         true => torn.simplified(&mesh, &positions),
         false => Ok(Simplified::default()),
     };
     let simplified = simplified.expect("what we wrote can be read");
-    let (edited, slid_edited) = (simplified.edited, simplified.slid_edited);
-    session.faults.extend(kept(edited, slid_edited));
+    session.faults.extend(kept(&simplified));
     if merged == 0 && simplified.document.is_none() {
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
@@ -72,11 +68,8 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
             false => document.coincident(&mesh),
         };
         if pairs.edges() > 0 {
-            let edges = count(
-                pairs.edges(),
-                "pair of boundary edges lies",
-                "pairs of boundary edges lie",
-            );
+            let (one, many) = ("pair of boundary edges lies", "pairs of boundary edges lie");
+            let edges = count(pairs.edges(), one, many);
             fault.message = format!("the file has no record of cuts; {edges} on each other");
             let help = "if another program dropped the record, --coincident sews them";
             fault = fault.help(help);
@@ -96,50 +89,50 @@ fn work(args: &MendArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         // What was moved spans another area: the mass is that of what is written.
         let masses = Masses::area(&mesh, &positions, 1.0).map_err(Fault::from)?;
         ledger.after = masses.ledger().after;
-        mass = session.say_mass(&ledger, report::MassUnit::Area);
+        mass = session.note_mass(&ledger, report::AREA);
     }
     let simple = simplified.document.as_ref().map(TornDocument::new);
     let torn = simple.as_ref().unwrap_or(&torn);
     let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
-    session.write(&mesh, fill, streams)?;
+    session.write(&mesh, fill)?;
     session.show_mesh(&document, &mesh, &positions, Vector::y())?;
     session.show_page(&mesh, &positions, Vector::y())?;
-    let taken_out = vertices_mended - mesh.vertex_count();
-    let pieces = mesh.components().count();
-    session.report.mend = Some(report::Mend {
+    let mended = report::Mend {
         merged,
         cuts_left,
-        vertices_removed: taken_out,
-        vertices_edited: edited,
+        vertices_removed: vertices_mended - mesh.vertex_count(),
+        vertices_edited: simplified.edited,
         vertices_slid_back: simplified.slid_back,
-        vertices_slid_edited: slid_edited,
+        vertices_slid_edited: simplified.slid_edited,
         faces_removed: faces_before - mesh.face_count(),
         pieces_before,
-        pieces,
-    });
-    let mut words = format!(
-        "mend: {} sewn, {} -> {}",
-        count(merged, "vertex", "vertices"),
-        count(pieces_before, "piece", "pieces"),
-        count(pieces, "piece", "pieces"),
-    );
-    let slid_back = count(simplified.slid_back, "vertex", "vertices");
-    for (number, what, done) in [
-        (
-            taken_out,
-            count(taken_out, "inserted vertex", "inserted vertices"),
-            "removed",
-        ),
-        (simplified.slid_back, slid_back, "moved back"),
-        (cuts_left, count(cuts_left, "cut", "cuts"), "left"),
-    ] {
-        if number > 0 {
-            words += &format!(", {what} {done}");
-        }
-    }
-    session.words.push(words);
+        pieces: mesh.components().count(),
+    };
+    session.words.push(summary(&mended));
+    session.report.mend = Some(mended);
     session.end(vertices_before, &mesh, mass);
     Ok(())
+}
+
+/// The line of the summary.
+fn summary(mended: &report::Mend) -> String {
+    let mut words = format!(
+        "mend: {} sewn, {} -> {}",
+        count(mended.merged, "vertex", "vertices"),
+        count(mended.pieces_before, "piece", "pieces"),
+        count(mended.pieces, "piece", "pieces"),
+    );
+    let (removed, moved) = (mended.vertices_removed, mended.vertices_slid_back);
+    for (number, one, many, done) in [
+        (removed, "inserted vertex", "inserted vertices", "removed"),
+        (moved, "vertex", "vertices", "moved back"),
+        (mended.cuts_left, "cut", "cuts", "left"),
+    ] {
+        if number > 0 {
+            words += &format!(", {} {done}", count(number, one, many));
+        }
+    }
+    words
 }
 
 /// Writes pieces where they are that something was sewn to. Each part of one may have been written apart
@@ -157,10 +150,9 @@ fn close_gaps(torn: &mut TornDocument<'_>, mesh: &Mesh, edits: &Edits, vertices_
     let components = mesh.components();
     let piece = |v: VertexId| Some(components.of(mesh.half_edge_of(v)?.face()));
     let mut is_closed = vec![false; components.count()];
-    for v in mesh.vertices().filter(|v| is_sewn[v.index()]) {
-        piece(v)
-            .into_iter()
-            .for_each(|piece| is_closed[piece] = true);
+    let sewn = mesh.vertices().filter(|v| is_sewn[v.index()]);
+    for piece in sewn.filter_map(piece) {
+        is_closed[piece] = true;
     }
     torn.set_in_place(|v| piece(v).is_some_and(|piece| is_closed[piece]));
 }
@@ -170,18 +162,13 @@ fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
     if document.has_record() {
         let message =
             "`--coincident` is for a file without a record of its cuts, and this one has one";
-        return Err(Stop::usage(
-            message,
-            "leave it out: the record is more exact",
-        ));
+        let help = "leave it out: the record is more exact";
+        return Err(Stop::usage(message, help));
     }
     let pairs = document.coincident(mesh);
     document.torn_at(&pairs).map_err(|error| {
-        let edges = count(
-            pairs.edges(),
-            "pair of boundary edges",
-            "pairs of boundary edges",
-        );
+        let (one, many) = ("pair of boundary edges", "pairs of boundary edges");
+        let edges = count(pairs.edges(), one, many);
         let message = format!("{edges} cannot be sewn: {error}");
         Fault::error("E-MEND-COINCIDENT", message).into()
     })
@@ -194,31 +181,30 @@ fn stitches(
     positions: &Positions,
     torn: &TornDocument<'_>,
 ) -> Vec<Stitch> {
-    match (args.last, args.near.zip(args.radius)) {
-        (Some(last), _) => torn.stitches_of_last(last.get()),
-        (None, Some((centre, radius))) => {
-            mend::stitches(mesh, |v| (positions.at(v) - centre).norm() <= radius)
-        }
-        (None, None) => mend::stitches(mesh, |_| true),
+    if let Some(last) = args.last {
+        return torn.stitches_of_last(last.get());
     }
+    let ball = args.near.zip(args.radius);
+    let is_in = |v| ball.is_none_or(|(centre, radius)| (positions.at(v) - centre).norm() <= radius);
+    mend::stitches(mesh, is_in)
 }
 
 /// Warns of vertices that stay where they are, because they were edited since.
-fn kept(inserted: usize, slid: usize) -> impl Iterator<Item = Fault> {
-    let all = [
-        (
-            inserted,
-            "inserted vertex was edited since the cut and stays, as do the divided faces that depend on it",
-            "inserted vertices were edited since the cut and stay, as do the divided faces that depend on them",
-        ),
-        (
-            slid,
-            "vertex that a cut moved was edited since and stays in place",
-            "vertices that cuts moved were edited since and stay in place",
-        ),
-    ];
-    let some = all.into_iter().filter(|&(number, ..)| number > 0);
-    some.map(|(number, one, many)| Fault::warning("W-MEND-EDITED", count(number, one, many)))
+fn kept(simplified: &Simplified) -> impl Iterator<Item = Fault> {
+    let (inserted, slid) = (simplified.edited, simplified.slid_edited);
+    let of_inserted = count(
+        inserted,
+        "inserted vertex was edited since the cut and stays, as do the divided faces that depend on it",
+        "inserted vertices were edited since the cut and stay, as do the divided faces that depend on them",
+    );
+    let of_slid = count(
+        slid,
+        "vertex that a cut moved was edited since and stays in place",
+        "vertices that cuts moved were edited since and stay in place",
+    );
+    let all = [(inserted, of_inserted), (slid, of_slid)].into_iter();
+    let some = all.filter(|&(number, _)| number > 0);
+    some.map(|(_, message)| Fault::warning("W-MEND-EDITED", message))
 }
 
 /// Says which vertices are too far apart, by their numbers in the file.
@@ -228,11 +214,9 @@ fn too_far(error: &SewError, document: &Document) -> Stop {
         let StitchError::Distance { distance } = why else {
             panic!("stitches are of one root, and masses are weights: {error}")
         };
-        let message = format!(
-            "the vertices {} and {} are {distance} apart",
-            document.number_of_vertex(stitch.kept().index()),
-            document.number_of_vertex(stitch.gone().index())
-        );
+        let number = |v: VertexId| document.number_of_vertex(v.index());
+        let (one, other) = (number(stitch.kept()), number(stitch.gone()));
+        let message = format!("the vertices {one} and {other} are {distance} apart");
         faults.push(Fault::error("E-MEND-DISTANCE", message));
     }
     let more = error.refused().len().saturating_sub(SHOWN);

@@ -43,16 +43,10 @@ pub(crate) fn write<T>(
 fn replace<T>(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<T>) -> io::Result<T> {
     let (path, existing) = place(path)?;
     if existing.as_ref().is_some_and(|found| !found.is_file()) {
-        let mut out = BufWriter::new(File::options().write(true).open(&path)?);
-        let filled = fill(&mut out)?;
-        out.flush()?;
-        return Ok(filled);
+        return filled(&File::options().write(true).open(&path)?, fill);
     }
     let draft = draft(&path)?;
-    let mut out = BufWriter::new(draft.as_file());
-    let filled = fill(&mut out)?;
-    out.flush()?;
-    drop(out);
+    let filled = filled(draft.as_file(), fill)?;
     if let Some(existing) = existing {
         draft.as_file().set_permissions(existing.permissions())?;
     }
@@ -60,6 +54,13 @@ fn replace<T>(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<T>) -
     // An interruption comes before or after the renaming.
     let _last = last_draft();
     draft.persist(&path).map_err(|failed| failed.error)?;
+    Ok(filled)
+}
+
+fn filled<T>(file: &File, fill: impl FnOnce(&mut dyn Write) -> io::Result<T>) -> io::Result<T> {
+    let mut out = BufWriter::new(file);
+    let filled = fill(&mut out)?;
+    out.flush()?;
     Ok(filled)
 }
 
@@ -93,10 +94,8 @@ fn place(path: &Path) -> io::Result<(PathBuf, Option<fs::Metadata>)> {
     let path = resolve_links(path)?;
     let existing = fs::metadata(&path).ok();
     if existing.as_ref().is_some_and(fs::Metadata::is_dir) {
-        return Err(io::Error::new(
-            io::ErrorKind::IsADirectory,
-            "it is a directory",
-        ));
+        let message = "it is a directory";
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, message));
     }
     Ok((path, existing))
 }
@@ -130,17 +129,12 @@ fn resolve_links(path: &Path) -> io::Result<PathBuf> {
     // As many links as Linux follows.
     for _ in 0..40 {
         match fs::read_link(&path) {
-            Ok(target) => {
-                path = path
-                    .parent()
-                    .map_or_else(|| target.clone(), |folder| folder.join(&target));
-            }
+            Ok(target) => path = folder(&path).join(target),
             Err(_) => return Ok(path),
         }
     }
-    Err(io::Error::other(
-        "it is a symbolic link that leads back to itself",
-    ))
+    let message = "it is a symbolic link that leads back to itself";
+    Err(io::Error::other(message))
 }
 
 /// Whether two paths lead to the same file.
@@ -179,20 +173,23 @@ pub(crate) fn print<T>(
     out: &mut dyn Write,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<T>,
 ) -> Result<Option<T>, Fault> {
-    let filled = fill(out).and_then(|filled| out.flush().map(|()| filled));
-    match filled {
+    match fill(out).and_then(|filled| out.flush().map(|()| filled)) {
         Ok(filled) => Ok(Some(filled)),
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(None),
         Err(error) => Err(cannot_write(Path::new("-"), &error)),
     }
 }
 
+/// Prints a text, as far as anybody reads it.
+pub(crate) fn print_text(out: &mut dyn Write, text: &str) -> Result<(), Fault> {
+    print(out, |out| out.write_all(text.as_bytes())).map(|_| ())
+}
+
 /// Says that a file, or standard output where it is `-`, cannot be written.
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Fault {
-    let name = if path == Path::new("-") {
-        "standard output".to_owned()
-    } else {
-        format!("`{}`", path.display())
+    let name = match path == Path::new("-") {
+        true => "standard output".to_owned(),
+        false => format!("`{}`", path.display()),
     };
     Fault::error("E-IO-WRITE", format!("cannot write {name}: {error}"))
 }

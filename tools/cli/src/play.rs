@@ -29,20 +29,17 @@ pub(crate) fn run(
         let (input, opened) = session::look(input, &args.look, faults, streams)?;
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
-        cloth = [
-            count(opened.mesh.vertex_count(), "vertex", "vertices"),
-            count(opened.mesh.face_count(), "face", "faces"),
-        ]
-        .join(", ");
+        let vertices = count(opened.mesh.vertex_count(), "vertex", "vertices");
+        let faces = count(opened.mesh.face_count(), "face", "faces");
+        cloth = format!("{vertices}, {faces}");
     }
     output::write_or_print(&path, streams.output, |out| made.write(out))?;
     if path == Path::new("-") {
         return Ok(String::new());
     }
     let (scene, path) = (&args.scene, path.display());
-    Ok(format!(
-        "play: {cloth}, scene {scene} · wrote {path}: open it in a browser"
-    ))
+    let words = format!("play: {cloth}, scene {scene} · wrote {path}: open it in a browser");
+    Ok(words)
 }
 
 /// The file that the page is given: as it was read, and repaired where that was wanted.
@@ -57,9 +54,8 @@ fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
         return Err(Fault::error("E-VIEW-EMPTY", "there is no cloth to play with").into());
     }
     let mut bytes = Vec::new();
-    let written = opened
-        .document
-        .write(&opened.mesh, &opened.positions, &mut bytes);
+    let document = &opened.document;
+    let written = document.write(&opened.mesh, &opened.positions, &mut bytes);
     written.expect("memory takes all that is written");
     Ok(bytes)
 }

@@ -81,11 +81,11 @@ pub(crate) const RAY_HELP: &str =
 /// The message for a wrong number of rays, and the label for the place where they are given.
 pub(crate) fn miscounted(count: usize) -> (String, &'static str) {
     let (given, label) = match count {
-        0 => ("none was given".to_owned(), "two rays missing"),
-        1 => ("one was given".to_owned(), "a second ray is missing"),
-        _ => (format!("{count} were given"), "one too many"),
+        0 => ("none was", "two rays missing"),
+        1 => ("one was", "a second ray is missing"),
+        _ => (&*format!("{count} were"), "one too many"),
     };
-    (format!("a cut takes two rays, but {given}"), label)
+    (format!("a cut takes two rays, but {given} given"), label)
 }
 
 /// Reads a file of rays: two a line; `#` begins a comment.

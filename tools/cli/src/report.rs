@@ -46,7 +46,6 @@ impl Report {
             schema: "tearmesh.report/1",
             version: env!("CARGO_PKG_VERSION"),
             command,
-            timing_ms: Some(Timing::default()),
             ..Report::default()
         }
     }
@@ -207,7 +206,7 @@ pub(crate) struct FirstTear {
 pub(crate) struct StepCheck {
     pub(crate) noise_m: f64,
     /// At the step, and at half of it: every run, failed ones as well.
-    pub(crate) ensembles: Vec<Ensemble>,
+    pub(crate) ensembles: [Ensemble; 2],
     pub(crate) quantities: Vec<StepQuantity>,
 }
 
@@ -307,26 +306,23 @@ impl Cut {
         let plane = scissor.plane();
         // Adding zero turns −0 into 0.
         let zero = Vector::zeros();
+        let ray = |ray: Ray| RayEntry {
+            origin: ray.origin() + zero,
+            direction: ray.direction() + zero,
+        };
+        let layer = |hit: tearmesh::LayerHit| LayerEntry {
+            at: hit.at + zero,
+            chain: hit.chain.index(),
+        };
         Cut {
-            rays: rays.map(|rays| {
-                rays.map(|ray| RayEntry {
-                    origin: ray.origin() + zero,
-                    direction: ray.direction() + zero,
-                })
-            }),
+            rays: rays.map(|rays| rays.map(ray)),
             equivalent: None,
             how,
             plane: PlaneEntry {
                 point: plane.point() + zero,
                 normal: plane.normal() + zero,
             },
-            layers: cut.map(|cut| {
-                let entry = |hit: tearmesh::LayerHit| LayerEntry {
-                    at: hit.at + zero,
-                    chain: hit.chain.index(),
-                };
-                cut.layers().map(|hit| hit.map(entry))
-            }),
+            layers: cut.map(|cut| cut.layers().map(|hit| hit.map(layer))),
             report: report.clone(),
         }
     }
@@ -356,19 +352,13 @@ struct PlaneEntry {
 pub(crate) struct Mass {
     pub(crate) before: f64,
     pub(crate) after: f64,
-    pub(crate) unit: MassUnit,
+    pub(crate) unit: &'static str,
 }
 
-/// What vertices are weighed in.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) enum MassUnit {
-    /// No density was given: the mass is the area of the faces, in squares of the file's unit of
-    /// length.
-    #[serde(rename = "area")]
-    Area,
-    #[serde(rename = "kg")]
-    Kilogram,
-}
+/// The unit where no density was given: the mass is the area of the faces, in squares of the file's unit of
+/// length.
+pub(crate) const AREA: &str = "area";
+pub(crate) const KILOGRAM: &str = "kg";
 
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Invariants {

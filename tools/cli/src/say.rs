@@ -126,10 +126,9 @@ impl Fault {
         if let Some(help) = &self.help {
             group = group.element(Title::HELP.message(&**help));
         }
-        let renderer = if colored {
-            Renderer::styled()
-        } else {
-            Renderer::plain()
+        let renderer = match colored {
+            true => Renderer::styled(),
+            false => Renderer::plain(),
         };
         renderer.render(&[group])
     }
@@ -185,10 +184,8 @@ pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
 
 /// The name of a file as a shell reads it, and no option.
 pub(crate) fn quoted(name: &str) -> String {
-    let name = match name.starts_with('-') {
-        true => format!("./{name}"),
-        false => name.to_owned(),
-    };
+    let here = if name.starts_with('-') { "./" } else { "" };
+    let name = format!("{here}{name}");
     // No file has a name that no shell can be told.
     shlex::try_quote(&name).map_or_else(|_| name.clone(), Into::into)
 }
@@ -200,13 +197,11 @@ pub(crate) fn place(at: [f64; 3]) -> String {
 
 /// A number for people: six digits.
 pub(crate) fn short(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}")
-        .parse()
-        .expect("a number that was just printed");
-    if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
+    let rounded = format!("{x:.5e}").parse::<f64>();
+    let rounded = rounded.expect("a number that was just printed");
+    match rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
+        true => rounded.to_string(),
+        false => format!("{rounded:e}"),
     }
 }
 

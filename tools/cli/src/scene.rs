@@ -9,9 +9,11 @@ mod schema;
 
 use std::path::Path;
 
+use tearmesh_cloth::scene::Preset;
+
 pub(crate) use self::read::SceneFile;
 pub(crate) use self::schema::schema;
-use crate::choice::{Choice as _, Preset};
+use crate::choice::Choice as _;
 use crate::exit::Stop;
 use crate::input::Input;
 use crate::say::Fault;

@@ -14,13 +14,15 @@ use crate::args::{FileArgs, Format, LookArgs};
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::input::Input;
+use crate::measure::area;
 use crate::report::{self, Entry, Report, Timing};
 use crate::say::{Fault, count, short};
 use crate::streams::Streams;
 use crate::{bug, defects, files, output, page, picture};
 
 /// A run in progress, and all that will be said about it.
-pub(crate) struct Session<'a> {
+pub(crate) struct Session<'a, 's> {
+    pub(crate) streams: &'a mut Streams<'s>,
     files: &'a FileArgs,
     /// The file that the mesh goes to, or why it goes nowhere.
     destination: Result<PathBuf, &'static str>,
@@ -31,6 +33,7 @@ pub(crate) struct Session<'a> {
     pub(crate) words: Vec<String>,
     /// How the run ends, where the work was done all the same.
     pub(crate) exit: Exit,
+    pub(crate) timing: Timing,
     /// How many of the faults have been shown already.
     shown: usize,
 }
@@ -40,37 +43,42 @@ pub(crate) struct Opened {
     pub(crate) document: Document,
     pub(crate) mesh: Mesh,
     pub(crate) positions: Positions,
+    /// How long it took to read the document, and to build its mesh.
+    timing_ms: [f64; 2],
 }
 
-impl<'a> Session<'a> {
+impl<'a, 's> Session<'a, 's> {
     /// Runs a verb, says what was done, and gives the exit status. `typed` is for the reproducer.
     pub(crate) fn run(
         verb: &'static str,
         files: &'a FileArgs,
         names: &Names<'_>,
         typed: &[OsString],
-        streams: &mut Streams<'_>,
-        work: impl FnOnce(&mut Session<'a>, &mut Streams<'_>) -> Result<(), Stop>,
+        streams: &'a mut Streams<'s>,
+        work: impl FnOnce(&mut Session<'a, 's>) -> Result<(), Stop>,
     ) -> Exit {
+        let output_is_terminal = streams.output_is_terminal;
         let mut session = Session {
+            streams,
             files,
-            destination: files::destination(files, streams.output_is_terminal),
+            destination: files::destination(files, output_is_terminal),
             report: Report::new(verb),
             faults: Vec::new(),
             input: None,
             words: Vec::new(),
             exit: Exit::Done,
+            timing: Timing::default(),
             shown: 0,
         };
         // A panic is a broken invariant too, and deserves a reproducer as much.
         let ended = catch_unwind(AssertUnwindSafe(|| {
             files::check(files)?;
             names.check()?;
-            if let Some(unwritten) = files::unwritten(files, streams.output_is_terminal) {
+            if let Some(unwritten) = files::unwritten(files, output_is_terminal) {
                 session.faults.push(unwritten);
-                session.warn_now(streams);
+                session.warn_now();
             }
-            work(&mut session, streams)
+            work(&mut session)
         }));
         let mut broken = Vec::new();
         let exit = match ended {
@@ -91,19 +99,15 @@ impl<'a> Session<'a> {
             let fault = bug::report(typed, session.input.as_ref(), &broken);
             session.faults.push(fault);
         }
-        session.tell(exit, streams)
+        session.tell(exit)
     }
 
     /// Reads the input and builds its mesh.
-    pub(crate) fn open(
-        &mut self,
-        repair: Option<Repair>,
-        streams: &mut Streams<'_>,
-    ) -> Result<Opened, Stop> {
-        let input = Input::find(&self.files.input, streams.input)?;
+    pub(crate) fn open(&mut self, repair: Option<Repair>) -> Result<Opened, Stop> {
+        let input = Input::find(&self.files.input, self.streams.input)?;
         let input = &*self.input.insert(input);
-        let timing = self.report.timing_ms.get_or_insert_default();
-        let opened = open(input, repair, "or add", &mut self.faults, timing)?;
+        let opened = open(input, repair, "or add", &mut self.faults)?;
+        [self.timing.read, self.timing.build] = opened.timing_ms;
         self.report.input = Some(report::File::of(Some(input.name.clone()), &opened.mesh));
         Ok(opened)
     }
@@ -113,11 +117,11 @@ impl<'a> Session<'a> {
         &mut self,
         mesh: &Mesh,
         ledger: &MassLedger,
-        unit: report::MassUnit,
+        unit: &'static str,
         broken: Option<String>,
     ) -> Result<report::Mass, Stop> {
-        let clock = Clock::start();
-        let mass = self.say_mass(ledger, unit);
+        let start = Instant::now();
+        let mass = self.note_mass(ledger, unit);
         self.report.invariants.checked = true;
         let violations = &mut self.report.invariants.violations;
         violations.extend(mesh.check().iter().map(ToString::to_string));
@@ -127,29 +131,24 @@ impl<'a> Session<'a> {
             violations.push(format!("I20 (mass): {before:e} became {after:e}"));
         }
         if !violations.is_empty() {
-            let (exit, faults) = (Exit::Bug, Vec::new());
-            return Err(Stop { exit, faults });
+            return Err(Stop::explained(Exit::Bug));
         }
-        self.report.timing_ms.get_or_insert_default().check = clock.milliseconds();
+        self.timing.check = milliseconds(start);
         Ok(mass)
     }
 
     /// Notes the mass before and after for the report, and gives both.
-    pub(crate) fn say_mass(&mut self, ledger: &MassLedger, unit: report::MassUnit) -> report::Mass {
-        let (before, after) = (ledger.before.to_f64(), ledger.after.to_f64());
-        let mass = report::Mass {
-            before,
-            after,
+    pub(crate) fn note_mass(&mut self, ledger: &MassLedger, unit: &'static str) -> report::Mass {
+        *self.report.mass.insert(report::Mass {
+            before: ledger.before.to_f64(),
+            after: ledger.after.to_f64(),
             unit,
-        };
-        self.report.mass = Some(mass);
-        mass
+        })
     }
 
     /// The name of the file that the mesh goes to, if it goes anywhere.
     fn name(&self) -> Option<String> {
-        let path = self.destination.as_ref().ok()?;
-        Some(path.display().to_string())
+        Some(self.destination.as_ref().ok()?.display().to_string())
     }
 
     /// The file that the mesh goes to, if it is one.
@@ -162,8 +161,8 @@ impl<'a> Session<'a> {
     pub(crate) fn end(&mut self, vertices_before: usize, mesh: &Mesh, mass: report::Mass) {
         let [before, after] = [mass.before, mass.after].map(short);
         let summed = match mass.unit {
-            report::MassUnit::Area => format!("area {before} -> {after}"),
-            report::MassUnit::Kilogram => format!("mass {before} -> {after} kg"),
+            report::AREA => format!("area {before} -> {after}"),
+            unit => format!("mass {before} -> {after} {unit}"),
         };
         let (vertices, faces) = (mesh.vertex_count(), mesh.face_count());
         let ending = match (&self.destination, self.file()) {
@@ -178,13 +177,14 @@ impl<'a> Session<'a> {
 
     /// Says that there was nothing to do, and so nothing was written; warnings have said why.
     pub(crate) fn nothing_done(&mut self) -> Stop {
-        let unwritten = self.file().map(|path| path.display().to_string());
-        if let (Some(name), Some(last)) = (unwritten, self.faults.last_mut()) {
-            last.message.push_str(&format!(". {name} not written"));
+        let unwritten = self
+            .file()
+            .map(|path| format!(". {} not written", path.display()));
+        if let (Some(unwritten), Some(last)) = (unwritten, self.faults.last_mut()) {
+            last.message.push_str(&unwritten);
         }
         self.words.clear();
-        let (exit, faults) = (Exit::NothingCut, Vec::new());
-        Stop { exit, faults }
+        Stop::explained(Exit::NothingCut)
     }
 
     /// Refuses places that could not be written: before work that takes long.
@@ -199,16 +199,16 @@ impl<'a> Session<'a> {
         &mut self,
         mesh: &Mesh,
         fill: impl Fn(&mut dyn Write) -> io::Result<WriteSummary>,
-        streams: &mut Streams<'_>,
     ) -> Result<(), Stop> {
-        let clock = Clock::start();
+        let start = Instant::now();
         let written = match &self.destination {
-            Ok(path) => output::write_or_print(path, streams.output, fill)?,
+            Ok(path) => output::write_or_print(path, self.streams.output, fill)?,
             Err(_) => None,
         };
-        self.report.timing_ms.get_or_insert_default().write = clock.milliseconds();
+        self.timing.write = milliseconds(start);
         self.report.output = Some(report::File::of(self.name(), mesh));
-        if let Some(unspoken) = written.map(|one| one.unspoken).filter(|&count| count > 0) {
+        let (unspoken, separated) = written.map_or((0, 0), |one| (one.unspoken, one.separated));
+        if unspoken > 0 {
             let statements = count(unspoken, "statement", "statements");
             let message = format!(
                 "duplicates of vertices do not have the `nl`, `ny`, `nv` or `vv` data of their originals \
@@ -216,12 +216,10 @@ impl<'a> Session<'a> {
             );
             self.faults.push(Fault::warning("W-OBJ-FOREIGN", message));
         }
-        if let Some(separated) = written.map(|one| one.separated).filter(|&fans| fans > 0) {
-            let copies = count(
-                separated,
-                "duplicate of a vertex was written, because its",
-                "duplicates of vertices were written, because their",
-            );
+        if separated > 0 {
+            let one = "duplicate of a vertex was written, because its";
+            let many = "duplicates of vertices were written, because their";
+            let copies = count(separated, one, many);
             let message = format!("{copies} faces no longer share an edge");
             self.faults.push(Fault::note("W-OBJ-FANS", message));
         }
@@ -236,13 +234,11 @@ impl<'a> Session<'a> {
         place: &(impl Place + ?Sized),
         up: Vector,
     ) -> Result<(), Stop> {
-        match self.files.picture.as_ref().filter(|_| !self.files.dry_run) {
-            Some(path) => {
-                let crease_deg = picture::crease(document);
-                Ok(picture::write_beside(path, mesh, place, up, crease_deg)?)
-            }
-            None => Ok(()),
+        if let Some(path) = self.files.wanted(&self.files.picture) {
+            let crease_deg = picture::crease(document);
+            picture::write_beside(path, mesh, place, up, crease_deg)?;
         }
+        Ok(())
     }
 
     /// Shows the mesh as it is in the end on a page, if one is wanted.
@@ -252,31 +248,30 @@ impl<'a> Session<'a> {
         place: &(impl Place + ?Sized),
         up: Vector,
     ) -> Result<(), Stop> {
-        let name = self.name();
-        match self.files.view.as_ref().filter(|_| !self.files.dry_run) {
-            Some(path) => page::write_beside(path, mesh, place, up, name.as_deref()),
-            None => Ok(()),
+        if let Some(path) = self.files.wanted(&self.files.view) {
+            page::write_beside(path, mesh, place, up, self.name().as_deref())?;
         }
+        Ok(())
     }
 
     /// Shows the warnings so far, unless they are to be JSON: before something that takes long.
-    pub(crate) fn warn_now(&mut self, streams: &mut Streams<'_>) {
+    pub(crate) fn warn_now(&mut self) {
         if self.files.format == Format::Text {
-            self.show(streams);
+            self.show();
         }
     }
 
-    fn show(&mut self, streams: &mut Streams<'_>) {
+    fn show(&mut self) {
         let files = self.files;
         let is_shown = |fault: &&Fault| files.verbose || fault.code != "W-OBJ-FANS";
         let new = self.faults[self.shown..].iter().filter(is_shown);
         let new: Vec<Fault> = new.cloned().collect();
-        streams.show(&new, files.color, files.verbose);
+        self.streams.show(&new, files.color, files.verbose);
         self.shown = self.faults.len();
     }
 
     /// Says everything there is to say, in words or as JSON, and in the report.
-    fn tell(mut self, mut exit: Exit, streams: &mut Streams<'_>) -> Exit {
+    fn tell(mut self, mut exit: Exit) -> Exit {
         let keeps_report = exit != Exit::Usage;
         if keeps_report && let Err(fault) = self.keep_report(exit) {
             // It may have been found out before.
@@ -285,14 +280,14 @@ impl<'a> Session<'a> {
             }
             exit = Exit::Output;
         }
-        let Err(mut fault) = self.print(exit, streams) else {
+        let Err(mut fault) = self.print(exit) else {
             return exit;
         };
         let written = self.file().filter(|_| self.report.output.is_some());
         let written = written.map(|path| format!("`{}` was written", path.display()));
         fault.help = written.or(fault.help.take());
         self.faults.push(fault);
-        self.show(streams);
+        self.show();
         if keeps_report {
             // So that it tells what the exit status does. If it cannot be written, that was said.
             let _ = self.keep_report(Exit::Output);
@@ -305,9 +300,8 @@ impl<'a> Session<'a> {
         self.report.ok = exit == Exit::Done;
         self.report.exit = exit as u8;
         self.report.diagnostics = self.faults.iter().map(Entry::new).collect();
-        if self.files.no_timing || exit != Exit::Done {
-            self.report.timing_ms = None;
-        }
+        let is_timed = !self.files.no_timing && exit == Exit::Done;
+        self.report.timing_ms = is_timed.then_some(self.timing);
         let json = serde_json::to_string_pretty(&self.report);
         json.expect("a report of strings and finite numbers is JSON") + "\n"
     }
@@ -322,13 +316,12 @@ impl<'a> Session<'a> {
     }
 
     /// Shows what there is to say, or prints it as JSON.
-    fn print(&mut self, exit: Exit, streams: &mut Streams<'_>) -> Result<(), Fault> {
+    fn print(&mut self, exit: Exit) -> Result<(), Fault> {
         if self.files.format == Format::Json {
             let json = self.json(exit);
-            let printed = output::print(streams.output, |out| out.write_all(json.as_bytes()));
-            return printed.map(|_| ());
+            return output::print_text(self.streams.output, &json);
         }
-        self.show(streams);
+        self.show();
         let has_words = matches!(exit, Exit::Done | Exit::Simulation | Exit::Interrupted);
         if self.files.quiet || !has_words || self.words.is_empty() {
             return Ok(());
@@ -336,11 +329,10 @@ impl<'a> Session<'a> {
         let words = self.words.join("\n") + "\n";
         if self.name().as_deref() == Some("-") {
             // Nowhere is left to complain if standard error is closed.
-            let _ = streams.error.write_all(words.as_bytes());
+            let _ = self.streams.error.write_all(words.as_bytes());
             return Ok(());
         }
-        let said = output::print(streams.output, |out| out.write_all(words.as_bytes()));
-        said.map(|_| ())
+        output::print_text(self.streams.output, &words)
     }
 }
 
@@ -353,7 +345,7 @@ pub(crate) fn look(
 ) -> Result<(Input, Opened), Stop> {
     let input = Input::find(path, streams.input)?;
     let repair = repair(args.repair, args.separate_fans);
-    let opened = open(&input, repair, "or add", faults, &mut Timing::default())?;
+    let opened = open(&input, repair, "or add", faults)?;
     Ok((input, opened))
 }
 
@@ -372,28 +364,28 @@ pub(crate) fn open(
     repair: Option<Repair>,
     or: &str,
     faults: &mut Vec<Fault>,
-    timing: &mut Timing,
 ) -> Result<Opened, Stop> {
-    let clock = Clock::start();
+    let start = Instant::now();
     let mut document = input.document()?;
     if let Some(repair) = repair {
         document = document.repaired(repair);
     }
     let diagnostics = document.diagnostics().iter();
     faults.extend(diagnostics.map(|one| Fault::of_file(&input.name, one)));
-    timing.read = clock.milliseconds();
-    let clock = Clock::start();
+    let read = milliseconds(start);
+    let start = Instant::now();
     let mesh = match document.mesh() {
         Ok(mesh) => mesh,
         Err(error) => return Err(defects::faults(input, document, &error, or).into()),
     };
-    timing.build = clock.milliseconds();
+    let timing_ms = [read, milliseconds(start)];
     let positions = Positions::new(document.positions().iter().copied())
         .expect("the reader accepts no coordinate that positions refuse");
     Ok(Opened {
         document,
         mesh,
         positions,
+        timing_ms,
     })
 }
 
@@ -414,24 +406,21 @@ pub(crate) fn moved(document: &Document, mesh: &Mesh, positions: &Positions) -> 
         let is = positions.at(v);
         return Some(format!("I20 (positions): {v} was at {was}, and is at {is}"));
     }
-    let area = |[a, b, c]: [Point; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
+    let corners = || {
+        let faces = mesh.faces().map(|f| mesh.face_vertices(f));
+        faces.map(|corners| corners.map(|v| positions.at(v)))
+    };
     let triangles = document.triangles().iter();
     let before: f64 = triangles.map(|t| area(t.map(|v| was[v as usize]))).sum();
-    let faces = mesh.faces().map(|f| mesh.face_vertices(f));
-    let after: f64 = faces.map(|t| area(t.map(|v| positions.at(v)))).sum();
+    let after: f64 = corners().map(area).sum();
     // Each area and each sum is rounded, and so are the coordinates of each vertex that was inserted: where
     // they are large, it is off the surface by that. What is lost or twice there would be far more.
     let rounding = |[a, b, c]: [Point; 3]| {
         let around = (b - a).norm() + (c - b).norm() + (a - c).norm();
-        let largest = [a, b, c]
-            .map(|p| p.coords.amax())
-            .into_iter()
-            .fold(0.0, f64::max);
-        around * largest * f64::EPSILON
+        let largest = [a, b, c].map(|p| p.coords.amax());
+        around * largest.into_iter().fold(0.0, f64::max) * f64::EPSILON
     };
-    let faces = mesh.faces().map(|f| mesh.face_vertices(f));
-    let rounded: f64 = faces.map(|t| rounding(t.map(|v| positions.at(v)))).sum();
-    let bound = 1e-9 * before + 2.0 * rounded;
+    let bound = 1e-9 * before + 2.0 * corners().map(rounding).sum::<f64>();
     ((after - before).abs() > bound).then(|| format!("I20 (area): {before:e} became {after:e}"))
 }
 
@@ -446,15 +435,7 @@ impl From<MassError> for Fault {
     }
 }
 
-pub(crate) struct Clock(Instant);
-
-impl Clock {
-    pub(crate) fn start() -> Clock {
-        Clock(Instant::now())
-    }
-
-    /// The time since, to a microsecond.
-    pub(crate) fn milliseconds(&self) -> f64 {
-        self.0.elapsed().as_micros() as f64 / 1000.0
-    }
+/// The time since, to a microsecond.
+pub(crate) fn milliseconds(start: Instant) -> f64 {
+    start.elapsed().as_micros() as f64 / 1000.0
 }

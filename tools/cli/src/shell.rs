@@ -24,9 +24,8 @@ pub(crate) fn man(args: &ManArgs, streams: &mut Streams<'_>) -> Exit {
     };
     let mut page = Vec::new();
     let source = concat!("tearmesh ", env!("CARGO_PKG_VERSION"));
-    let made = clap_mangen::Man::new(command)
-        .source(source)
-        .render(&mut page);
+    let made = clap_mangen::Man::new(command).source(source);
+    let made = made.render(&mut page);
     made.expect("memory takes everything");
     print(&page, streams)
 }

@@ -85,14 +85,14 @@ impl Streams<'_> {
             *left -= 1;
             let is_shown = all || total <= SHOWN || number < SHOWN || number == total;
             let shown = if is_shown {
-                writeln!(self.error, "{}", fault.render(colored))
+                fault.render(colored)
             } else if number == SHOWN {
                 let (more, code) = (total - SHOWN, fault.code);
-                writeln!(self.error, "and {more} more of {code}; -v shows all")
+                format!("and {more} more of {code}; -v shows all")
             } else {
-                Ok(())
+                continue;
             };
-            if shown.is_err() {
+            if writeln!(self.error, "{shown}").is_err() {
                 break; // Standard error is closed: nowhere is left to complain.
             }
         }

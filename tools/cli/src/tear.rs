@@ -10,7 +10,7 @@ mod summary;
 
 use std::ffi::OsString;
 use std::io::Write;
-use std::path::PathBuf;
+use std::time::Instant;
 
 use indicatif::ProgressBar;
 use tearmesh::{Cursor, Scissor, VertexId};
@@ -27,26 +27,26 @@ use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::scene::SceneFile;
-use crate::session::{Clock, Opened, Session};
+use crate::session::{Opened, Session, milliseconds};
 use crate::streams::Streams;
 use crate::{output, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
     let (files, names) = (&args.files, check::names(args));
-    Session::run("tear", files, &names, typed, streams, |session, streams| {
-        work(args, session, streams)
+    Session::run("tear", files, &names, typed, streams, |session| {
+        work(args, session)
     })
 }
 
-fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -> Result<(), Stop> {
+fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
-    let source = SceneFile::find(&args.scene, streams)?;
+    let source = SceneFile::find(&args.scene, session.streams)?;
     let cuts = check::cuts(args, &mut session.faults)?;
-    let opened = session.open(None, streams)?;
+    let opened = session.open(None)?;
     let up = args.up.unwrap_or_else(|| source.up());
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
-    let mut scene = source.scene(&frame, args.solver)?;
+    let mut scene = source.scene(&frame, args.solver.as_ref())?;
     settle(args, cuts, &mut scene);
     name_vertices(&mut scene, &opened.document);
     check::tearing(args, &scene, &source)?;
@@ -56,7 +56,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
     let number = |v| opened.document.number_of_vertex(v);
     session.faults.extend(advice::before(&run, &frame, &number));
     session.faults.extend(advice::times(&run, args));
-    session.warn_now(streams);
+    session.warn_now();
     let play = Play {
         name: source.name().to_owned(),
         args,
@@ -64,7 +64,7 @@ fn work(args: &TearArgs, session: &mut Session<'_>, streams: &mut Streams<'_>) -
         frame: &frame,
         guard: Guard::new(),
     };
-    play.perform(run, session, streams)
+    play.perform(run, session)
 }
 
 /// Puts what was typed in the place of what the scene says.
@@ -129,58 +129,57 @@ impl Records<'_> {
     }
 }
 
-/// How the steps ended.
+/// How the steps ended, unless one failed.
+#[derive(Clone, Copy, PartialEq)]
 enum Ended {
     Done,
     Interrupted,
     /// The method made energy beyond all bounds.
     Exploded,
-    Failed(StepError),
+}
+
+/// The status of a run in the report, and its exit status.
+fn status(ended: &Result<Ended, StepError>) -> (&'static str, Exit) {
+    match ended {
+        Ok(Ended::Done) => ("done", Exit::Done),
+        Ok(Ended::Interrupted) => ("interrupted", Exit::Interrupted),
+        Ok(Ended::Exploded) => ("gained energy", Exit::Simulation),
+        Err(StepError::BlowUp { .. }) => ("blown up", Exit::Simulation),
+        Err(StepError::Implicit { .. }) => ("unsolved", Exit::Simulation),
+        Err(_) => ("unstable", Exit::Simulation),
+    }
 }
 
 impl Play<'_> {
-    fn perform(
-        &self,
-        mut run: Run,
-        session: &mut Session<'_>,
-        streams: &mut Streams<'_>,
-    ) -> Result<(), Stop> {
+    fn perform(&self, mut run: Run, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         let pieces_before = run.mesh().components().count();
         let vertices_before = run.mesh().vertex_count();
         let torn_before_m = run.torn_length_m();
         let files = &self.args.files;
-        let wanted = |path: &Option<PathBuf>| path.is_some() && !files.dry_run;
         let name = files.input.display().to_string();
         let title = format!("{}: {}", crate::page::title(Some(&name)), self.name);
         let up = self.frame.up.vector();
+        let is_drawn = files.wanted(&files.picture).is_some();
         let mut records = Records {
             torn: TornDocument::new(&self.opened.document),
             frames: Frames::open(self.args, &run)?,
             tear_log: TearLog::new(&run),
-            recorder: wanted(&files.view).then(|| Recorder::new(&title, up)),
-            still: wanted(&files.picture).then(|| Still::new(self.args.picture_at)),
+            recorder: files.wanted(&files.view).map(|_| Recorder::new(&title, up)),
+            still: is_drawn.then(|| Still::new(self.args.picture_at)),
         };
         session.check_places()?; // One may be in the folder of the frames.
-        let clock = Clock::start();
-        let ended = self.steps(&mut run, &mut records, session, streams)?;
-        let simulated = clock.milliseconds();
-        session.report.timing_ms.get_or_insert_default().simulate = Some(simulated);
+        let start = Instant::now();
+        let ended = self.steps(&mut run, &mut records, session)?;
+        session.timing.simulate = Some(milliseconds(start));
 
         let ledger = run.cloth().masses().ledger();
-        let unit = report::MassUnit::Kilogram;
         let broken = summary::momentum_broken(&run);
-        let mass = session.verify(run.mesh(), &ledger, unit, broken)?;
+        let mass = session.verify(run.mesh(), &ledger, report::KILOGRAM, broken)?;
 
-        let pieces = run.mesh().components().count();
         let tally = run.tally();
-        let status = match &ended {
-            Ended::Done => "done",
-            Ended::Interrupted => "interrupted",
-            Ended::Exploded => "gained energy",
-            Ended::Failed(StepError::BlowUp { .. }) => "blown up",
-            Ended::Failed(StepError::Implicit { .. }) => "unsolved",
-            Ended::Failed(_) => "unstable",
-        };
+        let (status, exit) = status(&ended);
+        let is_checked = exit == Exit::Done && self.args.check_step;
+        let first_tear = records.tear_log.first_tear();
         let tear = report::Tear {
             scene: self.name.clone(),
             solver: run.scene().solver.name(),
@@ -193,7 +192,7 @@ impl Play<'_> {
             cap_hit: tally.steps_at_cap > 0,
             steps_at_cap: tally.steps_at_cap,
             pieces_before,
-            pieces,
+            pieces: run.mesh().components().count(),
             tear_length_m: run.torn_length_m() - torn_before_m,
             max_stretch: tally.stretch_ratio_max,
             momentum_drift: tally.momentum_drift,
@@ -204,20 +203,14 @@ impl Play<'_> {
                 features: summary::features(&run),
             },
             largest_force_n: records.tear_log.largest_force_n(),
-            first_tear: records
-                .tear_log
-                .first_tear()
-                .map(|first| report::FirstTear {
-                    time_s: first.event.time_s,
-                    place: first.event.place,
-                    place_at_rest: first.event.place_at_rest,
-                    force_n: first.force_n,
-                }),
+            first_tear: first_tear.map(|first| report::FirstTear {
+                time_s: first.event.time_s,
+                place: first.event.place,
+                place_at_rest: first.event.place_at_rest,
+                force_n: first.force_n,
+            }),
             tears: records.tear_log.events().to_vec(),
-            step_check: match ended {
-                Ended::Done if self.args.check_step => Some(self.check_step(&run, streams)),
-                _ => None,
-            },
+            step_check: is_checked.then(|| self.check_step(&run, session)),
             frames: None,
             cache: None,
         };
@@ -233,36 +226,30 @@ impl Play<'_> {
             session.faults.extend(step::warnings(check));
         }
         session.report.tear = Some(tear);
-        match ended {
+        session.exit = match exit {
             // Its step may still have been checked then.
-            Ended::Done if self.guard.is_interrupted() => session.exit = Exit::Interrupted,
-            Ended::Done => {}
-            Ended::Interrupted => session.exit = Exit::Interrupted,
-            Ended::Exploded => session.exit = Exit::Simulation,
-            Ended::Failed(error) => {
-                session.exit = Exit::Simulation;
-                session.faults.push(advice::failure(&error, &run));
-                if tally.steps == 0 && run.edits().cursor() == Cursor::START {
-                    session.words.clear();
-                    return self.finish(records, &run, session);
-                }
+            Exit::Done if self.guard.is_interrupted() => Exit::Interrupted,
+            exit => exit,
+        };
+        if let Err(error) = ended {
+            session.faults.push(advice::failure(&error, &run));
+            if tally.steps == 0 && run.edits().cursor() == Cursor::START {
+                session.words.clear();
+                return self.finish(records, &run, session);
             }
         }
         let positions = places(&run)?;
-        let fill = |mut out: &mut dyn Write| records.torn.write(run.mesh(), &positions, &mut out);
-        session.write(run.mesh(), fill, streams)?;
-        let end = (run.mesh(), positions.as_slice());
+        let mesh = run.mesh();
+        let fill = |mut out: &mut dyn Write| records.torn.write(mesh, &positions, &mut out);
+        session.write(mesh, fill)?;
         let kept = records.still.as_ref().and_then(Still::kept);
-        let (mesh, points) = kept.unwrap_or(end);
-        let document = &self.opened.document;
-        session.show_mesh(document, mesh, points, up)?;
+        let (shown, points) = kept.unwrap_or((mesh, positions.as_slice()));
+        session.show_mesh(&self.opened.document, shown, points, up)?;
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {
-            output::write(path, |out| {
-                summary::write_forces(&run, &records.tear_log, out)
-            })?;
+            let log = &records.tear_log;
+            output::write(path, |out| summary::write_forces(&run, log, out))?;
         }
-        let mesh = run.mesh();
         session.end(vertices_before, mesh, mass);
         self.finish(records, &run, session)
     }
@@ -274,7 +261,7 @@ impl Play<'_> {
         &self,
         records: Records<'_>,
         run: &Run,
-        session: &mut Session<'_>,
+        session: &mut Session<'_, '_>,
     ) -> Result<(), Stop> {
         if let Some((recorder, path)) = records.recorder.zip(self.args.files.view.as_ref()) {
             // A run that did nothing has written nothing.
@@ -304,15 +291,14 @@ impl Play<'_> {
         &self,
         run: &mut Run,
         records: &mut Records<'_>,
-        session: &mut Session<'_>,
-        streams: &Streams<'_>,
-    ) -> Result<Ended, Stop> {
-        let bar = self.bar(run.steps_planned(), "step {pos} of {len}", streams);
-        let mut ended = Ended::Done;
+        session: &mut Session<'_, '_>,
+    ) -> Result<Result<Ended, StepError>, Stop> {
+        let bar = self.bar(run.steps_planned(), "step {pos} of {len}", session);
+        let mut ended = Ok(Ended::Done);
         records.record(run)?;
-        while !run.is_over() {
+        while !run.is_over() && ended == Ok(Ended::Done) {
             if self.guard.is_interrupted() {
-                ended = Ended::Interrupted;
+                ended = Ok(Ended::Interrupted);
                 break;
             }
             let step = run.step();
@@ -327,14 +313,10 @@ impl Play<'_> {
                     records.tear_log.note(run, &step);
                     records.record(run)?;
                 }
-                Err(error) => {
-                    ended = Ended::Failed(error);
-                    break;
-                }
+                Err(error) => ended = Err(error),
             }
-            if advice::has_exploded(run) {
-                ended = Ended::Exploded;
-                break;
+            if ended.is_ok() && advice::has_exploded(run) {
+                ended = Ok(Ended::Exploded);
             }
             bar.set_position(run.tally().steps);
         }
@@ -343,18 +325,18 @@ impl Play<'_> {
     }
 
     /// Plays the scene again and again, as it began.
-    fn check_step(&self, run: &Run, streams: &Streams<'_>) -> report::StepCheck {
+    fn check_step(&self, run: &Run, session: &Session<'_, '_>) -> report::StepCheck {
         let subject = Subject {
             mesh: &self.opened.mesh,
             positions: &self.opened.positions,
             frame: self.frame,
             scene: run.scene(),
         };
-        let bar = self.bar(1000, "of the step check {percent} %", streams);
+        let bar = self.bar(1000, "of the step check {percent} %", session);
         step::check(subject, run.step_s(), &self.guard, &bar)
     }
 
-    fn note_cut(&self, scene: &Scene, made: &CutMade, session: &mut Session<'_>) {
+    fn note_cut(&self, scene: &Scene, made: &CutMade, session: &mut Session<'_, '_>) {
         let (cut, done) = (&scene.cuts[made.number], &made.report);
         let Ok(scissor) = Scissor::new(cut.rays[0], cut.rays[1]) else {
             return; // It was made with these rays.
@@ -373,13 +355,10 @@ impl Play<'_> {
     }
 
     /// A progress bar, unless the words are to be few or JSON.
-    fn bar(&self, length: u64, what: &str, streams: &Streams<'_>) -> ProgressBar {
+    fn bar(&self, length: u64, what: &str, session: &Session<'_, '_>) -> ProgressBar {
         let files = &self.args.files;
         let is_wanted = !files.quiet && files.format == Format::Text;
-        streams.bar(
-            length,
-            &format!("{{bar:40}} {what}, {{eta}} left"),
-            is_wanted,
-        )
+        let template = format!("{{bar:40}} {what}, {{eta}} left");
+        session.streams.bar(length, &template, is_wanted)
     }
 }

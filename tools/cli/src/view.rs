@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use tearmesh_obj::Repair;
 use tearmesh_view::{Moment, Page};
 
 use crate::args::ViewArgs;
@@ -22,23 +23,21 @@ pub(crate) fn run(
     let inputs = inputs(args)?;
     let unnamed = || named_like(&args.inputs[0]);
     let output = page::place(args.output.as_ref(), unnamed, &inputs)?;
-    let options = match (args.look.repair, args.look.separate_fans) {
-        (true, _) => " --repair",
-        (false, true) => " --separate-fans",
-        (false, false) => "",
+    let options = match session::repair(args.look.repair, args.look.separate_fans) {
+        Some(Repair::All) => " --repair",
+        Some(Repair::SeparateFans) => " --separate-fans",
+        None => "",
     };
     let first = &args.inputs[0].display().to_string();
     let mut shown = Page::new(page::title(Some(first)), args.up.coords);
-    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
-    let mut pieces = 0;
+    let (mut vertices, mut faces, mut pieces) = (Vec::new(), Vec::new(), 0);
     for path in &inputs {
         let (input, opened) = session::look(path, &args.look, faults, streams)?;
         let mesh = &opened.mesh;
         let moment = Moment {
             label: page::title(Some(&input.name)),
-            time_s: None,
             cut: Some(page::cut_line(&input.name, options)),
-            torn_at_rest_m: None,
+            ..Moment::default()
         };
         page::add(&mut shown, mesh, &opened.positions, moment)?;
         vertices.push(mesh.vertex_count());
@@ -53,13 +52,13 @@ pub(crate) fn run(
         1 => String::new(),
         many => format!("{many} meshes, "),
     };
-    Ok(format!(
-        "view: {moments}{}, {}, {} · wrote {}",
+    let (vertices, faces) = (
         span(&vertices, "vertex", "vertices"),
         span(&faces, "face", "faces"),
-        count(pieces, "piece", "pieces"),
-        output.display(),
-    ))
+    );
+    let (pieces, output) = (count(pieces, "piece", "pieces"), output.display());
+    let words = format!("view: {moments}{vertices}, {faces}, {pieces} · wrote {output}");
+    Ok(words)
 }
 
 /// The files that are shown.
@@ -87,10 +86,8 @@ fn named_like(input: &Path) -> Result<PathBuf, Stop> {
 
 /// The fewest and the most of something.
 fn span(counts: &[usize], one: &str, many: &str) -> String {
-    let fewest = counts.iter().min().copied().unwrap_or(0);
-    let most = counts.iter().max().copied().unwrap_or(0);
-    match fewest == most {
-        true => count(most, one, many),
-        false => format!("{fewest} to {most} {many}"),
+    match (counts.iter().min(), counts.iter().max()) {
+        (Some(fewest), Some(most)) if fewest < most => format!("{fewest} to {most} {many}"),
+        (fewest, _) => count(fewest.copied().unwrap_or(0), one, many),
     }
 }

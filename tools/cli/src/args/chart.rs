@@ -11,6 +11,7 @@ use tearmesh_lab::stability::STIFFNESS_N_PER_M;
 use tearmesh_lab::tear;
 use tearmesh_lab::tear::EnsembleScene;
 
+use super::read::within;
 use crate::say::Color;
 
 const EXAMPLES: &str = "\
@@ -148,17 +149,11 @@ pub(crate) struct ParetoArgs {
 }
 
 fn ratio(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(ratio) if (1e-6..=1.0).contains(&ratio) => Ok(ratio),
-        _ => Err("a number from 1e-6 to 1".to_owned()),
-    }
+    within(text, 1e-6..=1.0, "a number from 1e-6 to 1")
 }
 
 fn stiffness(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(k) if (1e-3..=1e9).contains(&k) => Ok(k),
-        _ => Err("a number from 1e-3 to 1e9".to_owned()),
-    }
+    within(text, 1e-3..=1e9, "a number from 1e-3 to 1e9")
 }
 
 /// The arguments of `chart stability`.

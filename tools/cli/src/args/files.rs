@@ -70,6 +70,13 @@ pub(crate) struct FileArgs {
     pub(crate) verbose: bool,
 }
 
+impl FileArgs {
+    /// The place of a file other than the mesh, unless the run is dry.
+    pub(crate) fn wanted<'p>(&self, path: &'p Option<PathBuf>) -> Option<&'p PathBuf> {
+        path.as_ref().filter(|_| !self.dry_run)
+    }
+}
+
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     #[default]

@@ -1,5 +1,7 @@
 //! Numbers as people type them.
 
+use std::ops::RangeInclusive;
+
 use tearmesh::Point;
 use tearmesh_view::{PIXELS_MAX, PictureSize};
 
@@ -29,8 +31,7 @@ pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
 
 /// Reads an angle between two faces, in degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {
-    let is_in = |degrees| (0.0..=180.0).contains(&degrees);
-    number(text, is_in, "degrees from 0 to 180")
+    within(text, 0.0..=180.0, "degrees from 0 to 180")
 }
 
 /// Reads a duration in seconds.
@@ -55,15 +56,23 @@ pub(super) fn stretch(text: &str) -> Result<f64, String> {
 
 /// Reads the part of an edge within which a crossing snaps.
 pub(super) fn snap(text: &str) -> Result<f64, String> {
-    let is_in = |part| (0.0..=0.49).contains(&part);
-    number(text, is_in, "a number from 0 to 0.49, as in 0.05")
+    within(text, 0.0..=0.49, "a number from 0 to 0.49, as in 0.05")
+}
+
+/// Reads a number in a range.
+pub(super) fn within(
+    text: &str,
+    range: RangeInclusive<f64>,
+    expected: &str,
+) -> Result<f64, String> {
+    number(text, |x| range.contains(&x), expected)
 }
 
 fn number(text: &str, is_in: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
-    let number = text.trim().parse().ok();
-    number
-        .filter(|&x: &f64| x.is_finite() && is_in(x))
-        .ok_or_else(|| format!("expected {expected}"))
+    match numbers(text, ',')[..] {
+        [x] if is_in(x) => Ok(x),
+        _ => Err(format!("expected {expected}")),
+    }
 }
 
 /// Reads the size of a picture that is drawn.
@@ -93,9 +102,7 @@ pub(super) fn gap(text: &str) -> Result<Gap, String> {
     match (&numbers(number, ',')[..], is_part) {
         (&[part], true) if part >= 0.0 => Ok(Gap::Edges(part / 100.0)),
         (&[length], false) if length >= 0.0 => Ok(Gap::Length(length)),
-        _ => {
-            Err("expected a length as in 0.002, or per cent of the mean edge as in 10%".to_owned())
-        }
+        _ => Err("expected a length as in 0.002, or per cent of the mean edge as in 10%".into()),
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Parser, ValueEnum};
 
 use super::files::FileArgs;
-use crate::choice::{Choice as _, Solver};
+use tearmesh_cloth::Method;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,8 +33,8 @@ pub(crate) struct TearArgs {
     pub(crate) scene: String,
 
     /// The method: verlet (default), xpbd, pbd, provot or implicit.
-    #[arg(long, value_parser = Solver::parser(), value_name = "METHOD", hide_possible_values = true)]
-    pub(crate) solver: Option<Solver>,
+    #[arg(long, value_parser = crate::choice::method(), value_name = "METHOD", hide_possible_values = true)]
+    pub(crate) solver: Option<Method>,
 
     /// Tear edges at this many times their rest length (default: 1.5).
     ///

@@ -89,15 +89,13 @@ pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> (Gapped, V
     let points: Vec<Point> = mesh.vertices().map(with_piece).collect();
     let is_less = |v: &VertexId| moves(*v) && (halvings[v.index()] > 0 || far < wanted);
     let is_apart = |v: &VertexId| points[v.index()] != positions.at(*v);
+    let shifts = pieces.shifts.iter().flatten();
     let gapped = Gapped {
         length: gap,
         vertices_moved: mesh.vertices().filter(is_apart).count(),
         vertices_clamped: mesh.vertices().filter(is_less).count(),
-        pieces_moved: match gap > 0.0 {
-            true => pieces.shifts.iter().flatten().count(),
-            false => 0,
-        },
-        side_vertices: mesh.vertices().filter(|&v| moves(v)).count(),
+        pieces_moved: shifts.filter(|_| gap > 0.0).count(),
+        side_vertices: away.iter().flatten().count(),
     };
     (gapped, points)
 }
@@ -122,8 +120,7 @@ impl Pieces {
             let known = *of_vertex[mesh.origin(h).index()].get_or_insert(piece);
             if known != piece {
                 // They share a vertex.
-                is_stuck[piece] = true;
-                is_stuck[known] = true;
+                (is_stuck[piece], is_stuck[known]) = (true, true);
             }
             let across = mesh.ghost_pair(h).map(|across| of.of(across.face()));
             let Some(across) = across.filter(|&across| across != piece) else {
@@ -229,10 +226,8 @@ fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option
     }
     // A side ends at the boundary that was there before the cut, or at another piece.
     let mut along = vec![Vector::zeros(); away.len()];
-    for h in mesh
-        .half_edges()
-        .filter(|&h| mesh.pair(h).is_none() && pieces.across(mesh, h).is_none())
-    {
+    let is_end = |h: &HalfEdgeId| mesh.pair(*h).is_none() && pieces.across(mesh, *h).is_none();
+    for h in mesh.half_edges().filter(is_end) {
         let [a, b] = [mesh.origin(h), mesh.target(h)];
         let edge = positions.at(b) - positions.at(a);
         for (v, edge) in [(a, edge), (b, -edge)] {
@@ -243,11 +238,8 @@ fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option
     }
     let direction = |v: usize| {
         let (at_end, square) = (unit(along[v]), unit(away[v]));
-        let direction = if at_end == Vector::zeros() {
-            square
-        } else {
-            at_end
-        };
+        let is_at_end = at_end != Vector::zeros();
+        let direction = if is_at_end { at_end } else { square };
         (is_side[v] && !is_shared[v] && direction != Vector::zeros()).then_some(direction)
     };
     (0..away.len()).map(direction).collect()
@@ -262,12 +254,10 @@ fn inward(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> Vector {
 
 /// The unit vector in this direction; zero for zero.
 fn unit(v: Vector) -> Vector {
-    let largest = v.amax();
-    if largest > 0.0 {
-        let scaled = v / largest;
-        scaled / scaled.norm()
-    } else {
-        Vector::zeros()
+    let scaled = v / v.amax();
+    match v.amax() > 0.0 {
+        true => scaled / scaled.norm(),
+        false => Vector::zeros(),
     }
 }
 

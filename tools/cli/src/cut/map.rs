@@ -26,14 +26,11 @@ fn mixed(mix: Mix<&Sources>) -> Sources {
 }
 
 fn sum(parts: &[(&Sources, f64)]) -> Sources {
-    let mut list = Sources::new();
-    for (sources, part) in parts {
-        list.extend(
-            sources
-                .iter()
-                .map(|(source, weight)| (*source, weight * part)),
-        );
-    }
+    let scaled = parts.iter().flat_map(|(sources, part)| {
+        let sources = sources.iter();
+        sources.map(move |(source, weight)| (*source, weight * part))
+    });
+    let mut list: Sources = scaled.collect();
     list.sort_by_key(|&(source, _)| source);
     list.dedup_by(|next, kept| {
         let is_same = next.0 == kept.0;
@@ -86,12 +83,12 @@ impl Map {
         let vertices = 0..document.positions().len();
         let triangles = 0..document.triangles().len();
         let corners = triangles.clone().flat_map(|t| [0, 1, 2].map(|c| (t, c)));
-        let corners = corners.map(|(triangle, corner)| Corner {
-            of: one(document.number_of_corner(triangle, corner) as u32),
-            texture: one(document
-                .corner(triangle, corner)
-                .texture
-                .unwrap_or(u32::MAX)),
+        let corners = corners.map(|(triangle, corner)| {
+            let texture = document.corner(triangle, corner).texture;
+            Corner {
+                of: one(document.number_of_corner(triangle, corner) as u32),
+                texture: one(texture.unwrap_or(u32::MAX)),
+            }
         });
         Map {
             seen: Cursor::START,
@@ -113,19 +110,13 @@ impl Map {
         let vertices = torn.statements_in_order(mesh);
         let faces = torn.faces_in_order();
         let document = torn.document();
-        let polygons = 0..document.polygon_count();
-        let corners = polygons
-            .map(|polygon| document.polygon(polygon).len())
-            .sum();
+        let polygons = document.polygon_count();
+        let corners = (0..polygons).map(|polygon| document.polygon(polygon).len());
         let [input, output] = names.map(|name| serde_json::json!(name));
         let sizes = |vertices: usize, corners: usize, faces: usize| {
             format!("\"vertices\":{vertices},\"corners\":{corners},\"faces\":{faces}")
         };
-        let before = sizes(
-            document.vertex_statement_count(),
-            corners,
-            document.polygon_count(),
-        );
+        let before = sizes(document.vertex_statement_count(), corners.sum(), polygons);
         let after = sizes(vertices.len(), 3 * faces.len(), faces.len());
         writeln!(out, "{{\"schema\":\"tearmesh.map/1\",\"counts_from\":0,")?;
         writeln!(out, "\"input\":{{\"path\":{input},{before}}},")?;
@@ -149,11 +140,9 @@ fn write_all<'s>(
     write!(out, "\"{name}\":[")?;
     for (i, sources) in all.enumerate() {
         write!(out, "{}", if i == 0 { "\n" } else { ",\n" })?;
-        let pairs = sources
-            .iter()
-            .map(|(of, weight)| format!("[{of},{weight}]"));
-        let pairs: Vec<String> = pairs.collect();
-        write!(out, "[{}]", pairs.join(","))?;
+        let pair = |(of, weight): &(u32, f64)| format!("[{of},{weight}]");
+        let pairs = sources.iter().map(pair);
+        write!(out, "[{}]", pairs.collect::<Vec<_>>().join(","))?;
     }
     writeln!(out, "\n],")
 }

@@ -38,28 +38,25 @@ pub(super) fn reason(
         mesh,
         positions,
     };
-    let lengths = mesh.half_edges().map(|h| slit.length(h));
     if mesh.half_edges().any(|h| slit.follows(h)) {
-        NoOpReason::Seam
-    } else if done.faces_crossed == 0
-        && done.nearest_vertex <= ROUNDING * lengths.fold(0.0, f64::max)
-    {
-        NoOpReason::Touch
-    } else if done.missed {
-        let elsewhere = || tried(&scissor.clone().through(true), method, mesh, positions);
-        // Copies take memory, and most cuts that miss do so by far.
-        let is_met = !through && mesh.faces().any(|f| slit.meets(f));
-        let elsewhere = is_met.then(elsewhere).flatten();
-        elsewhere.map_or(NoOpReason::Unknown, |[faces, splits]| {
-            NoOpReason::Elsewhere { faces, splits }
-        })
-    } else if is_exact
-        && snap > 0.0
-        && tried(&scissor.clone().snap(0.0), method, mesh, positions).is_some()
-    {
-        NoOpReason::Snap
-    } else {
-        NoOpReason::Unknown
+        return NoOpReason::Seam;
+    }
+    let lengths = mesh.half_edges().map(|h| slit.length(h));
+    let longest = lengths.fold(0.0, f64::max);
+    if done.faces_crossed == 0 && done.nearest_vertex <= ROUNDING * longest {
+        return NoOpReason::Touch;
+    }
+    let tried = |scissor| tried(&scissor, method, mesh, positions);
+    // Copies take memory, and most cuts that miss do so by far.
+    if done.missed && !through && mesh.faces().any(|f| slit.meets(f)) {
+        let elsewhere = tried(scissor.clone().through(true));
+        let elsewhere = elsewhere.map(|[faces, splits]| NoOpReason::Elsewhere { faces, splits });
+        return elsewhere.unwrap_or(NoOpReason::Unknown);
+    }
+    let can_snap = !done.missed && is_exact && snap > 0.0;
+    match can_snap && tried(scissor.clone().snap(0.0)).is_some() {
+        true => NoOpReason::Snap,
+        false => NoOpReason::Unknown,
     }
 }
 
@@ -131,11 +128,8 @@ impl Slit<'_> {
 
     /// The longest edge of the face of a half-edge.
     fn longest(&self, h: HalfEdgeId) -> f64 {
-        let next = h.next();
-        [h, next, next.next()]
-            .map(|h| self.length(h))
-            .into_iter()
-            .fold(0.0, f64::max)
+        let lengths = h.face().half_edges().map(|h| self.length(h));
+        lengths.into_iter().fold(0.0, f64::max)
     }
 
     fn length(&self, h: HalfEdgeId) -> f64 {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use tearmesh::{DerivedMesh, ExactSum, Mesh, Positions};
-use tearmesh_obj::{PieceNames, PieceWriter, TornDocument};
+use tearmesh_obj::{PieceWriter, TornDocument};
 
 use crate::args::CutArgs;
 use crate::exit::Stop;
@@ -97,36 +97,27 @@ impl Pieces {
             let file = name(number);
             let path = folder.join(&file);
             let written = output::write(&path, |mut out| writer.write(piece, positions, &mut out))?;
-            let PieceNames {
-                objects,
-                groups,
-                materials,
-            } = writer.names(piece);
+            let names = writer.names(piece);
             list.pieces.push(Entry {
                 file,
                 vertices: written.vertices,
                 faces: written.faces,
                 area: area_of(piece, positions),
-                objects,
-                groups,
-                materials,
+                objects: names.objects,
+                groups: names.groups,
+                materials: names.materials,
             });
         }
         let json = serde_json::to_string_pretty(&list);
         let json = json.expect("a list of strings and finite numbers is JSON") + "\n";
         output::write(&folder.join(LIST), |out| out.write_all(json.as_bytes()))?;
-        let is_new =
-            |name: &str| name == LIST || list.pieces.iter().any(|piece| piece.file == name);
-        for path in self
-            .old
-            .iter()
-            .filter(|name| !is_new(name))
-            .map(|name| folder.join(name))
-        {
+        let is_new = |old: &str| old == LIST || list.pieces.iter().any(|piece| piece.file == old);
+        for old in self.old.iter().filter(|old| !is_new(old)) {
+            let path = folder.join(old);
             fs::remove_file(&path).map_err(|error| output::cannot_write(&path, &error))?;
         }
         let count = pieces.len();
-        let folder = self.folder.display().to_string();
+        let folder = folder.display().to_string();
         Ok(report::Pieces { folder, count })
     }
 }

@@ -37,10 +37,8 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
         let pairs = seen(&args.camera, look)?;
         return Ok(pairs.into_iter().map(Along::Rays).collect());
     }
-    let mut pairs = Vec::new();
-    for text in &args.rays {
-        pairs.push(rays::pair(text, "--rays", 1)?);
-    }
+    let pairs = args.rays.iter().map(|text| rays::pair(text, "--rays", 1));
+    let mut pairs: Vec<Pair> = pairs.collect::<Result<_, _>>()?;
     if let Some(path) = &args.rays_file {
         let file = Input::find(path, streams.input)?;
         let text = file.text()?;
@@ -68,16 +66,12 @@ fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
             return Err(refused(&message, POINTS_HELP));
         };
         let (&[a, b], &[c, d]) = (&one[..], &other[..]) else {
-            return Err(refused(
-                &format!("cannot read the points `{text}`"),
-                POINTS_HELP,
-            ));
+            let message = format!("cannot read the points `{text}`");
+            return Err(refused(&message, POINTS_HELP));
         };
         if [a, b] == [c, d] {
-            return Err(refused(
-                &format!("`{text}` is one point twice"),
-                "name two points",
-            ));
+            let message = format!("`{text}` is one point twice");
+            return Err(refused(&message, "name two points"));
         }
         let pair = camera.pair([[a, b], [c, d]]);
         pair.map_err(|error| refused(&error.to_string(), "name points nearer to the picture"))
@@ -90,10 +84,8 @@ const POINTS_HELP: &str = "write both in pixels from the top left, as in --point
 /// Says that two rays span no plane, and what would.
 pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
     let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
-    let (left, right) = (x - 1.0, x + 1.0);
-    let eye = format!("{x},{y},{z}");
-    let help =
-        format!("move one origin, or aim at two points: {eye}@{left},{y},0 {eye}@{right},{y},0");
+    let aimed = [x - 1.0, x + 1.0].map(|to| format!("{x},{y},{z}@{to},{y},0"));
+    let help = format!("move one origin, or aim at two points: {}", aimed.join(" "));
     Fault::error("E-RAY-ONE-LINE", error.to_string()).help(help)
 }
 

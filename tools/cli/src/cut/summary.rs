@@ -34,10 +34,9 @@ pub(crate) fn gap(gapped: &Gapped) -> String {
         (_, 0) => pieces,
         _ => format!("{pieces} and {vertices}"),
     };
-    let up_to = if gapped.vertices_clamped > 0 {
-        "up to "
-    } else {
-        ""
+    let up_to = match gapped.vertices_clamped {
+        0 => "",
+        _ => "up to ",
     };
     format!("gap: {what} moved apart by {up_to}{}", short(gapped.length))
 }
@@ -67,15 +66,14 @@ pub(crate) fn warnings(
         count(cut.lost, "piece", "pieces"),
     ];
     let far = format!("; the nearest vertex is {} away", short(cut.nearest_vertex));
+    let touches = ": the cut only touches the mesh";
+    let unsplit = "but no vertex could be split";
     let (missed, uncut) = match reason {
         NoOpReason::Seam => (": it is already cut there", "but it is already cut there"),
-        NoOpReason::Touch => (
-            ": the cut only touches the mesh",
-            "it only touches the mesh",
-        ),
+        NoOpReason::Touch => (touches, "it only touches the mesh"),
         NoOpReason::Snap => ("", "but is shorter than the snap: use --snap 0"),
-        _ if cut.nearest_vertex == 0.0 => (": the cut only touches the mesh", UNSPLIT),
-        _ => (&*far, UNSPLIT),
+        _ if cut.nearest_vertex == 0.0 => (touches, unsplit),
+        _ => (&*far, unsplit),
     };
     let place_of_cut = match how.through {
         true => "on the plane",
@@ -116,9 +114,6 @@ pub(crate) fn warnings(
     warned.collect()
 }
 
-/// What is said where the reason for it is not known.
-const UNSPLIT: &str = "but no vertex could be split";
-
 /// What would help a cut that met no face.
 fn help(reason: NoOpReason, Bounds { min, max }: Bounds) -> Option<String> {
     let elsewhere = match reason {
@@ -134,9 +129,8 @@ fn help(reason: NoOpReason, Bounds { min, max }: Bounds) -> Option<String> {
         }
     };
     let (least, most) = (place(min), place(max));
-    Some(format!(
-        "the mesh extends from {least} to {most}{elsewhere}"
-    ))
+    let words = format!("the mesh extends from {least} to {most}{elsewhere}");
+    Some(words)
 }
 
 /// A warning if a cut through the first layers went through two.

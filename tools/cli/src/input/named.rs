@@ -11,33 +11,23 @@ use crate::say::Fault;
 /// The files that inputs name, in the order of the inputs and each folder's by name; where there are
 /// none, why, with what was typed.
 pub(crate) fn named(inputs: &[PathBuf], recursive: bool) -> Vec<Result<PathBuf, (PathBuf, Fault)>> {
-    let mut files = Vec::new();
-    for input in inputs {
-        let named = of_input(input, recursive);
-        match named {
-            Ok(named) => files.extend(named.into_iter().map(Ok)),
-            Err(fault) => files.push(Err((input.clone(), fault))),
-        }
-    }
-    files
+    let of = |input: &PathBuf| match of_input(input, recursive) {
+        Ok(named) => named.into_iter().map(Ok).collect(),
+        Err(fault) => vec![Err((input.clone(), fault))],
+    };
+    inputs.iter().flat_map(of).collect()
 }
 
 fn of_input(input: &Path, recursive: bool) -> Result<Vec<PathBuf>, Fault> {
-    let missing = |message: String| Fault::error("E-IO-MISSING", message);
-    if recursive && input.is_dir() {
-        let mut files = Vec::new();
-        look_into(input, &mut files)?;
-        if files.is_empty() {
-            let message = format!("there is no OBJ file in `{}`", input.display());
-            return Err(missing(message));
-        }
-        return Ok(files);
-    }
-    if !is_pattern(input) || input.exists() {
+    let (paths, missing) = if recursive && input.is_dir() {
+        (vec![input.to_owned()], "there is no OBJ file in")
+    } else if is_pattern(input) && !input.exists() {
+        (matching(input), "no file matches")
+    } else {
         return Ok(vec![input.to_owned()]);
-    }
+    };
     let mut files = Vec::new();
-    for path in matching(input) {
+    for path in paths {
         match (path.is_dir(), recursive) {
             (true, true) => look_into(&path, &mut files)?,
             (true, false) => {}
@@ -45,7 +35,8 @@ fn of_input(input: &Path, recursive: bool) -> Result<Vec<PathBuf>, Fault> {
         }
     }
     if files.is_empty() {
-        return Err(missing(format!("no file matches `{}`", input.display())));
+        let message = format!("{missing} `{}`", input.display());
+        return Err(Fault::error("E-IO-MISSING", message));
     }
     Ok(files)
 }
@@ -59,16 +50,13 @@ fn look_into(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Fault> {
             let error = error.expect("a loop takes links, and none are followed");
             cannot_read(&folder.display().to_string(), &error)
         })?;
-        if is_obj(entry.path()) && !entry.path().is_dir() {
+        let ending = entry.path().extension();
+        let is_obj = ending.is_some_and(|ending| ending.eq_ignore_ascii_case("obj"));
+        if is_obj && !entry.path().is_dir() {
             files.push(entry.into_path());
         }
     }
     Ok(())
-}
-
-fn is_obj(path: &Path) -> bool {
-    let extension = path.extension();
-    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("obj"))
 }
 
 fn is_pattern(path: &Path) -> bool {
@@ -87,7 +75,6 @@ fn matching(pattern: &Path) -> Vec<PathBuf> {
     let paths = paths.into_iter().flatten().flatten();
     // The crate's own option hides such names even from those who ask for them.
     let are_wanted = has_hidden(pattern);
-    paths
-        .filter(|path| are_wanted || !has_hidden(path))
-        .collect()
+    let wanted = paths.filter(|path| are_wanted || !has_hidden(path));
+    wanted.collect()
 }

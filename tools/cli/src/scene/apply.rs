@@ -1,15 +1,14 @@
 //! The scene that a scene file describes.
 
-use std::collections::BTreeSet;
-
 use serde::Deserialize;
 use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
-use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Scene, SwayingWind, TimedCut};
-use tearmesh_cloth::{Collider, Tearing, Threshold};
+use tearmesh_cloth::scene::{
+    Axis, Frame, HeldVertices, Preset, Region, Scene, SwayingWind, TimedCut,
+};
+use tearmesh_cloth::{Collider, Method, Tearing, Threshold};
 
 use super::kinds::set;
-use super::read::{SceneFile, Table, sorted};
-use crate::choice::{Preset, Solver};
+use super::read::{SceneFile, Table, none_of};
 use crate::exit::Stop;
 use crate::say::Fault;
 
@@ -21,13 +20,11 @@ impl SceneFile {
     }
 
     /// The scene for a mesh with this frame, or all that is wrong; the method may be chosen on the command line.
-    pub(crate) fn scene(&self, frame: &Frame, solver: Option<Solver>) -> Result<Scene, Stop> {
+    pub(crate) fn scene(&self, frame: &Frame, solver: Option<&Method>) -> Result<Scene, Stop> {
         let top = self.table("").expect("a file has a top");
-        let mut scene = match top.word("base") {
-            Some(Preset(preset)) => preset(frame),
-            None => Scene::fall(frame.up),
-        };
-        let mut faults = Vec::new();
+        let base = top.word::<Preset>("base");
+        let mut scene = base.map_or_else(|| Scene::fall(frame.up), |preset| preset(frame));
+        let faults = &mut Vec::new();
         set(&mut scene.duration_s, top.get("seconds"));
         match top.get("gravity_m_per_s2") {
             Some(Gravity::Down(g)) => scene.gravity_m_per_s2 = frame.up.vector() * -g,
@@ -35,9 +32,8 @@ impl SceneFile {
             None => {}
         }
         set(&mut scene.drag_per_s, top.get("drag_per_s"));
-        self.solver(&mut scene, solver, &mut faults);
-        self.fabric(&mut scene, frame, &mut faults);
-        let faults = &mut faults;
+        self.solver(&mut scene, solver, faults);
+        self.fabric(&mut scene, frame, faults);
         self.wind(&mut scene, faults);
         self.fill(&mut scene.colliders, "collider", faults, Self::collider);
         self.fill(&mut scene.holds, "hold", faults, Self::hold);
@@ -50,10 +46,8 @@ impl SceneFile {
                 Err(fault) => faults.push(fault),
             }
         }
-        match faults.is_empty() {
-            true => Ok(scene),
-            false => Err(sorted(std::mem::take(faults)).into()),
-        }
+        none_of(std::mem::take(faults))?;
+        Ok(scene)
     }
 
     /// Where a file has any tables of a name, they stand for those of the base.
@@ -103,10 +97,9 @@ impl SceneFile {
         let groups: [&[_]; 2] = [&["point", "normal"], &["centre", "radius_m"]];
         self.one_of(table, "a collider", &groups)?;
         if let (Some(point), Some(normal)) = (point(table, "point"), vector(table, "normal")) {
-            let plane = Plane::new(point, normal);
-            return plane
-                .map(Collider::Plane)
-                .map_err(|error| self.fault(table, "normal", "E-SCENE-RANGE", error.to_string()));
+            let wrong = |why: String| self.fault(table, "normal", "E-SCENE-RANGE", why);
+            let plane = Plane::new(point, normal).map_err(|error| wrong(error.to_string()))?;
+            return Ok(Collider::Plane(plane));
         }
         match (point(table, "centre"), table.get("radius_m")) {
             (Some(centre), Some(radius_m)) => Ok(Collider::Sphere { centre, radius_m }),
@@ -123,13 +116,12 @@ impl SceneFile {
         }
         let moves: Vec<[f64; 4]> = table.get("moves").unwrap_or_default();
         let moves = moves.into_iter();
+        let moves = moves.map(|[time_s, x, y, z]| (time_s, Vector::new(x, y, z)));
         Ok(HeldVertices {
             region: self.region(table, "a hold")?,
             from_s,
             until_s,
-            moves: moves
-                .map(|[time_s, x, y, z]| (time_s, Vector::new(x, y, z)))
-                .collect(),
+            moves: moves.collect(),
         })
     }
 
@@ -141,14 +133,9 @@ impl SceneFile {
     }
 
     fn region(&self, table: &Table, what: &str) -> Result<Region, Fault> {
-        let groups: [&[_]; 5] = [
-            &["near", "radius"],
-            &["across", "along"],
-            &["from", "to"],
-            &["centre", "radius_m"],
-            &["vertices"],
-        ];
-        self.one_of(table, what, &groups)?;
+        let places: [&[_]; 2] = [&["near", "radius"], &["across", "along"]];
+        let bodies: [&[_]; 3] = [&["from", "to"], &["centre", "radius_m"], &["vertices"]];
+        self.one_of(table, what, &[&places[..], &bodies].concat())?;
         if let Some(at) = table.get("near") {
             let radius = table.get("radius").unwrap_or(0.0);
             return Ok(Region::Near { at, radius });
@@ -215,13 +202,12 @@ impl SceneFile {
             (None, _) => return Err(self.missing(table, "threshold_warp")),
         };
         let of = |key, threshold: fn(f64) -> Threshold| table.get(key).map(threshold);
-        let threshold = of("threshold", Threshold::Stretch)
-            .or(of("toughness_j_per_m", Threshold::Toughness))
-            .or(of("threshold_n", Threshold::Force))
-            .or(of("principal_stretch", Threshold::PrincipalStretch))
-            .or(woven)
-            .unwrap_or(Threshold::Stretch(Scene::STRETCH_RATIO));
-        let mut tearing = Tearing::new(threshold);
+        let stretch = of("threshold", Threshold::Stretch);
+        let stretch = stretch.or(of("principal_stretch", Threshold::PrincipalStretch));
+        let energy = of("toughness_j_per_m", Threshold::Toughness);
+        let other = energy.or(of("threshold_n", Threshold::Force)).or(woven);
+        let usual = Threshold::Stretch(Scene::STRETCH_RATIO);
+        let mut tearing = Tearing::new(stretch.or(other).unwrap_or(usual));
         tearing.splits_per_step_max = table.get("splits_per_step");
         if let Some(weakening) = table.get("weakening") {
             if weakening == 0.0 {
@@ -235,18 +221,18 @@ impl SceneFile {
 
     /// Refuses keys of different groups in one table, and none of any.
     fn one_of(&self, table: &Table, what: &str, groups: &[&[&'static str]]) -> Result<(), Fault> {
-        let found: Vec<Vec<&str>> = groups
-            .iter()
-            .map(|group| table.those_of(group))
-            .filter(|found| !found.is_empty())
-            .collect();
-        let choices: BTreeSet<&str> = groups.iter().map(|group| group[0]).collect();
-        let choices = choices.into_iter().collect::<Vec<_>>().join(", ");
-        match &found[..] {
+        let found = groups.iter().filter_map(|group| {
+            let found = table.those_of(group);
+            found.first().copied()
+        });
+        let mut choices: Vec<&str> = groups.iter().map(|group| group[0]).collect();
+        choices.sort_unstable();
+        let choices = choices.join(", ");
+        match found.collect::<Vec<_>>()[..] {
             [_] => Ok(()),
             [one, other, ..] => {
-                let message = format!("`{}` and `{}` cannot go together", one[0], other[0]);
-                let fault = self.fault(table, other[0], "E-SCENE-CLASH", message);
+                let message = format!("`{one}` and `{other}` cannot go together");
+                let fault = self.fault(table, other, "E-SCENE-CLASH", message);
                 Err(fault.help(format!("{what} takes one of {choices}")))
             }
             [] => {
@@ -276,17 +262,14 @@ fn point(table: &Table, key: &str) -> Option<Point> {
 
 /// What a region begun with one key lacks.
 fn other_half(table: &Table) -> &'static str {
-    for (one, other) in [
+    let halves = [
         ("radius", "near"),
         ("from", "to"),
         ("to", "from"),
         ("centre", "radius_m"),
         ("point", "normal"),
         ("normal", "point"),
-    ] {
-        if table.has(one) {
-            return other;
-        }
-    }
-    "centre"
+    ];
+    let known = halves.iter().find(|(one, _)| table.has(one));
+    known.map_or("centre", |(_, other)| other)
 }

@@ -7,7 +7,6 @@ use tearmesh_cloth::{Bending, Buckling, Stretch, Weave};
 use super::apply::vector;
 use super::kinds::set;
 use super::read::{SceneFile, Table};
-use crate::choice::BendLaw;
 use crate::say::Fault;
 
 impl SceneFile {
@@ -21,11 +20,9 @@ impl SceneFile {
         set(&mut scene.areal_density_kg_per_m2, density);
         set(&mut fabric.damping_s, table.get("damping_s"));
         set(&mut fabric.unbend, table.word("unbend"));
-        let stretch = self.stretch(table, scene);
-        let others = [self.bend(table, scene), self.weave(table, scene, frame)];
-        for done in std::iter::once(stretch).chain(others) {
-            faults.extend(done.err());
-        }
+        faults.extend(self.stretch(table, scene).err());
+        faults.extend(self.bend(table, scene).err());
+        faults.extend(self.weave(table, scene, frame).err());
     }
 
     /// What resists stretch along edges: a membrane, or springs of one stiffness.
@@ -41,16 +38,12 @@ impl SceneFile {
         }
         let has = |key| table.has(key);
         let clash = |key, message: &str| Err(self.fault(table, key, "E-SCENE-CLASH", message));
-        match (
-            has("stretch_n_per_m"),
-            has("modulus_n_per_m"),
-            has("copies"),
-        ) {
-            (true, true, _) => clash(
+        match has("stretch_n_per_m") {
+            true if has("modulus_n_per_m") => clash(
                 "modulus_n_per_m",
                 "`modulus_n_per_m` is of a membrane, and stretch_n_per_m of springs: give one of them",
             ),
-            (false, _, true) => clash(
+            false if has("copies") => clash(
                 "copies",
                 "`copies` goes with stretch_n_per_m: each side of a torn membrane keeps what its faces give",
             ),
@@ -60,7 +53,8 @@ impl SceneFile {
 
     /// What resists bending: springs, or arcs that buckle.
     fn bend(&self, table: &Table, scene: &mut Scene) -> Result<(), Fault> {
-        let buckles = table.word("bend_law") == Some(BendLaw::Buckling);
+        let law: Option<String> = table.get("bend_law");
+        let buckles = law.as_deref() == Some("buckling");
         let (foreign, other): (&[&str], _) = match buckles {
             true => (&["bend_n_per_m"], "spring"),
             false => (&["rigidity_n_m", "buckles_below"], "buckling"),

@@ -5,20 +5,24 @@ use tearmesh_cloth::scene::Scene;
 
 use super::kinds::set;
 use super::read::SceneFile;
-use crate::choice::Solver;
 use crate::say::Fault;
 
 impl SceneFile {
     /// The method: its keys are those of the file's or of the one that was typed in its place.
-    pub(super) fn solver(&self, scene: &mut Scene, typed: Option<Solver>, faults: &mut Vec<Fault>) {
+    pub(super) fn solver(
+        &self,
+        scene: &mut Scene,
+        typed: Option<&Method>,
+        faults: &mut Vec<Fault>,
+    ) {
         let table = self.table("solver");
-        if let Some(Solver(method)) = table.and_then(|table| table.word("method")) {
-            scene.solver = method();
-        }
+        let named = table.and_then(|table| table.get::<String>("method"));
+        set(
+            &mut scene.solver,
+            named.and_then(|name| Method::named(&name)),
+        );
         let method = scene.solver.name();
-        if let Some(Solver(typed)) = typed {
-            scene.solver = typed();
-        }
+        set(&mut scene.solver, typed.cloned());
         let Some(table) = table else {
             return;
         };

@@ -97,20 +97,14 @@ impl SceneFile {
                 None => {}
             }
         }
-        let Reader {
-            tables, mut faults, ..
-        } = reader;
+        let (tables, mut faults) = (reader.tables, reader.faults);
         let file = SceneFile {
             text: source,
             tables,
         };
         let cuts = file.tables("cut").filter(|cut| cut.has("rays"));
-        let wrong = cuts.filter_map(|cut| file.rays(cut).err());
-        faults.extend(wrong);
-        match faults.is_empty() {
-            true => Ok(file),
-            false => Err(sorted(faults)),
-        }
+        faults.extend(cuts.filter_map(|cut| file.rays(cut).err()));
+        none_of(faults).map(|()| file)
     }
 
     /// Whether the file has a table of this name.
@@ -183,10 +177,13 @@ impl SceneFile {
     }
 }
 
-/// In the order of the text.
-pub(super) fn sorted(mut faults: Vec<Fault>) -> Vec<Fault> {
+/// Fails if there are faults, which are then in the order of the text.
+pub(super) fn none_of(mut faults: Vec<Fault>) -> Result<(), Vec<Fault>> {
     faults.sort_by_key(|fault| fault.location);
-    faults
+    match faults.is_empty() {
+        true => Ok(()),
+        false => Err(faults),
+    }
 }
 
 struct Reader<'s> {
@@ -236,18 +233,13 @@ impl Reader<'_> {
             };
             let read = Value::deserialize(ValueDeserializer::from(value.clone()));
             let checked = read.map_err(|_| "E-SCENE-TYPE");
-            let checked = checked.and_then(|read| known.check(&read).map(|()| read));
-            match checked {
+            match checked.and_then(|read| known.check(&read).map(|()| read)) {
                 Ok(read) => {
-                    let parts = match value.get_ref() {
-                        DeValue::Array(array) => array.iter().map(Spanned::span).collect(),
-                        _ => Vec::new(),
-                    };
-                    let span = value.span();
+                    let parts = value.get_ref().as_array().into_iter().flatten();
                     let entry = Entry {
                         value: read,
-                        span,
-                        parts,
+                        span: value.span(),
+                        parts: parts.map(Spanned::span).collect(),
                     };
                     values.insert(known.name, entry);
                 }
@@ -283,21 +275,19 @@ impl Reader<'_> {
             let tables = self.sections.iter().map(|section| section.table);
             names.extend(tables.filter(|table| !table.is_empty()));
         }
-        let is_it = |(of, key, _): &&(&str, &str, &str)| *of == section.table && *key == word;
-        let (message, label, help) = match REMOVED.iter().find(is_it) {
-            Some((_, _, instead)) => (
+        let whole = format!("{}.{word}", section.table);
+        let removed = REMOVED.iter().find(|(key, _)| *key == whole);
+        let (message, label) = match removed {
+            Some(_) => (
                 format!("`{word}` of {place} was removed"),
                 "no longer a key",
-                (*instead).to_owned(),
             ),
-            None => (
-                format!("{place} has no key `{word}`"),
-                "unknown key",
-                match near(word, &names) {
-                    Some(name) => format!("did you mean `{name}`?"),
-                    None => format!("it has {}", names.join(", ")),
-                },
-            ),
+            None => (format!("{place} has no key `{word}`"), "unknown key"),
+        };
+        let help = match (removed, near(word, &names)) {
+            (Some((_, instead)), _) => (*instead).to_owned(),
+            (None, Some(name)) => format!("did you mean `{name}`?"),
+            (None, None) => format!("it has {}", names.join(", ")),
         };
         let fault = self.text.fault("E-SCENE-KEY", message, &span, label);
         self.faults.push(fault.help(help));
@@ -306,10 +296,8 @@ impl Reader<'_> {
 
 /// The name that is nearest to a word, if it is near.
 fn near<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
-    let distances = names
-        .iter()
-        .map(|name| (strsim::damerau_levenshtein(word, name), *name));
-    let (distance, name) = distances.min()?;
+    let distance = |name| (strsim::damerau_levenshtein(word, name), name);
+    let (distance, name) = names.iter().copied().map(distance).min()?;
     (2 * distance <= name.len()).then_some(name)
 }
 
@@ -341,18 +329,13 @@ impl Text {
         span: &Range<usize>,
         label: &str,
     ) -> Fault {
-        let mut start = span.start.min(self.text.len());
-        while !self.text.is_char_boundary(start) {
-            start -= 1;
-        }
+        let start = self.text.floor_char_boundary(span.start);
         let line_start = self.text[..start].rfind('\n').map_or(0, |at| at + 1);
         let rest = &self.text[line_start..];
         let line_text = rest.lines().next().unwrap_or_default();
         let at = (start - line_start).min(line_text.len());
-        let mut end = (span.end.max(start) - line_start).clamp(at, line_text.len());
-        while !line_text.is_char_boundary(end) {
-            end += 1;
-        }
+        let end = (span.end.max(start) - line_start).clamp(at, line_text.len());
+        let end = line_text.ceil_char_boundary(end);
         let line = self.text[..line_start].matches('\n').count() + 1;
         Fault::error(code, message).at((&self.path, line), line_text, at..end, label)
     }

@@ -3,28 +3,21 @@
 
 use std::fmt::Write as _;
 
-/// Keys that scene files once had, by table, and what to do without them.
-pub(super) const REMOVED: [(&str, &str, &str); 4] = [
+/// Keys that scene files once had, with their tables, and what to do without them.
+pub(super) const REMOVED: [(&str, &str); 4] = [
     (
-        "fabric",
-        "flexural_n_m2",
+        "fabric.flexural_n_m2",
         "give `rigidity_n_m`, which is per width of the cloth",
     ),
     (
-        "solver",
-        "newton_iterations",
+        "solver.newton_iterations",
         "leave it out; a shorter `dt_s` makes implicit steps more exact",
     ),
     (
-        "tear",
-        "delay_s",
+        "tear.delay_s",
         "leave it out; an edge tears in the step in which it reaches its threshold",
     ),
-    (
-        "tear",
-        "tears_held",
-        "leave it out; held vertices do not tear",
-    ),
+    ("tear.tears_held", "leave it out; held vertices do not tear"),
 ];
 
 /// A table of a scene file, as the guide has it.
@@ -86,10 +79,9 @@ pub(crate) fn schema() -> String {
          as in OBJ, without duplicates (named in comments `#~ fan` of a torn file).",
     );
     for section in Section::all() {
-        let many = if section.is_list() {
-            " (any number)"
-        } else {
-            ""
+        let many = match section.is_list() {
+            true => " (any number)",
+            false => "",
         };
         write!(text, "\n  {}{many}", section.title).expect("a string grows");
         for key in section.keys {

@@ -13,17 +13,15 @@ use crate::say::{Fault, count, short, three_digits, two_digits};
 /// What is known before the first step. `number` is that of a vertex in its file.
 pub(crate) fn before(run: &Run, frame: &Frame, number: &dyn Fn(usize) -> usize) -> Vec<Fault> {
     let warnings = Warning::before(run, frame).into_iter();
-    warnings
-        .map(|warning| fault(warning, run, number))
-        .collect()
+    let faults = warnings.map(|warning| fault(warning, run, number));
+    faults.collect()
 }
 
 /// What showed in the steps that were taken.
 pub(crate) fn after(run: &Run) -> Vec<Fault> {
     let warnings = Warning::after(run).into_iter();
-    warnings
-        .map(|warning| fault(warning, run, &|v| v + 1))
-        .collect()
+    let faults = warnings.map(|warning| fault(warning, run, &|v| v + 1));
+    faults.collect()
 }
 
 /// A warning in words, and what would help.
@@ -32,29 +30,25 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
     let step = short(run.step_s());
     let half = two_digits(run.step_s() / 2.0);
     let has_failed = matches!(warning, Warning::Energy(_)) && has_exploded(run);
-    let (message, help) = match warning {
-        Warning::Size { size_m } => (
-            format!(
-                "the mesh is {} m across, and the fabric suits garments and flags",
-                short(size_m)
-            ),
-            "units are metres: scale the mesh, or set [fabric] in a scene file".to_owned(),
-        ),
+    let (message, help): (String, String) = match warning {
+        Warning::Size { size_m } => {
+            let size = short(size_m);
+            let message =
+                format!("the mesh is {size} m across, and the fabric suits garments and flags");
+            let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
+            (message, help.into())
+        }
         Warning::Endless { frequency } => {
             let at = frequency.ends.map(|ends| {
                 let [a, b] = ends.map(number);
                 let omega = frequency.omega_rad_per_s;
                 format!(": the edge {a}-{b} may swing at {omega:.1e} rad/s, because it is stiff and its ends are light")
             });
-            (
-                format!(
-                    "{:.1e} steps of {} s are planned{}",
-                    run.steps_planned() as f64,
-                    two_digits(run.step_s()),
-                    at.unwrap_or_default()
-                ),
-                "take a face without area out of the mesh, or use --solver implicit".to_owned(),
-            )
+            let (steps, at) = (run.steps_planned() as f64, at.unwrap_or_default());
+            let step = two_digits(run.step_s());
+            let help = "take a face without area out of the mesh, or use --solver implicit";
+            let message = format!("{steps:.1e} steps of {step} s are planned{at}");
+            (message, help.into())
         }
         Warning::LateCut { at_s: time_s } | Warning::LateHold { from_s: time_s, .. } => {
             let time = short(time_s);
@@ -63,120 +57,111 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
                 _ => format!("the cut at {time} s is never made"),
             };
             let over = short(run.steps_planned() as f64 * run.step_s());
-            (
-                format!("{what}: the scene is over after {over} s"),
-                format!("--seconds above {time}, or an earlier time"),
-            )
+            let help = format!("--seconds above {time}, or an earlier time");
+            (format!("{what}: the scene is over after {over} s"), help)
         }
-        Warning::Soft(softness) => (
-            format!(
-                "xpbd with a step of {step} s leaves the cloth too soft: hanging cloth stretches {} % too \
-                 far, and some edges far more",
-                short((softness.extra * 100.0).round()),
-            ),
-            format!(
-                "--dt {} for {} %, or --solver verlet, which is exact at rest",
+        Warning::Soft(softness) => {
+            let extra = short((softness.extra * 100.0).round());
+            let (dt, most) = (
                 two_digits(softness.step_s),
                 short(Softness::TOLERABLE * 100.0),
-            ),
-        ),
+            );
+            let message = format!(
+                "xpbd with a step of {step} s leaves the cloth too soft: hanging cloth stretches {extra} % \
+                 too far, and some edges far more"
+            );
+            let verlet = "--solver verlet, which is exact at rest";
+            (message, format!("--dt {dt} for {most} %, or {verlet}"))
+        }
         Warning::Coarse { wanted_s } => {
             let sweeps = match &scene.solver {
                 Method::Pbd(pbd) => pbd.sweeps as usize,
                 _ => 1,
             };
-            let and = match scene.tearing {
-                Some(_) => ", and may tear",
-                None => "",
-            };
-            (
-                format!(
-                    "a step of {step} s with {} is {} times too long for so fine a mesh: hanging cloth \
-                     stretches too far{and}",
-                    count(sweeps, "sweep", "sweeps"),
-                    short((run.step_s() / wanted_s * 10.0).round() / 10.0),
-                ),
-                format!("--dt {}, or --solver verlet", two_digits(wanted_s)),
-            )
+            let sweeps = count(sweeps, "sweep", "sweeps");
+            let times = short((run.step_s() / wanted_s * 10.0).round() / 10.0);
+            let (dt, and) = (
+                two_digits(wanted_s),
+                scene.tearing.map_or("", |_| ", and may tear"),
+            );
+            let message = format!(
+                "a step of {step} s with {sweeps} is {times} times too long for so fine a mesh: hanging \
+                 cloth stretches too far{and}"
+            );
+            (message, format!("--dt {dt}, or --solver verlet"))
         }
-        Warning::Rigid => (
-            format!(
+        Warning::Rigid => {
+            let stiffness = short(scene.fabric.stretch_n_per_m());
+            let message = format!(
                 "pbd treats edges as rigid: their stretch depends on the step and the number of sweeps, not \
-                 on the {} N/m of the fabric",
-                short(scene.fabric.stretch_n_per_m()),
-            ),
-            "--solver verlet, or xpbd, whose edges are as stiff as the fabric's at short steps"
-                .to_owned(),
-        ),
+                 on the {stiffness} N/m of the fabric"
+            );
+            let xpbd = "xpbd, whose edges are as stiff as the fabric's at short steps";
+            (message, format!("--solver verlet, or {xpbd}"))
+        }
         Warning::Pinned { hold, pins } => {
             let (what, they) = match pins {
                 1 => ("a single vertex, whose".to_owned(), "it"),
                 _ => (format!("{pins} single vertices, whose"), "they"),
             };
-            (
-                format!(
-                    "hold {} pins {what} strain grows as the mesh gets finer: {they} may tear where a \
-                     clamp would not",
-                    hold + 1
-                ),
-                "give it a `radius`, such as 0.1".to_owned(),
-            )
+            let number = hold + 1;
+            let message = format!(
+                "hold {number} pins {what} strain grows as the mesh gets finer: {they} may tear where a \
+                 clamp would not"
+            );
+            (message, "give it a `radius`, such as 0.1".into())
         }
         Warning::SmallBall {
             collider,
             radius_m,
             longest_m,
-        } => (
-            format!(
-                "collider {} is a ball {} m across, and edges are up to {} m long: only vertices collide, \
-                 so the ball may pass between them",
-                collider + 1,
-                short(2.0 * radius_m),
-                two_digits(longest_m),
-            ),
-            "a finer mesh, or a larger ball".to_owned(),
-        ),
-        Warning::Strong { least } => (
-            format!(
-                "all {} are stronger than the cloth: nothing tears below {} times the threshold",
-                count(run.mesh().vertex_count(), "vertex", "vertices"),
-                short(least),
-            ),
-            "a finer mesh, or smaller regions of strength".to_owned(),
-        ),
+        } => {
+            let (number, across) = (collider + 1, short(2.0 * radius_m));
+            let long = two_digits(longest_m);
+            let message = format!(
+                "collider {number} is a ball {across} m across, and edges are up to {long} m long: only \
+                 vertices collide, so the ball may pass between them"
+            );
+            (message, "a finer mesh, or a larger ball".into())
+        }
+        Warning::Strong { least } => {
+            let vertices = count(run.mesh().vertex_count(), "vertex", "vertices");
+            let least = short(least);
+            let message = format!(
+                "all {vertices} are stronger than the cloth: nothing tears below {least} times the threshold"
+            );
+            (
+                message,
+                "a finer mesh, or smaller regions of strength".into(),
+            )
+        }
         Warning::Limiter(stats) => {
             let limit = match &scene.solver {
                 Method::Provot(limiter) => limiter.stretch_ratio_max,
                 _ => 1.0,
             };
-            (
-                format!(
-                    "in {} of {}, the holds were too far apart for the limiter: edges stayed up to {} \
-                     times their rest length, above its limit of {limit}",
-                    stats.steps_infeasible,
-                    of_steps(run),
-                    short(limit + stats.excess_max),
-                ),
-                "a larger limit_ratio in [solver] of a scene file, or --solver verlet".to_owned(),
-            )
+            let (some, all) = (stats.steps_infeasible, of_steps(run));
+            let most = short(limit + stats.excess_max);
+            let message = format!(
+                "in {some} of {all}, the holds were too far apart for the limiter: edges stayed up to {most} \
+                 times their rest length, above its limit of {limit}"
+            );
+            let help = "a larger limit_ratio in [solver] of a scene file, or --solver verlet";
+            (message, help.into())
         }
         Warning::PassedBall {
             collider,
             radius_m,
             farthest_m,
-        } => (
-            format!(
-                "a vertex moved {} m in a step, and collider {} is a ball of radius {} m: the vertex may \
-                 have passed through it",
-                two_digits(farthest_m),
-                collider + 1,
-                short(radius_m),
-            ),
-            format!(
-                "--dt {}",
-                two_digits(run.step_s() * radius_m / farthest_m / 2.0)
-            ),
-        ),
+        } => {
+            let (far, number, radius) = (two_digits(farthest_m), collider + 1, short(radius_m));
+            let message = format!(
+                "a vertex moved {far} m in a step, and collider {number} is a ball of radius {radius} m: the \
+                 vertex may have passed through it"
+            );
+            let dt_s = run.step_s() * radius_m / farthest_m / 2.0;
+            (message, format!("--dt {}", two_digits(dt_s)))
+        }
         Warning::Energy(gain) => {
             let since = short(gain.since_s);
             let so = match has_failed {
@@ -194,25 +179,20 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
                 Method::Implicit(_) => "--solver verlet",
                 _ => "--solver verlet or implicit",
             };
-            (
-                format!("the method made {much}{so}"),
-                format!("{others}, --dt {half}, or a larger drag_per_s in a scene file"),
-            )
+            let help = format!("{others}, --dt {half}, or a larger drag_per_s in a scene file");
+            (format!("the method made {much}{so}"), help)
         }
         Warning::Damped { lost_j, moving_j } => {
             let order = match scene.solver {
                 Method::Implicit(_) => "`order = \"2\"` in [solver] of a scene file, ",
                 _ => "",
             };
-            (
-                format!(
-                    "{} lost {} J of the {} J that went into motion, which fades too soon",
-                    scene.solver.name(),
-                    three_digits(lost_j),
-                    three_digits(moving_j),
-                ),
-                format!("--dt {half}, {order}or --solver verlet"),
-            )
+            let (method, lost) = (scene.solver.name(), three_digits(lost_j));
+            let moving = three_digits(moving_j);
+            let message = format!(
+                "{method} lost {lost} J of the {moving} J that went into motion, which fades too soon"
+            );
+            (message, format!("--dt {half}, {order}or --solver verlet"))
         }
     };
     let (code, say): (_, fn(&'static str, String) -> Fault) = match warning {
@@ -239,11 +219,10 @@ fn state_kept(run: &Run) -> String {
 /// How many steps were taken; where they were divided, and the method had each part, how many parts.
 fn of_steps(run: &Run) -> String {
     let substeps = run.cloth().system().counters().substeps;
-    let (one, many) = match substeps == run.tally().steps {
-        true => ("step", "steps"),
-        false => ("substep", "substeps"),
-    };
-    count(substeps as usize, one, many)
+    match substeps == run.tally().steps {
+        true => count(substeps as usize, "step", "steps"),
+        false => count(substeps as usize, "substep", "substeps"),
+    }
 }
 
 /// The part of the seconds that were asked for by which those simulated may differ unsaid: a step
@@ -257,20 +236,19 @@ pub(super) fn times(run: &Run, args: &TearArgs) -> Vec<Fault> {
     let made_s = steps as f64 * step_s;
     let step = short(step_s);
     if (made_s - asked_s).abs() > DIFFERENCE_MAX * asked_s {
+        let (asked, made) = (short(asked_s), short(made_s));
+        let steps = count(steps as usize, "step", "steps");
         let message = format!(
-            "{} s is not a whole number of steps of {step} s: {} s are simulated, in {}",
-            short(asked_s),
-            short(made_s),
-            count(steps as usize, "step", "steps"),
+            "{asked} s is not a whole number of steps of {step} s: {made} s are simulated, in {steps}"
         );
         let help = format!("--dt {}", short(asked_s / (asked_s / step_s).ceil()));
         faults.push(Fault::warning("W-SIM-SECONDS", message).help(help));
     }
     let has_frames = args.frames.is_some() || args.cache.is_some();
     if has_frames && !args.files.dry_run && step_s * RATE_PER_S > 1.0 {
+        let rate = short(1.0 / step_s);
         let message = format!(
-            "steps of {step} s make {} frames per second, not {RATE_PER_S}: they play too fast",
-            short(1.0 / step_s),
+            "steps of {step} s make {rate} frames per second, not {RATE_PER_S}: they play too fast"
         );
         let help = format!("--dt {}", two_digits(1.0 / RATE_PER_S));
         faults.push(Fault::warning("W-FRAMES-FEW", message).help(help));
@@ -317,11 +295,8 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
         }
         StepError::Implicit { error, .. } => {
             let (why, or) = unsolved(&error);
-            let dt = short(run.step_s());
-            (
-                format!("an implicit step of {dt} s {why}"),
-                format!("--dt {half}, --solver verlet{or}"),
-            )
+            let message = format!("an implicit step of {} s {why}", short(run.step_s()));
+            (message, format!("--dt {half}, --solver verlet{or}"))
         }
         _ => {
             let message = match *error {
@@ -344,25 +319,25 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
 
 /// Where a simulation blew up.
 fn place(at: BlowUpSite) -> String {
-    let long =
-        |place: String, ratio| format!("{place}, which is {} times its rest length", short(ratio));
-    match at {
+    let (place, ratio) = match at {
         BlowUpSite::Constraint {
             ends: [a, b],
             stretch_ratio,
-        } => long(format!(" at edge {}-{}", a + 1, b + 1), stretch_ratio),
+        } => (format!("edge {}-{}", a + 1, b + 1), stretch_ratio),
         BlowUpSite::Bend {
             ends: [a, b],
             stretch_ratio,
         } => {
-            let bend = format!(" at the bend between the vertices {} and {}", a + 1, b + 1);
-            long(bend, stretch_ratio)
+            let place = format!("the bend between the vertices {} and {}", a + 1, b + 1);
+            (place, stretch_ratio)
         }
         BlowUpSite::Particle(particle) | BlowUpSite::Beyond(particle) => {
-            format!(": vertex {} has no finite position", particle + 1)
+            return format!(": vertex {} has no finite position", particle + 1);
         }
-        _ => String::new(),
-    }
+        _ => return String::new(),
+    };
+    let ratio = short(ratio);
+    format!(" at {place}, which is {ratio} times its rest length")
 }
 
 /// What an implicit step left undone, and which key of a scene file can help beside a shorter step.
@@ -372,15 +347,14 @@ fn unsolved(error: &implicit::StepError) -> (String, &'static str) {
             residual,
             limit,
             solver_iterations,
-        } => (
-            format!(
-                "leaves an error of {} m/s after {solver_iterations} iterations of the linear solver, and \
-                 the tolerance allows {} m/s",
-                short(*residual),
-                short(*limit)
-            ),
-            ", or a larger `tolerance` in [solver] of a scene file",
-        ),
+        } => {
+            let (error, limit) = (short(*residual), short(*limit));
+            let why = format!(
+                "leaves an error of {error} m/s after {solver_iterations} iterations of the linear solver, \
+                 and the tolerance allows {limit} m/s"
+            );
+            (why, ", or a larger `tolerance` in [solver] of a scene file")
+        }
         _ => (format!("failed: {error}"), ""),
     }
 }

@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use tearmesh::{FaceId, Scissor, Vector, VertexId};
-use tearmesh_cloth::scene::{RunError, Scene, TimedCut};
+use tearmesh_cloth::scene::{Preset, RunError, Scene, TimedCut};
 use tearmesh_cloth::{ClothError, Method, SimulationError, Stretch, TearingError, Threshold};
 
 use crate::args::TearArgs;
-use crate::choice::{Choice as _, Preset};
+use crate::choice::Choice as _;
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
@@ -60,31 +60,24 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
         let fault = source.blame(at, "E-SCENE-CLASH", message.to_owned());
         Err(fault.help(help).into())
     };
-    let Some(tearing) = &scene.tearing else {
+    if scene.tearing.is_none() && source.has("strength") {
+        let message = "nothing tears in this scene, however strong it is";
         let help = "add --threshold, or a threshold in [tear] of a scene file";
-        if source.has("strength") {
-            let message = "nothing tears in this scene, however strong it is";
-            return blame(("strength", 0, ""), message, help);
-        }
-        return Ok(());
-    };
-    let fabric = &scene.fabric;
-    if fabric.stretch != Stretch::Slack || !matches!(tearing.threshold, Threshold::Force(_)) {
+        return blame(("strength", 0, ""), message, help);
+    }
+    let threshold = scene.tearing.map(|tearing| tearing.threshold);
+    let is_force = matches!(threshold, Some(Threshold::Force(_)));
+    if scene.fabric.stretch != Stretch::Slack || !is_force {
         return Ok(());
     }
     let lack = "is the pull of springs, and this fabric is of triangles";
     if args.threshold_newton.is_some() {
-        return Err(Stop::usage(
-            format!("`--threshold-newton` {lack}"),
-            "take --toughness",
-        ));
+        let message = format!("`--threshold-newton` {lack}");
+        return Err(Stop::usage(message, "take --toughness"));
     }
     let help = "take toughness_j_per_m or principal_stretch, or add modulus_n_per_m to [fabric]";
-    blame(
-        ("tear", 0, "threshold_n"),
-        &format!("`threshold_n` {lack}"),
-        help,
-    )
+    let message = format!("`threshold_n` {lack}");
+    blame(("tear", 0, "threshold_n"), &message, help)
 }
 
 /// Why a scene cannot be played with this mesh.
@@ -106,11 +99,10 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
             vertex,
             ..
         } => {
+            let (one, vertex) = (number + 1, vertex.index() + 1);
+            let last = opened.document.vertex_statement_count();
             let message = format!(
-                "{named_by} {} names the vertex {}, and the mesh has the vertices 1 to {}",
-                number + 1,
-                vertex.index() + 1,
-                opened.document.vertex_statement_count()
+                "{named_by} {one} names the vertex {vertex}, and the mesh has the vertices 1 to {last}"
             );
             source.blame((named_by, number, "vertices"), "E-SCENE-RANGE", message)
         }

@@ -5,13 +5,12 @@
 //! yet is at the position of its source. A vertex that a cut will insert is on its edge or in its face,
 //! at the same fraction: the surface is the same although faces are divided.
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use tearmesh::{Blend, Edits, Mesh, Mix, Point, Positions, VertexId, VertexOp};
 use tearmesh_cloth::scene::Run;
-use tearmesh_obj::{TornDocument, WriteSummary};
+use tearmesh_obj::TornDocument;
 use tearmesh_view::{MOMENTS_PER_S, write_pc2};
 
 use super::check;
@@ -46,8 +45,6 @@ pub(super) struct Frames {
     sources: Vec<Mix<VertexId>>,
     /// Faces that were divided, by their index.
     divided: Vec<bool>,
-    /// The vertices at the beginning.
-    first: usize,
 }
 
 /// A recorded frame.
@@ -63,14 +60,13 @@ impl Frames {
     /// Makes the folder where there is none.
     pub(super) fn open(args: &TearArgs, run: &Run) -> Result<Frames, Stop> {
         let frames = Frames {
-            folder: args.frames.clone().filter(|_| !args.files.dry_run),
-            cache: args.cache.clone().filter(|_| !args.files.dry_run),
+            folder: args.files.wanted(&args.frames).cloned(),
+            cache: args.files.wanted(&args.cache).cloned(),
             topology: args.frames_topology,
             count: 0,
             waiting: Vec::new(),
             sources: Vec::new(),
             divided: vec![false; run.mesh().face_count()],
-            first: run.mesh().vertex_count(),
         };
         if let Some(folder) = &frames.folder {
             let is_frame = |name: &str| name.starts_with("frame_") && name.ends_with(".obj");
@@ -85,10 +81,9 @@ impl Frames {
     pub(super) fn follow(&mut self, edits: &Edits) {
         for edit in edits.iter() {
             for op in edit.vertex_ops() {
-                match op {
-                    VertexOp::Push { from, .. } => self.sources.push(from),
-                    // A slide adds no vertex, and a simulation never merges.
-                    VertexOp::Set { .. } | VertexOp::SwapRemove { .. } => {}
+                // A slide adds no vertex, and a simulation never merges.
+                if let VertexOp::Push { from, .. } = op {
+                    self.sources.push(from);
                 }
             }
             for family in edit.families() {
@@ -104,14 +99,15 @@ impl Frames {
     /// Records a frame if it is time for one.
     pub(super) fn record(&mut self, run: &Run, torn: &TornDocument<'_>) -> Result<(), Stop> {
         let step = (self.count as f64 / RATE_PER_S / run.step_s()).round();
-        let (has_folder, has_cache) = (self.folder.is_some(), self.cache.is_some());
-        if !(has_folder || has_cache) || (run.tally().steps as f64) < step {
+        let has_cache = self.cache.is_some();
+        let folder = self.folder.as_ref();
+        if !(folder.is_some() || has_cache) || (run.tally().steps as f64) < step {
             return Ok(());
         }
-        if has_folder && self.topology == Topology::Own {
+        if let Some(folder) = folder.filter(|_| self.topology == Topology::Own) {
             let positions = places(run)?;
             // Fans stay together: the number of a copy is that of the vertex that is added next.
-            self.write(self.count, |mut out| {
+            output::write(&folder.join(name(self.count)), |mut out| {
                 torn.write_unseparated(run.mesh(), &positions, &mut out)
             })?;
         }
@@ -139,12 +135,11 @@ impl Frames {
         run: &Run,
         torn: &TornDocument<'_>,
         is_enough: impl Fn() -> bool,
-        session: &mut Session<'_>,
+        session: &mut Session<'_, '_>,
     ) -> Result<(), Stop> {
         let cache = self.cache.as_ref();
-        let cache = cache
-            .map(|path| self.write_cache(path, run, torn))
-            .transpose()?;
+        let cache = cache.map(|path| self.write_cache(path, run, torn));
+        let cache = cache.transpose()?;
         let mut report = None;
         if let Some(folder) = self.folder.clone() {
             let is_final = self.topology == Topology::Final;
@@ -152,20 +147,28 @@ impl Frames {
             let mut checked = 0;
             for (number, frame) in waiting.iter().enumerate() {
                 if is_enough() {
-                    session
-                        .faults
-                        .push(interrupted(&folder, number, self.count));
+                    let (folder, all) = (folder.display(), self.count);
+                    let message = format!("interrupted: `{folder}` has {number} of {all} frames");
+                    let fault = Fault::warning("W-FRAMES-INTERRUPTED", message);
+                    session.faults.push(fault);
                     self.count = number;
                     break;
                 }
                 let (points, corners) = self.checked(number, frame, run.mesh())?;
                 checked += corners;
                 let positions = finite(points)?;
-                self.write(number, |mut out| {
+                output::write(&folder.join(name(number)), |mut out| {
                     torn.write(run.mesh(), &positions, &mut out)
                 })?;
             }
-            session.faults.extend(self.left_over(&folder));
+            let next = name(self.count);
+            if folder.join(&next).exists() {
+                let folder = folder.display();
+                let message = format!("`{folder}` has frames of an earlier run, from {next} on");
+                let fault = Fault::warning("W-FRAMES-OLD", message);
+                let help = "write frames into a folder of their own";
+                session.faults.push(fault.help(help));
+            }
             report = Some(report::Frames {
                 folder: folder.display().to_string(),
                 count: self.count,
@@ -202,7 +205,8 @@ impl Frames {
         })
     }
 
-    /// The points of a frame, and how many corners of its own mesh they were compared with.
+    /// The points of a frame that has the faces of the last one, compared with its own mesh to the last
+    /// bit: each corner of each face that was never divided. Gives how many there were.
     fn checked(
         &self,
         number: usize,
@@ -210,77 +214,33 @@ impl Frames {
         mesh: &Mesh,
     ) -> Result<(Vec<Point>, u64), Fault> {
         let points = self.grown(frame);
-        let checked = self.check(frame, &points, mesh).map_err(|broken| {
-            let message = format!("frame {number} is not its own mesh: {broken}");
-            Fault::error("E-BUG-INVARIANT", message)
-        })?;
+        let own = frame.indices.as_chunks::<3>().0.iter();
+        let last = mesh.indices().as_chunks::<3>().0.iter();
+        let faces = own.zip(last).zip(&self.divided).zip(1..);
+        let mut checked = 0;
+        for (((own, last), _), face) in faces.filter(|((_, divided), _)| !**divided) {
+            for (&was, &is) in own.iter().zip(last) {
+                let [was, is] = [frame.points[was as usize], points[is as usize]];
+                let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
+                if bits(is) != bits(was) {
+                    let broken = format!("a corner of face {face} is at {is}, not {was}");
+                    let message = format!("frame {number} is not its own mesh: {broken}");
+                    return Err(Fault::error("E-BUG-INVARIANT", message));
+                }
+                checked += 1;
+            }
+        }
         Ok((points, checked))
     }
 
     /// The points of a frame, and of all vertices that were added later.
     fn grown(&self, frame: &Frame) -> Vec<Point> {
         let mut points = frame.points.clone();
-        debug_assert_eq!(
-            points.len(),
-            self.first + frame.sources,
-            "a source for each added vertex"
-        );
         for source in &self.sources[frame.sources..] {
             points.push(Point::blend(source.map(|v| &points[v.index()])));
         }
         points
     }
-
-    /// Compares a frame that has the faces of the last one with its own mesh: each corner of each
-    /// face that was never divided, to the last bit. Gives how many there were.
-    fn check(&self, frame: &Frame, points: &[Point], mesh: &Mesh) -> Result<u64, String> {
-        let own = frame.indices.as_chunks::<3>().0.iter();
-        let last = mesh.indices().as_chunks::<3>().0.iter();
-        let faces = own.zip(last).zip(&self.divided).enumerate();
-        let mut checked = 0;
-        for (face, ((own, last), _)) in faces.filter(|(_, (_, divided))| !**divided) {
-            for (&was, &is) in own.iter().zip(last) {
-                let [was, is] = [frame.points[was as usize], points[is as usize]];
-                let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
-                if bits(is) != bits(was) {
-                    return Err(format!(
-                        "a corner of face {} is at {is}, not {was}",
-                        face + 1
-                    ));
-                }
-                checked += 1;
-            }
-        }
-        Ok(checked)
-    }
-
-    fn write(
-        &self,
-        number: usize,
-        fill: impl FnOnce(&mut dyn Write) -> io::Result<WriteSummary>,
-    ) -> Result<(), Fault> {
-        let Some(folder) = &self.folder else {
-            return Ok(());
-        };
-        output::write(&folder.join(name(number)), fill).map(|_| ())
-    }
-
-    /// Says that an earlier run left more frames than this one made.
-    fn left_over(&self, folder: &Path) -> Option<Fault> {
-        let next = name(self.count);
-        folder.join(&next).exists().then(|| {
-            let folder = folder.display();
-            let message = format!("`{folder}` has frames of an earlier run, from {next} on");
-            Fault::warning("W-FRAMES-OLD", message).help("write frames into a folder of their own")
-        })
-    }
-}
-
-/// Says which frames are not there.
-fn interrupted(folder: &Path, written: usize, count: usize) -> Fault {
-    let folder = folder.display();
-    let message = format!("interrupted: `{folder}` has {written} of {count} frames");
-    Fault::warning("W-FRAMES-INTERRUPTED", message)
 }
 
 fn name(number: usize) -> String {

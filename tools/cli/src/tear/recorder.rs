@@ -1,7 +1,7 @@
 //! The page of a simulation: 30 moments a second, and plots over time.
 
 use tearmesh::geometry::length;
-use tearmesh_cloth::scene::{Run, TearLog};
+use tearmesh_cloth::scene::{HoldForces, Run, TearLog};
 use tearmesh_view::{Moment, Page, Plot};
 
 use super::frames::{RATE_PER_S, places};
@@ -13,8 +13,6 @@ pub(super) struct Recorder {
     page: Page,
     /// The largest stretch of each moment.
     stretch: Vec<[f64; 2]>,
-    /// The step of the last moment.
-    step: Option<u64>,
 }
 
 impl Recorder {
@@ -22,29 +20,26 @@ impl Recorder {
         Recorder {
             page: Page::new(title, up),
             stretch: Vec::new(),
-            step: None,
         }
     }
 
     /// Records a moment if it is time for one.
     pub(super) fn record(&mut self, run: &Run) -> Result<(), Stop> {
         let due = (self.page.moment_count() as f64 / RATE_PER_S / run.step_s()).round();
-        if (run.tally().steps as f64) < due {
-            return Ok(());
+        match (run.tally().steps as f64) < due {
+            true => Ok(()),
+            false => self.take(run),
         }
-        self.take(run)
     }
 
     fn take(&mut self, run: &Run) -> Result<(), Stop> {
         let moment = Moment {
-            label: String::new(),
             time_s: Some(run.elapsed_s()),
-            cut: None,
             torn_at_rest_m: Some(run.torn_length_m()),
+            ..Moment::default()
         };
         page::add(&mut self.page, run.mesh(), &places(run)?, moment)?;
         self.stretch.push([run.elapsed_s(), largest_stretch(run)]);
-        self.step = Some(run.tally().steps);
         Ok(())
     }
 
@@ -56,7 +51,8 @@ impl Recorder {
         name: Option<&str>,
         facts: &[(&str, String)],
     ) -> Result<Page, Stop> {
-        if self.step != Some(run.tally().steps) {
+        let last_s = self.stretch.last().map(|&[time_s, _]| time_s);
+        if last_s != Some(run.elapsed_s()) {
             self.take(run)?;
         }
         let last = self.page.last_mut().expect("the beginning was taken");
@@ -75,9 +71,9 @@ impl Recorder {
         let frames = tear_log.hold_forces();
         let holds = frames.first().map_or(0, |frame| frame.forces_n.len());
         let line = |hold: usize| {
-            let points = frames.iter();
-            let points = points.map(|frame| [frame.end_s, length(frame.forces_n[hold])]);
-            (format!("hold {}", hold + 1), points.collect())
+            let force = |frame: &HoldForces| [frame.end_s, length(frame.forces_n[hold])];
+            let points = frames.iter().map(force).collect();
+            (format!("hold {}", hold + 1), points)
         };
         if holds > 0 {
             self.page.plot(Plot {
@@ -101,8 +97,6 @@ fn largest_stretch(run: &Run) -> f64 {
         let [a, b] = [mesh.origin(h), mesh.target(h)].map(tearmesh::VertexId::index);
         length(now[b] - now[a]) / length(rest[b] - rest[a])
     };
-    mesh.edges()
-        .map(ratio)
-        .filter(|x| x.is_finite())
-        .fold(0.0, f64::max)
+    let ratios = mesh.edges().map(ratio).filter(|x| x.is_finite());
+    ratios.fold(0.0, f64::max)
 }

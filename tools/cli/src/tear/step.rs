@@ -37,13 +37,12 @@ pub(super) fn check(
         bar.set_position((done / whole * bar.length().unwrap_or(0) as f64) as u64);
     });
     bar.finish_and_clear();
-    let ensembles = DIVISORS.into_iter().zip(members.chunks(SEEDS as usize));
-    let ensembles = ensembles.map(|(step_divisor, members)| Ensemble {
+    let mut members = members.chunks(SEEDS as usize);
+    let ensembles = DIVISORS.map(|step_divisor| Ensemble {
         step_divisor,
         step_s: step_s / f64::from(step_divisor.get()),
-        members: members.to_vec(),
+        members: members.next().unwrap_or_default().to_vec(),
     });
-    let ensembles: Vec<_> = ensembles.collect();
     let quantities = Quantity::ALL.into_iter();
     let quantities = quantities.filter_map(|quantity| compared(&ensembles, quantity));
     report::StepCheck {
@@ -55,11 +54,8 @@ pub(super) fn check(
 
 /// None where the method does not say it, or all runs of an ensemble failed. Where some did, nobody can tell:
 /// those that are left are not drawn at random.
-fn compared(ensembles: &[Ensemble], quantity: Quantity) -> Option<report::StepQuantity> {
-    let [whole, half] = ensembles else {
-        return None;
-    };
-    let ((whole, all), (half, all_of_half)) = (whole.numbers(quantity), half.numbers(quantity));
+fn compared(ensembles: &[Ensemble; 2], quantity: Quantity) -> Option<report::StepQuantity> {
+    let [(whole, all), (half, all_of_half)] = ensembles.each_ref().map(|one| one.numbers(quantity));
     if whole.is_empty() || half.is_empty() {
         return None;
     }
@@ -77,13 +73,9 @@ fn compared(ensembles: &[Ensemble], quantity: Quantity) -> Option<report::StepQu
 
 /// The lines of the summary: a head, and one for each number.
 pub(super) fn summary(check: &report::StepCheck) -> Vec<String> {
-    let [whole, half] = &check.ensembles[..] else {
-        return Vec::new();
-    };
+    let [whole, half] = check.ensembles.each_ref().map(|one| short(one.step_s));
     let mut lines = vec![format!(
-        "step: {SEEDS} seeds at {} s and {SEEDS} at {} s; medians, and 10 to 90 % of the runs",
-        short(whole.step_s),
-        short(half.step_s),
+        "step: {SEEDS} seeds at {whole} s and {SEEDS} at {half} s; medians, and 10 to 90 % of the runs"
     )];
     for told in &check.quantities {
         let [name, unit] = told.quantity.name;
@@ -102,12 +94,8 @@ fn spread([low, middle, high]: [f64; 3], unit: &str) -> String {
         f64::INFINITY => "never".to_owned(),
         x => three_digits(x),
     };
-    let text = format!(
-        "{} ({} to {}) {unit}",
-        number(middle),
-        number(low),
-        number(high)
-    );
+    let [low, middle, high] = [low, middle, high].map(number);
+    let text = format!("{middle} ({low} to {high}) {unit}");
     text.trim_end().to_owned()
 }
 
@@ -117,28 +105,21 @@ pub(super) fn warnings(check: &report::StepCheck) -> Vec<Fault> {
     let differs = |one: &&report::StepQuantity| one.comparison.verdict == Verdict::Differ;
     let differing = check.quantities.iter().filter(differs);
     let names: Vec<&str> = differing.map(|one| one.quantity.name[0]).collect();
-    let half_s = check.ensembles.last().map_or(0.0, |half| half.step_s);
     if !names.is_empty() {
+        let names = names.join(", ");
         let message = format!(
-            "the result depends on the time step: at half the step, these differ by more than chance: {}",
-            names.join(", ")
+            "the result depends on the time step: at half the step, these differ by more than chance: {names}"
         );
-        let help = format!("--dt {} --check-step", two_digits(half_s));
+        let half = two_digits(check.ensembles[1].step_s);
+        let help = format!("--dt {half} --check-step");
         faults.push(Fault::warning("W-SIM-STEP", message).help(help));
     }
-    let members = check
-        .ensembles
-        .iter()
-        .flat_map(|ensemble| &ensemble.members);
-    let failed: Vec<_> = members
-        .filter(|member| member.status == MemberStatus::Failed)
-        .collect();
+    let members = check.ensembles.iter().flat_map(|one| &one.members);
+    let failed = members.filter(|member| member.status == MemberStatus::Failed);
+    let failed: Vec<_> = failed.collect();
     if let Some(first) = failed.first() {
-        let message = format!(
-            "{} of the step check failed: {}",
-            count(failed.len(), "run", "runs"),
-            first.why
-        );
+        let runs = count(failed.len(), "run", "runs");
+        let message = format!("{runs} of the step check failed: {}", first.why);
         faults.push(Fault::warning("W-SIM-STEP", message));
     }
     faults

@@ -41,25 +41,22 @@ pub(super) fn has_limited(run: &Run) -> bool {
 /// method's.
 pub(super) fn balance(run: &Run) -> String {
     let balance = run.energy_balance();
+    let stored = three_digits(balance.kinetic_j + balance.elastic_j);
     if has_limited(run) {
         return format!(
-            "energy: {} J stored; what was put in and lost is not known, because the limiter's work grows without bound as steps get shorter",
-            three_digits(balance.kinetic_j + balance.elastic_j)
+            "energy: {stored} J stored; what was put in and lost is not known, because the limiter's work grows without bound as steps get shorter"
         );
     }
     let made_j = balance.made_j();
-    let how = if made_j > 0.0 {
-        "made by the method"
-    } else {
-        "of numerical dissipation"
+    let how = match made_j > 0.0 {
+        true => "made by the method",
+        false => "of numerical dissipation",
     };
+    let put_in = three_digits(balance.put_in_j());
+    let [drag, damping, made] =
+        [-balance.drag_j, -balance.damping_j, made_j.abs()].map(three_digits);
     format!(
-        "energy: {} J put in, {} J stored, {} J lost to drag, {} J to damping, {} J {how}",
-        three_digits(balance.put_in_j()),
-        three_digits(balance.kinetic_j + balance.elastic_j),
-        three_digits(-balance.drag_j),
-        three_digits(-balance.damping_j),
-        three_digits(made_j.abs()),
+        "energy: {put_in} J put in, {stored} J stored, {drag} J lost to drag, {damping} J to damping, {made} J {how}"
     )
 }
 
@@ -109,19 +106,18 @@ pub(super) fn features(run: &Run) -> Vec<report::FeatureCost> {
     ];
     let all: u64 = features.iter().map(|&(_, _, visits)| visits).sum();
     let used = features.into_iter().filter(|&(_, is_used, _)| is_used);
-    used.map(|(name, _, visits)| report::FeatureCost {
+    let costs = used.map(|(name, _, visits)| report::FeatureCost {
         name,
         visits,
         share: visits as f64 / all.max(1) as f64,
-    })
-    .collect()
+    });
+    costs.collect()
 }
 
 /// The line of `--verbose` that says what the work was for.
 pub(super) fn cost(features: &[report::FeatureCost]) -> String {
-    let shares = features
-        .iter()
-        .map(|feature| format!("{} {:.0} %", feature.name, 100.0 * feature.share));
+    let share = |one: &report::FeatureCost| format!("{} {:.0} %", one.name, 100.0 * one.share);
+    let shares = features.iter().map(share);
     let visits: u64 = features.iter().map(|feature| feature.visits).sum();
     let visits = match visits {
         0..1_000_000 => visits.to_string(),
@@ -137,17 +133,12 @@ pub(super) fn first_tear(tear_log: &TearLog) -> Option<String> {
     let rest: [f64; 3] = first.event.place_at_rest.into();
     let forces = first.force_n.zip(tear_log.largest_force_n());
     let forces = forces.map_or(String::new(), |(then_n, most_n)| {
-        format!(
-            ", where a hold bears {} N; at most {} N",
-            three_digits(then_n),
-            three_digits(most_n)
-        )
+        let [then, most] = [then_n, most_n].map(three_digits);
+        format!(", where a hold bears {then} N; at most {most} N")
     });
-    Some(format!(
-        "first tear: after {} s at {} of the cloth at rest{forces}",
-        short(first.event.time_s),
-        rest.map(three_digits).join(","),
-    ))
+    let (time, place) = (short(first.event.time_s), rest.map(three_digits).join(","));
+    let words = format!("first tear: after {time} s at {place} of the cloth at rest{forces}");
+    Some(words)
 }
 
 /// The table of forces: a line a frame, three columns a hold of the scene, in its order.
