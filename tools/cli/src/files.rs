@@ -109,7 +109,8 @@ impl<'a> Names<'a> {
         let written = self.written.iter().map(|&(_, path, what)| (path, what));
         for (path, what) in self.read.iter().copied().chain(written) {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            if is_name(&name) && output::is_same_file(folder, output::folder(path)) {
+            let own = output::folder(path);
+            if is_name(&name) && (own == folder || output::is_same_file(folder, own)) {
                 let message = format!("{one} would replace {what}, `{}`", path.display());
                 let help = format!("write {many} into a folder of their own");
                 return Err(Stop::usage(message, help));
