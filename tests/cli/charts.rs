@@ -1,6 +1,6 @@
 //! `chart`: each experiment is run, drawn and tabled, and its table is drawn again.
 
-use crate::harness::Folder;
+use crate::harness::{Folder, root};
 
 /// A small chart: its name, the options that decide the numbers, how many runs it announces, the numbers of
 /// threads that leave the same bytes; and between bars how some rows begin, and what the chart and the summary have.
@@ -298,4 +298,45 @@ fn an_interrupted_chart_ends_at_once_with_what_was_done() {
     };
     assert!(of("interrupted") > 100 && of("ok") > 0, "{said}");
     assert!(folder.read("p.svg").contains("INTERRUPTED"));
+}
+
+/// The errors in the README's table of methods, against the marks of the recorded chart: within rounding.
+#[test]
+fn the_table_of_methods_in_the_readme_is_that_of_the_recorded_chart() {
+    let read = |name: &str| std::fs::read_to_string(root().join(name)).expect("a file");
+    let [readme, chart] = ["README.md", "tools/lab/record/guide.svg"].map(read);
+    let recorded = |scene: &str, solver: &str| -> f64 {
+        let solver = match solver {
+            "verlet" => String::new(),
+            other => format!(" --solver {other}"),
+        };
+        let mark = format!(">tearmesh tear in.obj --scene {scene}{solver} -o out.obj: error, % ");
+        let (_, rest) = chart.split_once(&mark).expect("a mark at the default");
+        let (number, _) = rest.split_once('<').expect("its end");
+        number.parse().expect("a number")
+    };
+    let rows = readme
+        .lines()
+        .skip_while(|line| !line.starts_with("| `--solver`"));
+    let rows = rows.skip(2).take_while(|line| line.starts_with('|'));
+    let mut count = 0;
+    for row in rows {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let solver = cells[1].split('`').nth(1).expect("a method");
+        for (scene, cell) in ["rip", "trouser", "hang"].into_iter().zip(&cells[2..]) {
+            let said = cell.trim_end_matches(" %");
+            let decimals = said
+                .split_once('.')
+                .map_or(0, |(_, decimals)| decimals.len());
+            let unit = 10_f64.powi(-(decimals as i32));
+            let known = recorded(scene, solver);
+            let off = said.parse::<f64>().expect("a number") - known;
+            assert!(
+                off.abs() < 0.51 * unit,
+                "{solver} in {scene}: {said} for {known}"
+            );
+        }
+        count += 1;
+    }
+    assert_eq!(count, 5);
 }
