@@ -1,26 +1,12 @@
 //! Vertices that stand apart from where they are: both points are in the file, what nobody moved is
 //! read where it is, and what somebody moved stays.
 
-use tearmesh::{FaceId, Point, VertexId, mend, split};
-use tearmesh_obj::Document;
+use tearmesh::{Point, mend};
 
 use super::random::Random;
 use super::tables::{APART, whole};
 use super::work::{Work, assert_is_read_again, files};
 use super::{read, rewritten, text};
-
-/// The codes, lines and messages of what is said of a document.
-fn said(document: &Document) -> Vec<(&str, usize, &str)> {
-    let all = document.diagnostics().iter();
-    let told = all.map(|one| {
-        (
-            one.code,
-            one.location.map_or(0, |at| at.line),
-            &*one.message,
-        )
-    });
-    told.collect()
-}
 
 #[test]
 fn a_vertex_that_stands_apart_is_read_where_it_is() {
@@ -36,17 +22,14 @@ fn copies_stand_where_their_vertex_does() {
                 f 1 2 6\nf 1 6 3\nf 1 3 4\nf 1 4 7\nf 1 7 5\nf 1 5 2\n";
     let document = read(file.as_bytes());
     let mut work = Work::on(&document);
-    let faces = [0, 3].map(|f| FaceId::new(f).expect("small"));
-    let v = VertexId::new(0).expect("small");
-    let made = work.edit(|mesh, _, edits| split::vertex(mesh, v, &faces, edits).is_ok());
-    assert!(made);
+    work.deeds("split 0 0 3");
     let mut points = work.positions.as_slice().to_vec();
     points[0] = Point::new(0.0, 0.0, 7.0);
     work.torn.set_apart(points);
     let written = text(&work.written());
     assert_eq!(written.matches("v 0 0 7\n").count(), 2, "{written}");
     let again = read(written.as_bytes());
-    assert_eq!(said(&again), []);
+    assert_eq!(again.diagnostics(), []);
     assert_eq!(again.mesh().as_ref(), Ok(&work.mesh));
     assert_eq!(again.positions(), work.positions.as_slice());
     assert_eq!(text(&rewritten(written.as_bytes())), written);
@@ -59,11 +42,7 @@ fn copies_stand_where_their_vertex_does() {
         let mesh = again.mesh().expect("a torn mesh");
         assert_eq!(mesh.vertex_count(), work.mesh.vertex_count() + 1);
         let heights = again.positions().iter().map(|p| p.z);
-        assert_eq!(
-            heights.filter(|&z| z != 0.0).collect::<Vec<_>>(),
-            [9.0],
-            "{first}"
-        );
+        assert!(heights.filter(|&z| z != 0.0).eq([9.0]), "{first}");
         let bytes = rewritten(moved.as_bytes());
         assert_eq!(rewritten(&bytes), bytes);
     }
@@ -91,7 +70,7 @@ fn a_gap_changes_nothing_but_what_is_written() {
             let name = format!("{name} {seed}");
             apart += text(&written).matches("#~ apart ").count();
             let again = read(&written);
-            assert_eq!(said(&again), said(&read(&plain)), "{name}");
+            assert_eq!(again.diagnostics(), read(&plain).diagnostics(), "{name}");
             assert_eq!(again.positions(), read(&plain).positions(), "{name}");
             assert_is_read_again(&work, &again, &name);
             assert_eq!(rewritten(&written), written, "{name}");
@@ -128,15 +107,8 @@ fn nothing_stands_apart_that_was_sewn_or_moved() {
         "{written}"
     );
     assert_eq!(written.matches("apart").count(), 1, "{written}");
-    let elsewhere = work
-        .positions
-        .as_slice()
-        .iter()
-        .map(|p| [p.x, p.y, p.z + 1.0]);
-    let elsewhere = tearmesh::Positions::new(elsewhere).expect("finite");
-    let mut out = Vec::new();
-    work.torn
-        .write(&work.mesh, &elsewhere, &mut out)
-        .expect("memory");
-    assert!(!text(&out).contains("apart"));
+    let elsewhere = work.positions.as_slice().iter();
+    let elsewhere = elsewhere.map(|p| [p.x, p.y, p.z + 1.0]);
+    work.positions = tearmesh::Positions::new(elsewhere).expect("finite");
+    assert!(!text(&work.written()).contains("apart"));
 }

@@ -29,7 +29,7 @@ fn manifest(folder: &Path) -> Manifest {
     .collect()
 }
 
-fn files(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("the folder can be read");
     let mut files: Vec<_> = entries
         .map(|entry| entry.expect("an entry can be read").path())

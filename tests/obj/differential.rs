@@ -127,31 +127,22 @@ pub(crate) fn lossless(bytes: &[u8]) -> Option<String> {
 }
 
 fn corners(polygon: &Polygon) -> Vec<Corner> {
-    let corner = |vertex: usize, texture: Option<usize>, normal: Option<usize>| {
-        let id = |index: usize| u32::try_from(index).expect("a short file");
-        Corner {
-            vertex: id(vertex),
-            texture: texture.map(id),
-            normal: normal.map(id),
+    let id = |index: usize| u32::try_from(index).expect("a short file");
+    let corner = |(vertex, texture, normal): (usize, Option<usize>, Option<usize>)| Corner {
+        vertex: id(vertex),
+        texture: texture.map(id),
+        normal: normal.map(id),
+    };
+    let all: Vec<_> = match polygon {
+        Polygon::P(all) => all.iter().map(|&v| (v, None, None)).collect(),
+        Polygon::PT(all) => all.iter().map(|&(v, t)| (v, Some(t), None)).collect(),
+        Polygon::PN(all) => all.iter().map(|&(v, n)| (v, None, Some(n))).collect(),
+        Polygon::PTN(all) => {
+            let corners = all.iter();
+            corners.map(|&(v, t, n)| (v, Some(t), Some(n))).collect()
         }
     };
-    match polygon {
-        Polygon::P(corners) => corners.iter().map(|&v| corner(v, None, None)).collect(),
-        Polygon::PT(corners) => {
-            let corners = corners.iter();
-            corners.map(|&(v, t)| corner(v, Some(t), None)).collect()
-        }
-        Polygon::PN(corners) => {
-            let corners = corners.iter();
-            corners.map(|&(v, n)| corner(v, None, Some(n))).collect()
-        }
-        Polygon::PTN(corners) => {
-            let corners = corners.iter();
-            corners
-                .map(|&(v, t, n)| corner(v, Some(t), Some(n)))
-                .collect()
-        }
-    }
+    all.into_iter().map(corner).collect()
 }
 
 /// All numbers, a list for each statement: first `v`, then `vt`, then `vn`.

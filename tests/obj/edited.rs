@@ -25,14 +25,6 @@ impl Lines {
         (0..self.0.len()).filter(|&i| is(&self.0[i])).collect()
     }
 
-    fn places(&self) -> Vec<[f64; 3]> {
-        let place = |i: &usize| {
-            let words: Vec<&str> = self.0[*i].split(' ').collect();
-            [1, 2, 3].map(|at: usize| words[at].parse().expect("a number"))
-        };
-        self.all("v").iter().map(place).collect()
-    }
-
     /// Vertices that are on record as inserted, from 1.
     fn inserted(&self) -> Vec<usize> {
         let items = self.0.iter().filter_map(|line| {
@@ -45,37 +37,33 @@ impl Lines {
 
     /// The area of all triangles.
     fn area(&self) -> f64 {
-        let places = self.places();
-        let faces = self.all("f").into_iter().map(|i| {
-            let corner = |word: &str| word.split('/').next()?.parse().ok();
-            let corners = self.0[i].split(' ').filter_map(corner);
-            let corners: Vec<usize> = corners.collect();
-            let [a, b, c] = [0, 1, 2].map(|at| places[corners[at] - 1]);
-            let (u, v) = (
-                [0, 1, 2].map(|i| b[i] - a[i]),
-                [0, 1, 2].map(|i| c[i] - a[i]),
-            );
-            let normal = [
-                u[1] * v[2] - u[2] * v[1],
-                u[2] * v[0] - u[0] * v[2],
-                u[0] * v[1] - u[1] * v[0],
-            ];
-            normal.iter().map(|x| x * x).sum::<f64>().sqrt() / 2.0
+        let document = read(&self.bytes());
+        let areas = document.triangles().iter().map(|corners| {
+            let [a, b, c] = corners.map(|v| document.positions()[v as usize]);
+            (b - a).cross(&(c - a)).norm() / 2.0
         });
-        faces.sum()
+        areas.sum()
     }
 }
 
-/// A file that was cut at random twice, and sewn.
-fn sewn(file: &[u8], random: &mut Random) -> Lines {
-    let document = read(file);
+/// A file that was cut at random twice, and sewn: its name, what comes next at random, and its lines.
+fn sewn(seed: usize, first: usize) -> (String, Random, Lines) {
+    let number = if seed.is_multiple_of(6) {
+        1 + seed / 6 % 4
+    } else {
+        0
+    };
+    let (name, file) = files().swap_remove(number);
+    let mut random = Random((first + seed) as u64);
+    let document = read(&file);
     let mut work = Work::on(&document);
     for _ in 0..2 {
-        work.tear(random, 10, true);
+        work.tear(&mut random, 10, true);
         work.torn.next_cut();
     }
     work.sew_all();
-    Lines::of(&work.written())
+    let lines = Lines::of(&work.written());
+    (name, random, lines)
 }
 
 /// What is left of a file once it is simplified, and how many vertices stay for their edits.
@@ -90,10 +78,7 @@ fn simplified(file: &[u8]) -> (Lines, usize) {
 fn the_surface_stays_whatever_was_moved() {
     let (mut kept, mut smaller) = (0, 0);
     for seed in 0..600 {
-        let all = files();
-        let (name, file) = &all[if seed % 6 == 0 { 1 + seed / 6 % 4 } else { 0 }];
-        let mut random = Random(9000 + seed as u64);
-        let mut lines = sewn(file, &mut random);
+        let (name, mut random, mut lines) = sewn(seed, 9000);
         let statements = lines.all("v");
         let inserted = lines.inserted();
         let mut moved: BTreeMap<usize, String> = BTreeMap::new();
@@ -119,16 +104,11 @@ fn the_surface_stays_whatever_was_moved() {
             "{name}, seed {seed}: {was} became {is}"
         );
         for place in moved.values() {
-            let written = |line: &String| line.starts_with(place.as_str());
-            assert!(
-                after.0.iter().any(written),
-                "{name}, seed {seed}: {place} is gone"
-            );
+            let is_there = after.0.iter().any(|line| line.starts_with(place));
+            assert!(is_there, "{name}, seed {seed}: {place} is gone");
         }
-        assert!(
-            edited == 0 || !moved.is_empty(),
-            "{name}, seed {seed}: nothing was edited"
-        );
+        let is_right = edited == 0 || !moved.is_empty();
+        assert!(is_right, "{name}, seed {seed}: nothing was edited");
         kept += usize::from(edited > 0);
         smaller += usize::from(after.0.len() < lines.0.len());
     }
@@ -141,10 +121,7 @@ fn the_surface_stays_whatever_was_moved() {
 fn other_numbers_at_an_inserted_vertex_are_kept() {
     let mut tried = BTreeMap::new();
     for seed in 0..600 {
-        let all = files();
-        let (name, file) = &all[if seed % 6 == 0 { 1 + seed / 6 % 4 } else { 0 }];
-        let mut random = Random(7000 + seed as u64);
-        let mut lines = sewn(file, &mut random);
+        let (name, mut random, mut lines) = sewn(seed, 7000);
         let inserted = lines.inserted();
         if inserted.is_empty() {
             continue;
@@ -173,11 +150,10 @@ fn other_numbers_at_an_inserted_vertex_are_kept() {
         };
         lines.0[statement] = format!("{bare} 0.375 0.4375 -0.5");
         let (after, edited) = simplified(&lines.bytes());
-        let marked = |line: &String| line.starts_with(kind) && line.ends_with(" 0.375 0.4375 -0.5");
-        assert!(
-            after.0.iter().any(marked),
-            "{name}, seed {seed}: the {kind} is gone"
-        );
+        let is_marked =
+            |line: &String| line.starts_with(kind) && line.ends_with(" 0.375 0.4375 -0.5");
+        let is_there = after.0.iter().any(is_marked);
+        assert!(is_there, "{name}, seed {seed}: the {kind} is gone");
         *tried.entry((kind, edited > 0)).or_insert(0) += 1;
     }
     println!("{tried:?}");

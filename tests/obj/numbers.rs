@@ -1,6 +1,5 @@
 //! Under which numbers vertices are written, and how they are found again.
 
-use tearmesh::{FaceId, VertexId, split};
 use tearmesh_obj::Document;
 
 use super::bodies::Sheets;
@@ -17,11 +16,7 @@ const WHEEL: &str = "o wheel\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0 0\nv -1 -1 0\nv 
 /// Two opposite faces of the wheel get a hub of their own: four fans, and so two copies.
 fn with_bow_ties(document: &Document) -> Work<'_> {
     let mut work = Work::on(document);
-    let hub = VertexId::new(6).expect("small");
-    let faces = [0, 3].map(|f| FaceId::new(f).expect("small"));
-    work.edit(|mesh, _, edits| {
-        split::vertex(mesh, hub, &faces, edits).expect("a split");
-    });
+    work.deeds("split 6 0 3");
     work
 }
 
@@ -115,11 +110,7 @@ fn a_file_of_version_1_is_read_and_mended() {
     let items = "#~ split 8 2 1\n#~ split 9 3 1\n";
     let file = with_record(body, "1", "vt 0 0 vn 0 0", items);
     let document = read(file.as_bytes());
-    assert!(
-        document.diagnostics().is_empty(),
-        "{:?}",
-        document.diagnostics()
-    );
+    assert_eq!(document.diagnostics(), []);
     assert_eq!(text(&rewritten(file.as_bytes())), file);
     let mut work = Work::on(&document);
     work.sew(&work.torn.stitches_of_last(1));
@@ -130,39 +121,36 @@ fn a_file_of_version_1_is_read_and_mended() {
     );
 }
 
-/// The lines of a file without its record, all neighbouring faces as one.
-fn skeleton(file: &str) -> Vec<&str> {
-    let body = file.split("#tearmesh").next().expect("a body");
-    let mut lines: Vec<&str> = Vec::new();
-    for line in body.lines() {
-        let line = if line.starts_with("f ") { "f" } else { line };
-        if line != "f" || lines.last() != Some(&"f") {
-            lines.push(line);
-        }
-    }
-    lines
+/// Whether all lines of a file are in another, in order, and between them new `v` and `vt` alone. Neighbouring
+/// faces count as one, and the record does not.
+fn has_all_lines(is: &str, was: &str) -> bool {
+    let lines = |file: &str| {
+        let body = file.split("#tearmesh").next().expect("a body");
+        let lines = body
+            .lines()
+            .map(|l| if l.starts_with("f ") { "f" } else { l });
+        let mut lines: Vec<String> = lines.map(str::to_owned).collect();
+        lines.dedup_by(|one, other| one == "f" && other == "f");
+        lines
+    };
+    let (is, was) = (lines(is), lines(was));
+    let mut left = was.iter().peekable();
+    let is_new = |line: &String| line.starts_with("v ") || line.starts_with("vt ");
+    let mut is = is.iter();
+    is.all(|line| left.next_if_eq(&line).is_some() || is_new(line)) && left.next().is_none()
 }
 
-/// The lines that were added to those of a file, all of which stay in their order.
-fn added<'l>(was: &[&str], is: &[&'l str]) -> Option<Vec<&'l str>> {
-    let mut was = was.iter().peekable();
-    let added = is.iter().filter(|line| was.next_if_eq(line).is_none());
-    let added = added.copied().collect();
-    was.next().is_none().then_some(added)
-}
-
-/// The last cut is undone in another session, and the file is the one before it, to the byte; or a part
-/// of a cut is undone, and all lines of the file that was never cut are still in their places.
+/// A part of a cut is undone in another session, and all lines of the file that was never cut are still in
+/// their places.
 #[test]
 fn mending_a_part_moves_no_line() {
-    let (mut parts, mut whole) = (0, 0);
+    let mut parts = 0;
     for seed in 0..400 {
         let mut random = Random(77_000 + seed);
         let file = text(&rewritten(Sheets::random(&mut random).file.as_bytes()));
         let document = read(file.as_bytes());
         let mut work = Work::on(&document);
         work.tear(&mut random, 3, false);
-        let before = text(&work.written());
         work.torn.next_cut();
         for _ in 0..4 {
             work.split(&mut random);
@@ -171,23 +159,13 @@ fn mending_a_part_moves_no_line() {
         let again = read(torn.as_bytes());
         let mut later = Work::on(&again);
         let stitches = later.torn.stitches_of_last(1);
-        if later.torn.cuts().contains(&2) {
-            later.sew(&stitches);
-            assert_eq!(text(&later.written()), before, "seed {seed}");
-            whole += 1;
-        }
-
-        let mut later = Work::on(&again);
         let some: Vec<_> = stitches.iter().step_by(2).copied().collect();
         later.sew(&some);
         let mended = text(&later.written());
-        let [was, is] = [&file, &mended].map(|text| skeleton(text));
-        let added = added(&was, &is);
-        let added = added.unwrap_or_else(|| panic!("seed {seed}:\n{torn}\n->\n{mended}"));
-        let is_new = |line: &&str| line.starts_with("v ") || line.starts_with("vt ");
-        assert!(added.iter().all(is_new), "seed {seed}: {added:?}");
+        let moves_none = has_all_lines(&mended, &file);
+        assert!(moves_none, "seed {seed}:\n{torn}\n->\n{mended}");
         parts += usize::from(mended.len() < torn.len());
     }
-    println!("400 files: the last cut of {whole} undone, a part of it in {parts}");
-    assert!(parts > 200 && whole > 300, "{parts} {whole}");
+    println!("400 files: a part of the last cut of {parts} undone");
+    assert!(parts > 200, "{parts}");
 }

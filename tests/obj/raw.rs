@@ -39,57 +39,34 @@ fn everything_that_obj_rs_keeps_arrives() {
          p 1\np 5\ng seam\nl 1 2\ns 1\nl 1/1 5/2\nusemtl red\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/1/1\n\
          g default\ns off\nmg 2\nf 2//1 5//1 3//1\n"
     );
-    let said: Vec<String> = document
-        .diagnostics()
-        .iter()
-        .map(ToString::to_string)
-        .collect();
-    assert_eq!(
-        said,
-        [
-            "line 20: 1 face with more than 3 corners is cut into 2 triangles",
-            "line 12, column 1: `vp` is not interpreted, and is kept as it is (1 statement)",
-            "line 13, column 1: `p` elements are kept, but never cut (2 statements, the first here)",
-            "line 16, column 1: `l` elements are kept, but never cut (2 statements, the first here)",
-        ]
-    );
     assert_eq!(document.line_of_triangle(2), 24);
+}
+
+fn group(start: usize, end: usize) -> Group {
+    Group {
+        polygons: vec![Range { start, end }],
+        ..Group::default()
+    }
 }
 
 #[test]
 fn the_order_of_a_hash_map_does_not_show() {
-    let names: Vec<String> = (0..40).map(|i| format!("g{i}")).collect();
-    let make = |names: &mut dyn Iterator<Item = &String>| {
+    let groups = (0..40).map(|i| (format!("g{i}"), group(0, 1)));
+    let [one, other] = [groups.clone().collect(), groups.rev().collect()].map(|groups| {
         let mut raw = triangle();
-        raw.groups = names
-            .map(|name| {
-                let polygons = vec![Range { start: 0, end: 1 }];
-                (
-                    name.clone(),
-                    Group {
-                        polygons,
-                        ..Group::default()
-                    },
-                )
-            })
-            .collect();
+        raw.groups = groups;
         written(&Document::try_from(&raw).expect("sound"))
-    };
-    let one = make(&mut names.iter());
-    assert_eq!(one, make(&mut names.iter().rev()));
+    });
+    assert_eq!(one, other);
     assert!(one.contains("g g0 g1 g10 g11 "), "{one}");
 }
 
 /// What the reader would refuse is refused with its words; and what no text can hold.
 #[test]
 fn it_is_as_strict_as_the_reader() {
-    let group = |start, end| Group {
-        polygons: vec![Range { start, end }],
-        ..Group::default()
-    };
     let smooth = HashMap::from([1, 2].map(|number| (number, group(0, 1))));
     let silk = HashMap::from([("silk".to_owned(), group(1, 0))]);
-    type Damage<'a> = &'a dyn Fn(&mut RawObj);
+    type Damage<'d> = &'d dyn Fn(&mut RawObj);
     let cases: [(Damage<'_>, &str); 7] = [
         (
             &|raw| raw.polygons.clear(),
@@ -138,17 +115,9 @@ fn agree(file: &str, raw: &RawObj) {
     };
     assert_eq!(polygons(&ours), polygons(&theirs));
     // Numbers as `f32` are those that `differential` has compared.
-    let points = raw
-        .positions
-        .iter()
-        .map(|&(x, y, z, _)| [x, y, z].map(f64::from));
-    assert!(
-        theirs
-            .positions()
-            .iter()
-            .copied()
-            .eq(points.map(Into::into))
-    );
+    for (point, &(x, y, z, _)) in theirs.positions().iter().zip(&raw.positions) {
+        assert_eq!(<[f64; 3]>::from(*point), [x, y, z].map(f64::from));
+    }
     let counts = [&ours, &theirs].map(|one| (one.texture_count(), one.normals().len()));
     assert_eq!(counts[0], counts[1]);
     // The same groups, materials and smoothing, face by face, in what is written.
@@ -162,14 +131,13 @@ fn agree(file: &str, raw: &RawObj) {
         obj::raw::parse_obj(&theirs[..]),
     ) {
         assert_eq!(ours.polygons.len(), theirs.polygons.len());
-        assert_eq!(of_faces(&ours.groups), of_faces(&theirs.groups), "{file}");
-        assert_eq!(of_faces(&ours.meshes), of_faces(&theirs.meshes), "{file}");
-        let smooth = [&ours, &theirs].map(|one| of_faces(&one.smoothing_groups));
-        assert_eq!(smooth[0], smooth[1], "{file}");
-        assert_eq!(ours.name, theirs.name);
-        assert_eq!(ours.material_libraries, theirs.material_libraries);
-        assert_eq!(ours.points, theirs.points);
-        assert_eq!(ours.lines, theirs.lines);
+        let of_faces = |one: &RawObj| {
+            let smooth = of_faces(&one.smoothing_groups);
+            (of_faces(&one.groups), of_faces(&one.meshes), smooth)
+        };
+        assert_eq!(of_faces(&ours), of_faces(&theirs), "{file}");
+        let names = |one: RawObj| (one.name, one.material_libraries, one.points, one.lines);
+        assert_eq!(names(ours), names(theirs), "{file}");
     } else {
         // Lines come first, so a face without a material may follow a line that has one.
         let theirs = String::from_utf8_lossy(&theirs);
@@ -250,12 +218,9 @@ fn documents_of_real_files_are_those_of_the_reader() {
         return; // `corpus.rs` says so.
     };
     let mut same = 0;
-    for entry in std::fs::read_dir(folder).expect("the folder can be read") {
-        let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|extension| extension == "obj") {
-            let bytes = std::fs::read(&path).expect("the file can be read");
-            same += usize::from(agrees(&bytes));
-        }
+    for path in super::corpus::files(folder.as_ref()) {
+        let bytes = std::fs::read(&path).expect("the file can be read");
+        same += usize::from(agrees(&bytes));
     }
     assert!(same > 50, "{same}");
 }

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use tearmesh_obj::{Document, ReadError};
 
-use super::{positions, read, same_bytes, write_as};
+use super::same_bytes;
 
 /// A number in one of the forms that files have.
 fn number() -> impl Strategy<Value = String> {
@@ -161,27 +161,4 @@ fn enough_random_files_are_meshes() {
             usize::from(Document::read(&bytes[..]).is_ok_and(|document| document.mesh().is_ok()));
     }
     assert!(meshes > 30, "{meshes} of 300");
-}
-
-/// What we write, obj-rs reads, unless the input held what it refuses.
-#[test]
-fn obj_rs_reads_what_we_write() {
-    let file = b"\xef\xbb\xbff 1/1 2/1 3/1\r\nv 0.1 1e-9 1e30\nv 1 0 0 # c\nv 0,1 0\nvt 0.5\nmtllib a.mtl\n";
-    let file = String::from_utf8_lossy(file).replace("0,1", "0 1");
-    assert!(
-        obj::raw::parse_obj(file.as_bytes()).is_err(),
-        "the input itself it refuses"
-    );
-    let document = read(file.as_bytes());
-    let mesh = document.mesh().expect("a triangle");
-    let written = write_as(&document, &mesh, &positions(&document));
-    let raw = obj::raw::parse_obj(&written[..]).expect("obj-rs reads it");
-    assert_eq!(
-        (
-            raw.positions.len(),
-            raw.tex_coords.len(),
-            raw.polygons.len()
-        ),
-        (3, 1, 1)
-    );
 }

@@ -13,9 +13,14 @@ use super::torn_damage::exercise;
 use super::{digest, positions, read, rewritten, text, write_as};
 
 /// Beginnings of files that stand in the table by their names.
-const NAMES: [(&str, &str); 5] = [
+const NAMES: [(&str, &str); 6] = [
     ("{TORN}", TORN),
     ("{APART}", APART),
+    (
+        "{SAID}",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nnv 1 2 3\n# kept\nv 0 1 0\nnl 4\nv 0.5 1 0\n\
+         f 1 2 3\nf 7 6 5\nf 7 5 4\n",
+    ),
     ("{LONELY}", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\n"),
     (
         "{SIX}",
@@ -48,22 +53,17 @@ pub(crate) fn with_record(body: &str, version: &str, counts: &str, items: &str) 
     )
 }
 
-/// The record that fits [`TORN`], and the one that fits [`APART`].
+/// A body with the record that fits it.
 pub(crate) fn whole(body: &str) -> String {
-    match body {
-        TORN => with_record(
-            TORN,
-            "1",
-            "vt 0 0 vn 0 0",
-            "#~ split 5 2 1\n#~ split 6 3 1\n#~ edge 7 1 3 4 0.5\n#~ parent 2 3 3 2 4\n",
-        ),
-        body => with_record(
-            body,
+    let (version, rest) = match body {
+        TORN => ("1", "#~ edge 7 1 3 4 0.5\n#~ parent 2 3 3 2 4\n"),
+        _ => (
             "3",
-            "vt 0 0 vn 0 0",
-            "#~ split 5 2 1\n#~ split 6 3 1\n#~ apart 5 1 0 0 1.25 0.5 0\n#~ apart 6 0 1 0 0 1.5 0\n",
+            "#~ apart 5 1 0 0 1.25 0.5 0\n#~ apart 6 0 1 0 0 1.5 0\n",
         ),
-    }
+    };
+    let items = format!("#~ split 5 2 1\n#~ split 6 3 1\n{rest}");
+    with_record(body, version, "vt 0 0 vn 0 0", &items)
 }
 
 /// The bytes that [`u8::escape_ascii`] writes so.

@@ -1,7 +1,7 @@
 //! Two cuts through files, of which the last is undone: the first stays as it was, and of the second
 //! nothing stays.
 
-use tearmesh::{CutMethod, Point, Ray, Scissor, Vector};
+use tearmesh::{CutMethod, HalfEdgeId, Point, Ray, Scissor, Vector};
 use tearmesh_obj::Document;
 
 use super::random::Random;
@@ -30,9 +30,8 @@ fn cut(work: &mut Work<'_>, random: &mut Random) {
 /// How long all tears are together, and how many pieces there are.
 fn tears(document: &Document) -> (f64, usize) {
     let mesh = document.mesh().expect("a mesh");
-    let torn = mesh
-        .half_edges()
-        .filter(|&h| mesh.ghost_pair(h).is_some_and(|ghost| h < ghost));
+    let is_first = |&h: &HalfEdgeId| mesh.ghost_pair(h).is_some_and(|ghost| h < ghost);
+    let torn = mesh.half_edges().filter(is_first);
     let at = document.positions();
     let length = torn.map(|h| (at[mesh.target(h).index()] - at[mesh.origin(h).index()]).norm());
     (length.sum(), mesh.components().count())

@@ -199,25 +199,35 @@ impl<'d> Work<'d> {
         });
     }
 
-    pub(crate) fn slide(&mut self, from: usize, toward: usize, t: f64) {
+    fn slide(&mut self, from: usize, toward: usize, t: f64) {
         self.edit(|mesh, _, edits| {
             slide::toward(mesh, vertex(from), vertex(toward), t, edits).expect("an edge");
         });
     }
 
-    pub(crate) fn insert_on(&mut self, half_edge: usize) {
-        self.edit(|mesh, _, edits| {
-            let mut plan = Plan::new();
-            plan.on_edge(HalfEdgeId::new(half_edge).expect("small"), 0.375);
-            plan.apply(mesh, edits).expect("a point");
-        });
-    }
-
-    pub(crate) fn split_off(&mut self, from: usize, face: usize) {
-        self.edit(|mesh, _, edits| {
-            let faces = [FaceId::new(face).expect("small")];
-            split::vertex(mesh, vertex(from), &faces, edits).expect("a split");
-        });
+    /// Does what a text says: `slide VERTEX TOWARD PART`, `insert HALF-EDGE`, `split VERTEX FACE…`, `next` cut.
+    pub(crate) fn deeds(&mut self, deeds: &str) {
+        for deed in deeds.split(", ") {
+            let words: Vec<&str> = deed.split(' ').collect();
+            let number = |i: usize| words[i].parse::<usize>().expect("a number");
+            match words[0] {
+                "slide" => {
+                    let t = words[3].parse().expect("a part of the edge");
+                    self.slide(number(1), number(2), t);
+                }
+                "insert" => self.edit(|mesh, _, edits| {
+                    let mut plan = Plan::new();
+                    plan.on_edge(HalfEdgeId::new(number(1)).expect("small"), 0.375);
+                    plan.apply(mesh, edits).expect("a point");
+                }),
+                "split" => self.edit(|mesh, _, edits| {
+                    let faces = (2..words.len()).map(|i| FaceId::new(number(i)).expect("small"));
+                    let faces: Vec<FaceId> = faces.collect();
+                    split::vertex(mesh, vertex(number(1)), &faces, edits).expect("a split");
+                }),
+                _ => self.torn.next_cut(),
+            }
+        }
     }
 
     /// Slides any vertex whose copies are all where it is, along any edge; whether there was one.
@@ -226,11 +236,8 @@ impl<'d> Work<'d> {
         let h = HalfEdgeId::new(h).expect("a half-edge");
         let ends = [self.mesh.origin(h), self.mesh.target(h)];
         let roots = self.mesh.roots();
-        let is_alone = roots
-            .iter()
-            .filter(|&&root| root == roots[ends[0].index()])
-            .count()
-            == 1;
+        let copies = roots.iter().filter(|&&root| root == roots[ends[0].index()]);
+        let is_alone = copies.count() == 1;
         if is_alone {
             let t = 0.05 + 0.9 * random.next();
             self.slide(ends[0].index(), ends[1].index(), t);
@@ -240,11 +247,8 @@ impl<'d> Work<'d> {
 
     /// How many vertices have slid.
     pub(crate) fn slid(&self) -> usize {
-        let slides = self
-            .edits
-            .iter()
-            .filter(|edit| matches!(edit, Edit::Slide(_)));
-        slides.count()
+        let edits = self.edits.iter();
+        edits.filter(|edit| matches!(edit, Edit::Slide(_))).count()
     }
 
     /// What is written once all is taken out that can be; and how many vertices stay for edits since they
@@ -253,11 +257,8 @@ impl<'d> Work<'d> {
         let simple = self.torn.simplified(&self.mesh, &self.positions);
         let simple = simple.expect("what we wrote can be read");
         let counts = [simple.edited, simple.slid_edited, simple.slid_back];
-        let written = simple
-            .document
-            .as_ref()
-            .map(|simple| Work::on(simple).written());
-        (text(&written.unwrap_or_else(|| self.written())), counts)
+        let simple = simple.document.as_ref().map(Work::on);
+        (text(&simple.as_ref().unwrap_or(self).written()), counts)
     }
 
     /// What is written once all is sewn and simplified, where nothing was edited.
