@@ -11,7 +11,7 @@ use tearmesh_cloth::{
 use crate::parts::cloths::cloth;
 use crate::parts::scenes::methods;
 use crate::parts::woven::weave;
-use crate::parts::{gravity, implicit, plane};
+use crate::parts::{gravity, implicit, plane, v};
 use crate::rk4::Rk4;
 
 /// The number of allocations that something takes.
@@ -95,7 +95,7 @@ fn in_hand(method: Method, fabric: Fabric) -> (Simulation, tearmesh_cloth::HandI
     let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
     sim.hold((156..169).filter_map(VertexId::new))
         .expect("held");
-    let middle = VertexId::new(84).expect("an id");
+    let middle = v(84);
     let hand = sim.grab(middle, Simulation::GRIP_RADIUS_M).expect("a hand");
     sim.advance(0.02, 1000).expect("stable");
     (sim, hand)

@@ -319,20 +319,6 @@ fn substeps_are_summed_one_by_one() {
     near(whole.made_j(), single.made_j(), 1e-9);
 }
 
-/// Backward Euler shrinks the swing of √(k/m) = 63.2 rad/s at 0.01 s by .845154254728517 a step.
-#[test]
-fn numerical_damping_is_what_backward_euler_is_known_for() {
-    let mut swing = on_a_line([0.0, 1.1], 0.01);
-    swing.stretch([0, 1], 1.0, 40.0).expect("a spring");
-    swing.hold(0);
-    let mut swing = Observed::new(swing);
-    swing.take(implicit(implicit::Method::BackwardEuler), 0.01, 5);
-    let balance = swing.now();
-    let left = 0.2 * 0.845_154_254_728_517_f64.powi(10);
-    near(balance.kinetic_j + balance.elastic_j, left, 1e-9);
-    near(balance.made_j(), left - 0.2, 1e-9);
-}
-
 /// Methods whose springs have the stiffness that they were given, and PBD, whose have not.
 fn solvers() -> [(&'static str, Box<dyn Solver>); 6] {
     let by = |method| Box::new(implicit_to(method, 1e-6));

@@ -1,5 +1,5 @@
-//! What a user gets who names neither a method nor a step: strains, first tears and energy, against
-//! references that do not depend on the method.
+//! What a user gets who names neither a method nor a step: strains and energy, against references that do not
+//! depend on the method.
 
 mod sheets;
 mod table;

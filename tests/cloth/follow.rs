@@ -2,17 +2,16 @@
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    Edit, Edits, FaceId, HalfEdgeId, Masses, Mesh, Place, Positions, Vector, VertexId, mend,
-    shapes, slide, split,
+    Edit, Edits, FaceId, Masses, Mesh, Place, Positions, Vector, VertexId, mend, shapes, split,
 };
 use tearmesh_cloth::{
     Bending, Buckling, Cloth, Copies, Fabric, Stretch, Unbend, Unstable, Weave, Xpbd, energy,
     frequency_bound,
 };
 
-use crate::parts::cloths::{cloth, momentum, of_edges};
+use crate::parts::cloths::{Done, cloth, edit, momentum, of_edges};
 use crate::parts::vibration::rayleigh_quotient;
-use crate::parts::{gravity, near};
+use crate::parts::{gravity, near, v};
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -172,60 +171,6 @@ fn shaken(mesh: &Mesh, positions: &Positions, fabric: Fabric, random: &mut Rando
     cloth
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Done {
-    Nothing,
-    Split,
-    Insert,
-    Merge,
-    Slide,
-}
-
-/// One random edit.
-fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) -> Done {
-    let done = |done, is_done| if is_done { done } else { Done::Nothing };
-    let verb = random.below(6);
-    let half_edge = |mesh: &Mesh, random: &mut Random| {
-        HalfEdgeId::new(random.below(mesh.half_edge_count())).expect("a half-edge")
-    };
-    match verb {
-        0 | 1 => {
-            let v = VertexId::new(random.below(mesh.vertex_count())).expect("a vertex");
-            let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| random.below(2) == 0).collect();
-            done(Done::Split, split::vertex(mesh, v, &faces, edits).is_ok())
-        }
-        2 => {
-            let mut plan = Plan::new();
-            let h = half_edge(mesh, random);
-            plan.on_edge(h, 0.2 + 0.6 * random.below(1000) as f64 / 1000.0);
-            if random.below(2) == 0 {
-                let f = FaceId::new(random.below(mesh.face_count())).expect("a face");
-                plan.in_face(f, [0.2, 0.3, 0.5]);
-            }
-            done(Done::Insert, plan.apply(mesh, edits).is_ok())
-        }
-        3 => {
-            let h = half_edge(mesh, random);
-            let t = 0.01 + 0.2 * random.below(1000) as f64 / 1000.0;
-            slide::toward(mesh, mesh.origin(h), mesh.target(h), t, edits).expect("a slide");
-            Done::Slide
-        }
-        _ => {
-            let stitches = mend::stitches(mesh, |_| true);
-            if stitches.is_empty() {
-                return Done::Nothing;
-            }
-            let stitch = stitches[random.below(stitches.len())];
-            let [kept, gone] = [stitch.kept(), stitch.gone()];
-            let weights = [kept, gone].map(|v| cloth.masses().at(v));
-            done(
-                Done::Merge,
-                mend::merge(mesh, kept, gone, weights, edits).is_ok(),
-            )
-        }
-    }
-}
-
 /// The energy of the links that the last record tore, in joules.
 fn torn_j(cloth: &Cloth, edits: &Edits) -> f64 {
     let Some(Edit::Split(split)) = edits.iter().last() else {
@@ -354,7 +299,7 @@ fn pieces_of_a_face_without_area_fall_and_meet_again() {
     let positions = Positions::new(points).expect("numbers");
     let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
     let mut edits = Edits::new();
-    let [a, b] = [2, 3].map(|v| VertexId::new(v).expect("a vertex"));
+    let [a, b] = [2, 3].map(v);
     let long = mesh.half_edges().find(|&h| {
         let ends = [mesh.origin(h), mesh.target(h)];
         ends == [a, b] || ends == [b, a]
@@ -420,16 +365,15 @@ fn a_merge_undoes_a_split_and_pins_are_inherited() {
         };
         let before = sets(&cloth);
         let mut edits = Edits::new();
-        let v = VertexId::new(12).expect("the centre");
-        let faces: Vec<FaceId> = mesh.faces_of(v).take(2).collect();
-        let split = split::vertex(&mut mesh, v, &faces, &mut edits);
+        let faces: Vec<FaceId> = mesh.faces_of(v(12)).take(2).collect();
+        let split = split::vertex(&mut mesh, v(12), &faces, &mut edits);
         let new = split.expect("a split").new;
         edits.replay(&mut cloth);
         assert!(cloth.system().is_held(new.index()));
-        let corner = VertexId::new(0).expect("a vertex");
+        let corner = v(0);
         assert!(cloth.free_mass(new).is_none() && cloth.free_mass(corner).is_some());
         assert_ne!(sets(&cloth), before);
-        mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits).expect("a merge");
+        mend::merge(&mut mesh, v(12), new, [1.0, 1.0], &mut edits).expect("a merge");
         edits.replay(&mut cloth);
         assert_eq!(sets(&cloth), before);
     }
@@ -439,7 +383,7 @@ fn a_merge_undoes_a_split_and_pins_are_inherited() {
 fn a_pin_stays_where_it_is_when_a_free_copy_is_sewn_to_it() {
     let (mut mesh, positions) = shapes::grid(2, 2);
     let mut cloth = cloth(&mesh, &positions, Fabric::new(5.0));
-    let v = VertexId::new(4).expect("the centre");
+    let v = v(4);
     let mut edits = Edits::new();
     let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
     let new = split::vertex(&mut mesh, v, &faces, &mut edits)

@@ -8,35 +8,17 @@ mod orders;
 mod reports;
 mod tolerance;
 
-use tearmesh::{Point, Vector};
+use tearmesh::{Point, Vector, VertexId, shapes};
 use tearmesh_cloth::implicit::{self, Stats};
-use tearmesh_cloth::{Buckling, Implicit, Loads, StepError, System, force};
+use tearmesh_cloth::{Buckling, Implicit, StepError, System, force};
 
-use crate::parts::{G, solved};
+use crate::parts::{G, pulled, solved};
 
-/// A spring, or a bend with its stiffness against compression.
-#[derive(Clone, Copy)]
-pub(crate) struct Spring {
-    pub(crate) ends: [usize; 2],
-    pub(crate) rest_length: f64,
-    pub(crate) stiffness: f64,
-}
+/// The ends of a spring, or of a bend, its rest length, and its stiffness, of a bend against compression.
+pub(crate) type Spring = ([usize; 2], f64, f64);
 
-pub(crate) fn spring(a: usize, b: usize, rest_length: f64, stiffness: f64) -> Spring {
-    Spring {
-        ends: [a, b],
-        rest_length,
-        stiffness,
-    }
-}
-
-/// A triangle with its corners' places in the material.
-#[derive(Clone, Copy)]
-pub(crate) struct Triangle {
-    pub(crate) corners: [usize; 3],
-    pub(crate) material: [[f64; 2]; 3],
-    pub(crate) stiffness: [f64; 3],
-}
+/// The corners of a triangle, their places in the material, and its stiffness.
+pub(crate) type Triangle = ([usize; 3], [[f64; 2]; 3], [f64; 3]);
 
 /// Everything that a system is made of.
 #[derive(Clone, Default)]
@@ -57,28 +39,22 @@ impl Scene {
     pub(crate) fn system(&self) -> System {
         let points = self.x.iter().copied();
         let mut system = System::new(points, self.masses.clone()).expect("particles");
-        for s in &self.springs {
-            let added = system.stretch(s.ends, s.rest_length, s.stiffness);
-            added.expect("a spring");
+        for &(ends, rest_m, stiffness) in &self.springs {
+            system.stretch(ends, rest_m, stiffness).expect("a spring");
         }
-        for b in &self.bends {
-            let added = system.bend(b.ends, b.rest_length, b.stiffness);
-            added.expect("a bend");
+        for &(ends, rest_m, stiffness) in &self.bends {
+            system.bend(ends, rest_m, stiffness).expect("a bend");
         }
         system.set_buckling(self.law);
-        for t in &self.triangles {
-            let added = system.triangle(t.corners, t.material, t.stiffness);
-            added.expect("it has area");
+        for &(corners, material, stiffness) in &self.triangles {
+            system.triangle(corners, material, stiffness).expect("area");
         }
         let held = (0..self.held.len()).filter(|&i| self.held[i]);
         held.for_each(|i| system.hold(i));
         system.state_mut().1.copy_from_slice(&self.v);
-        let loads = Loads {
-            gravity_m_per_s2: Some(self.gravity),
-            drag_per_s: Some(self.drag),
-            ..Loads::default()
-        };
-        system.set_loads(loads).expect("loads");
+        system
+            .set_loads(pulled(self.gravity, self.drag))
+            .expect("loads");
         system
     }
 
@@ -95,42 +71,16 @@ impl Scene {
         }
     }
 
-    /// A row of particles along z, downwards, joined by springs; the first is held.
-    pub(crate) fn chain(links: usize, mass: f64, stiffness: f64, rest_length: f64) -> Scene {
-        let points = (0..=links).map(|i| [0.0, 0.0, -rest_length * i as f64]);
-        let mut scene = Scene::particles(points, mass);
-        scene.held[0] = true;
-        scene.springs = (0..links)
-            .map(|i| spring(i, i + 1, rest_length, stiffness))
-            .collect();
-        scene.gravity = Vector::new(0.0, 0.0, -G);
-        scene
-    }
-
     /// The unit square in n × n cells of two triangles, whose diagonals rise; the triangles
     /// resist stretch and shear, nothing is held.
     pub(crate) fn sheet(n: u32, mass: f64, stiffness: [f64; 3]) -> Scene {
-        let size = f64::from(n);
-        let points: Vec<[f64; 3]> = (0..(n + 1) * (n + 1))
-            .map(|i| {
-                [
-                    f64::from(i % (n + 1)) / size,
-                    f64::from(i / (n + 1)) / size,
-                    0.0,
-                ]
-            })
-            .collect();
-        let mut scene = Scene::particles(points.iter().copied(), mass);
-        for cell in 0..n * n {
-            let a = (cell / n * (n + 1) + cell % n) as usize;
-            let (b, c, d) = (a + 1, a + n as usize + 1, a + n as usize + 2);
-            for corners in [[a, b, d], [a, d, c]] {
-                scene.triangles.push(Triangle {
-                    corners,
-                    material: corners.map(|v| [points[v][0], points[v][1]]),
-                    stiffness,
-                });
-            }
+        let (mesh, positions) = shapes::grid(n, n);
+        let points = positions.as_slice();
+        let mut scene = Scene::particles(points.iter().map(|&p| p.into()), mass);
+        for f in mesh.faces() {
+            let corners = mesh.face_vertices(f).map(VertexId::index);
+            let material = corners.map(|v| [points[v].x, points[v].y]);
+            scene.triangles.push((corners, material, stiffness));
         }
         scene
     }

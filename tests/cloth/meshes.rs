@@ -2,13 +2,12 @@
 
 use tearmesh::insert::Plan;
 use tearmesh::{Edits, Mesh, Point, Positions, Vector, VertexId};
-use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::{Fabric, Implicit, Weave, force};
 
 use crate::parts::cloths::cloth;
 use crate::parts::scenes::square;
-use crate::parts::{gravity_along_y, near};
+use crate::parts::{near, pulled, run};
 use crate::random::Random;
 
 const MODULUS_N_PER_M: f64 = 1000.0;
@@ -70,19 +69,13 @@ fn hung(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> [f64; 2] {
     for v in (0..rest.len()).filter(|&v| rest[v].y > 0.99) {
         system.hold(v);
     }
-    let mut loads = gravity_along_y(2.0);
-    loads.gravity_m_per_s2 = Some(Vector::new(0.0, -100.0, 0.0));
-    system.set_loads(loads).expect("loads");
-    let mut solver = Implicit::new(Settings::default());
-    for _ in 0..150 {
-        system.step(&mut solver, 0.1).expect("a step");
-    }
-    let at = |p: Point| {
-        let nearest = |v: &usize| (rest[*v] - p).norm();
-        let vertices = 0..rest.len();
-        vertices.min_by(|a, b| nearest(a).total_cmp(&nearest(b)))
-    };
-    let middle = at(Point::new(0.5, 0.0, 0.0)).expect("a vertex");
+    system
+        .set_loads(pulled(Vector::y() * -100.0, 2.0))
+        .expect("loads");
+    run(system, Implicit::default(), 0.1, 150);
+    let away = |v: &usize| (rest[*v] - Point::new(0.5, 0.0, 0.0)).norm();
+    let middle = (0..rest.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+    let middle = middle.expect("a vertex");
     let droop_m = rest[middle].y - system.positions()[middle].y;
     let low = |v: VertexId| positions.at(v).y < 0.85;
     let edges = mesh
@@ -141,16 +134,16 @@ fn a_rip_begins_where_the_hand_pulls_on_all_meshes() {
     for (name, mesh, positions) in meshes() {
         let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
         let scene = Scene::rip(&frame);
-        let mut run = Run::new(mesh, &positions, scene, &frame).expect("a scene");
+        let mut rip = Run::new(mesh, &positions, scene, &frame).expect("a scene");
         let edge = loop {
-            assert!(!run.is_over(), "{name}: nothing tore");
-            let tear = run.step().expect("a step");
+            assert!(!rip.is_over(), "{name}: nothing tore");
+            let tear = rip.step().expect("a step");
             if let Some((edge, _)) = tear.worst.filter(|_| tear.splits > 0) {
                 break edge;
             }
         };
-        let rest = run.cloth().rest_positions().as_slice();
-        let ends = [run.mesh().origin(edge), run.mesh().target(edge)];
+        let rest = rip.cloth().rest_positions().as_slice();
+        let ends = [rip.mesh().origin(edge), rip.mesh().target(edge)];
         let away = ends.map(|v| (rest[v.index()] - Point::new(0.5, 0.5, 0.0)).norm());
         let away_m = away[0].min(away[1]);
         assert!(away_m < 0.15, "{name}: {away_m}");

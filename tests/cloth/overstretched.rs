@@ -1,106 +1,82 @@
 //! The pass that finds overstretched edges, against the load of every edge, and its cost.
 
-use tearmesh::{Edits, Mesh, Plane, Point, Vector, VertexId};
+use tearmesh::{Point, Vector};
 use tearmesh_cloth::{
-    Cloth, Collider, Fabric, Loads, System, Tear, Tearing, Threshold, Unstable, Xpbd,
-    recommended_step_s,
+    Cloth, Collider, Fabric, System, Tearing, Threshold, Unstable, Xpbd, recommended_step_s,
 };
 
-use crate::parts::METHODS;
-use crate::parts::cloths::{cloth, sheet};
+use crate::parts::cloths::{Torn, cloth, deform, sheet};
+use crate::parts::{METHODS, gravity, near, plane, pulled, run};
 use crate::random::Random;
 
-/// A sheet that hangs by its top and is pulled about; what may tear it, and how it is stepped.
-struct Pulled {
-    mesh: Mesh,
-    cloth: Cloth,
-    strengths: Vec<f64>,
-    threshold: Threshold,
-    step_s: f64,
+/// A sheet that hangs by its top and is pulled about, what tears it, and how long a step is.
+fn pulled_about(seed: u64) -> (Torn, f64) {
+    let mut random = Random(seed);
+    let cells = 3 + random.below(6) as u32;
+    let shape = sheet(cells, cells, seed);
+    let fabric = Fabric::new(20.0 + 200.0 * random.next());
+    let mut loads = pulled(Vector::y() * (-150.0 * random.next()), 1.0);
+    if seed.is_multiple_of(3) {
+        let floor = plane([0.0, -0.02, 0.0], Vector::y());
+        loads.colliders.push(Collider::Plane(floor));
+    }
+    let down = Vector::y() * (-2.0 * random.next());
+    let row = cells as usize + 1;
+    let speeds: Vec<Vector> = (0..row).map(|_| down * random.next()).collect();
+    let threshold = match seed % 4 {
+        0 => Threshold::Stretch(1.02 + 0.3 * random.next()),
+        1 => Threshold::WarpWeft {
+            warp: 1.02 + 0.3 * random.next(),
+            weft: 1.02 + 0.1 * random.next(),
+            axis: Vector::y(),
+        },
+        2 => Threshold::Toughness(0.002 + 0.1 * random.next()),
+        _ => Threshold::Force(0.05 + random.next()),
+    };
+    let mut torn = Torn::new(shape, fabric, Tearing::new(threshold));
+    let strengths = torn.mesh.vertices().map(|_| 0.5 + random.next());
+    let strengths = strengths.collect();
+    torn.strengthen(strengths);
+    let system = torn.cloth.system_mut();
+    system.set_loads(loads).expect("loads");
+    system.when_unstable(Unstable::Substep);
+    (row * (row - 1)..row * row).for_each(|top| system.hold(top));
+    system.state_mut().1[..row].copy_from_slice(&speeds);
+    let step_s = recommended_step_s(system);
+    (torn, step_s)
 }
 
-impl Pulled {
-    fn new(seed: u64) -> Pulled {
-        let mut random = Random(seed);
-        let cells = 3 + random.below(6) as u32;
-        let (mesh, positions) = sheet(cells, cells, seed);
-        let fabric = Fabric::new(20.0 + 200.0 * random.next());
-        let mut cloth = cloth(&mesh, &positions, fabric);
-        let mut loads = Loads {
-            gravity_m_per_s2: Some(Vector::new(0.0, -150.0 * random.next(), 0.0)),
-            drag_per_s: Some(1.0),
-            ..Loads::default()
-        };
-        if seed.is_multiple_of(3) {
-            let floor = Plane::new(Point::new(0.0, -0.02, 0.0), Vector::y()).expect("a plane");
-            loads.colliders.push(Collider::Plane(floor));
-        }
-        let system = cloth.system_mut();
-        system.set_loads(loads).expect("loads");
-        system.when_unstable(Unstable::Substep);
-        let row = cells as usize + 1;
-        (row * (row - 1)..row * row).for_each(|top| system.hold(top));
-        let down = Vector::new(0.0, -2.0 * random.next(), 0.0);
-        for v in &mut system.state_mut().1[..row] {
-            *v = down * random.next();
-        }
-        let threshold = match seed % 4 {
-            0 => Threshold::Stretch(1.02 + 0.3 * random.next()),
-            1 => Threshold::WarpWeft {
-                warp: 1.02 + 0.3 * random.next(),
-                weft: 1.02 + 0.1 * random.next(),
-                axis: Vector::y(),
-            },
-            2 => Threshold::Toughness(0.002 + 0.1 * random.next()),
-            _ => Threshold::Force(0.05 + random.next()),
-        };
-        let strengths = mesh.vertices().map(|_| 0.5 + random.next()).collect();
-        let step_s = recommended_step_s(cloth.system_mut());
-        Pulled {
-            mesh,
-            cloth,
-            strengths,
-            threshold,
-            step_s,
-        }
-    }
-
-    /// How many edges have a load beyond the strength of their weaker end: the definition.
-    fn overstretched(&self, tear: &Tear) -> usize {
-        let over = |h| {
-            let load = self.threshold.edge_load(&self.mesh, &self.cloth, h);
-            let ends = [self.mesh.origin(h), self.mesh.target(h)];
-            let [a, b] = ends.map(|v: VertexId| tear.strength(v));
-            load.is_some_and(|load| load / a.min(b) >= 1.0)
-        };
-        self.mesh.edges().filter(|&h| over(h)).count()
-    }
+/// How many edges have a load beyond the strength of their weaker end: the definition.
+fn overstretched(torn: &Torn) -> usize {
+    let over = |&h: &_| {
+        let load = torn
+            .tear
+            .tearing()
+            .threshold
+            .edge_load(&torn.mesh, &torn.cloth, h);
+        let [a, b] = [torn.mesh.origin(h), torn.mesh.target(h)].map(|v| torn.tear.strength(v));
+        load.is_some_and(|load| load / a.min(b) >= 1.0)
+    };
+    torn.mesh.edges().filter(over).count()
 }
 
 #[test]
 fn a_pass_without_a_root_finds_every_overstretched_edge() {
     for (name, method) in METHODS {
-        let (mut over, mut steps, mut torn) = (0, 0, 0);
+        let (mut over, mut splits) = (0, 0);
         for seed in 0..48 {
-            let mut pulled = Pulled::new(seed);
-            let mut solver = method();
-            let tearing = Tearing::new(pulled.threshold);
-            let tear = Tear::new(&pulled.cloth, tearing).expect("a tear");
-            let strengths = pulled.strengths.clone();
-            let mut tear = tear.with_strengths(strengths).expect("strengths");
-            let mut edits = Edits::new();
+            let ((mut torn, step_s), mut solver) = (pulled_about(seed), method());
             for _ in 0..40 {
-                let stepped = pulled.cloth.step(&mut *solver, pulled.step_s);
+                let stepped = torn.cloth.step(&mut *solver, step_s);
                 stepped.unwrap_or_else(|error| panic!("{name}, sheet {seed}: {error}"));
-                let expected = pulled.overstretched(&tear);
-                let Pulled { mesh, cloth, .. } = &mut pulled;
-                let report = tear.apply(mesh, cloth, &mut edits);
+                let expected = overstretched(&torn);
+                let report = torn.apply();
                 assert_eq!(report.overstretched, expected, "{name}, sheet {seed}");
-                (over, steps) = (over + expected, steps + 1);
-                torn += report.splits;
+                over += expected;
+                splits += report.splits;
             }
         }
-        assert!(over > 100 && torn > 50, "{name}");
+        assert!(over > 100 && splits > 50, "{name}: {over} {splits}");
     }
 }
 
@@ -108,24 +84,21 @@ fn a_pass_without_a_root_finds_every_overstretched_edge() {
 /// changes.
 #[test]
 fn a_stiffer_edge_tears_at_a_smaller_strain() {
-    let (mut mesh, positions) = sheet(4, 4, 1);
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
-    for x in cloth.system_mut().state_mut().0 {
-        *x *= 1.2;
-    }
-    let longest = mesh.edges().map(|h| {
-        let id = cloth.stretch(h);
-        (cloth.system().stretches().get(id).rest_length_m, id)
-    });
-    let (longest_m, id) = longest.max_by(|a, b| a.0.total_cmp(&b.0)).expect("edges");
+    let shape = sheet(4, 4, 1);
+    let longest = |cloth: &Cloth| {
+        let springs = cloth.system().stretches();
+        let lengths = springs.iter().map(|id| (springs.get(id).rest_length_m, id));
+        lengths.max_by(|a, b| a.0.total_cmp(&b.0)).expect("edges")
+    };
+    let (longest_m, _) = longest(&cloth(&shape.0, &shape.1, Fabric::new(50.0)));
     let tearing = Tearing::new(Threshold::Force(4.0 * 50.0 * 0.2 * longest_m));
-    let mut tear = Tear::new(&cloth, tearing).expect("a tear");
-    let mut edits = Edits::new();
-    let mut overstretched = |cloth: &mut Cloth| tear.apply(&mut mesh, cloth, &mut edits);
-    assert_eq!(overstretched(&mut cloth).overstretched, 0);
-    let stiffer = cloth.system_mut().set_stiffness(id, 4.01 * 50.0);
+    let mut torn = Torn::new(shape, Fabric::new(50.0), tearing);
+    deform(&mut torn.cloth, |p| p * 1.2);
+    assert_eq!(torn.apply().overstretched, 0);
+    let (_, id) = longest(&torn.cloth);
+    let stiffer = torn.cloth.system_mut().set_stiffness(id, 4.01 * 50.0);
     stiffer.expect("a stiffness");
-    assert_eq!(overstretched(&mut cloth).overstretched, 1);
+    assert_eq!(torn.apply().overstretched, 1);
 }
 
 /// At rest the force in each link of a chain is the weight below it, in whatever order links are
@@ -148,24 +121,14 @@ fn xpbd_tears_a_chain_by_the_weight_that_hangs_from_it() {
         });
         let ids: Vec<_> = ids.collect();
         chain.hold(0);
-        let loads = Loads {
-            gravity_m_per_s2: Some(Vector::new(0.0, 0.0, -9.81)),
-            drag_per_s: Some(20.0),
-            ..Loads::default()
-        };
-        chain.set_loads(loads).expect("loads");
-        for _ in 0..4000 {
-            chain.step(&mut Xpbd::new(1, 1), 0.01).expect("a step");
-        }
+        chain.set_loads(gravity(20.0)).expect("loads");
+        run(&mut chain, Xpbd::new(1, 1), 0.01, 4000);
         let mut off: f64 = 0.0;
         for (i, id) in ids {
             let below = f64::from(links) - i as f64;
             let strain = below * mass * 9.81 / (stiffness * rest);
             let load = Threshold::Stretch(1.5).load(&chain, id).expect("a load");
-            assert!(
-                (load / (strain / 0.5) - 1.0).abs() < 1e-6,
-                "link {i}: {load}"
-            );
+            near(load / (strain / 0.5), 1.0, 1e-6);
             off = off.max(((chain.stretch_ratio(id) - 1.0) / strain - 1.0).abs());
         }
         assert!(off > 0.2, "{off}");

@@ -1,15 +1,18 @@
-//! A scene pays for what it uses, and for nothing else: by counts, at the defaults of each method.
+//! A scene pays for what it uses, and for nothing else: by counts, at the defaults of each method. By a clock:
+//! `tools/bench`, subcommand `cloth`.
 
-use tearmesh::{CutMethod, Edits, Plane, Point, Positions, Scissor, Vector};
+use tearmesh::{CutMethod, Edits, Positions, Scissor, Vector, shapes};
 use tearmesh_cloth::scene::{Frame, Run, Scene, SwayingWind};
 use tearmesh_cloth::{
-    Bending, Collider, Counters, FeatureVisits, Limiter, Pbd, Provot, Tearing, Threshold, Unstable,
-    Verlet, Wind, Xpbd,
+    Bending, Cloth, Collider, Counters, Fabric, FeatureVisits, Limiter, Pbd, Provot, Solver,
+    Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
 };
 
+use crate::parts::cloths::cloth;
 use crate::parts::nets::chain;
-use crate::parts::run;
 use crate::parts::scenes::{methods, play, staged};
+use crate::parts::woven::weave;
+use crate::parts::{gravity_along_y, plane, run, state};
 use crate::rk4::Rk4;
 
 /// A quarter of a second of hanging, with no more than is added.
@@ -72,7 +75,7 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
         assert_eq!(windy.features.wind % faces, 0, "{name}");
 
         let (_, above) = cost(method, |scene, _| {
-            let floor = Plane::new(Point::new(0.0, -1e3, 0.0), Vector::y()).expect("a plane");
+            let floor = plane([0.0, -1e3, 0.0], Vector::y());
             scene.colliders.push(Collider::Plane(floor));
         });
         let vertices = run.mesh().vertex_count() as u64;
@@ -108,17 +111,20 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
 /// The log of a cut changes what is there to be visited, and visits nothing.
 #[test]
 fn a_cut_through_a_cloth_visits_no_element() {
-    for method in 0..methods().len() {
-        let (run, _) = cost(method, |_, _| {});
+    for fabric in [Fabric::default(), Fabric::woven(weave())] {
+        let (run, counters) = cost(2, |scene, _| scene.fabric = fabric);
+        let triangles = counters.features.triangle;
+        assert_eq!(triangles > 0, fabric.weave.is_some());
+        assert_eq!(triangles % run.mesh().face_count() as u64, 0);
         let (mut mesh, mut cloth) = (run.mesh().clone(), run.cloth().clone());
         let now = cloth.positions().iter().map(|p| [p.x, p.y, p.z]);
         let mut now = Positions::new(now)
             .expect("finite")
             .starting_at(cloth.seen());
         let before = cloth.system().counters();
-        let plane = Plane::new(Point::new(0.41, 0.0, 0.0), Vector::x()).expect("a plane");
+        let across = plane([0.41, 0.0, 0.0], Vector::x());
         let mut edits = Edits::starting_at(cloth.seen());
-        Scissor::by_plane(plane)
+        Scissor::by_plane(across)
             .cut(CutMethod::Exact, &mut mesh, &mut now, &mut edits)
             .expect("in step");
         edits.replay(&mut cloth);
@@ -146,4 +152,53 @@ fn each_method_counts_what_it_evaluates() {
     run(&mut chain, Provot::new(Limiter::default()), 0.001, 10);
     assert_eq!(chain.counters().force_evaluations, 11 + 40 + 10);
     assert_eq!(chain.counters().matrix_products, 0);
+}
+
+/// A sheet of n × n cells that hangs by its upper edge.
+fn hanging(n: u32, stiffness: f64) -> Cloth {
+    let (mesh, positions) = shapes::grid(n, n);
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(stiffness));
+    let system = cloth.system_mut();
+    system.set_loads(gravity_along_y(1.0)).expect("loads");
+    let row = n as usize + 1;
+    (row * (row - 1)..row * row).for_each(|top| system.hold(top));
+    cloth
+}
+
+/// Macklin et al. 2019: the same projections, and far less strain.
+#[test]
+fn ten_substeps_of_one_sweep_strain_less_than_one_step_of_ten_sweeps() {
+    let strain = |solver: &mut dyn Solver| {
+        let mut cloth = hanging(64, 1e5);
+        run(cloth.system_mut(), solver, 1.0 / 60.0, 90);
+        let system = cloth.system();
+        let ratios = system.stretches().iter().map(|id| system.stretch_ratio(id));
+        let squares = ratios.map(|ratio| (ratio - 1.0).powi(2)).sum::<f64>();
+        let rms = (squares / system.stretches().len() as f64).sqrt();
+        (rms, system.counters().visits.project)
+    };
+    let (small, of_small) = strain(&mut Xpbd::new(10, 1));
+    let (large, of_large) = strain(&mut Xpbd::new(1, 10));
+    let (pbd, of_pbd) = strain(&mut Pbd::new(10));
+    assert_eq!([of_small, of_small], [of_large, of_pbd]);
+    assert!(large > 5.0 * small && pbd > 5.0 * small);
+    assert!(small < 0.2, "{small}");
+}
+
+/// Without colliders, the end of a substep and the begin of the next are one pass.
+#[test]
+fn a_collider_that_nothing_meets_changes_no_bit_of_a_step() {
+    let mut free = hanging(12, 1e4);
+    let mut loads = free.system().loads().clone();
+    let floor = plane([0.0, -1e3, 0.0], Vector::y());
+    loads.colliders.push(Collider::Plane(floor));
+    let mut above = free.clone();
+    above.system_mut().set_loads(loads).expect("loads");
+    for _ in 0..20 {
+        for cloth in [&mut free, &mut above] {
+            run(cloth.system_mut(), Xpbd::new(5, 2), 1.0 / 60.0, 1);
+        }
+        assert_eq!(state(free.system()), state(above.system()));
+    }
+    assert_eq!(above.system().counters().collider_passes, 20 * 5);
 }

@@ -8,7 +8,7 @@ pub(crate) mod vibration;
 pub(crate) mod woven;
 
 use tearmesh::geometry::length;
-use tearmesh::{Plane, Point, Vector};
+use tearmesh::{Plane, Point, Ray, Vector, VertexId};
 use tearmesh_cloth::implicit::{Method, Settings, Stats};
 use tearmesh_cloth::{
     ConstraintId, Implicit, LimiterStats, Loads, Path, Pbd, Provot, Quality, Solver, System,
@@ -116,6 +116,16 @@ pub(crate) fn on_a_line<const N: usize>(places: [f64; N], mass_kg: f64) -> Syste
 /// A straight way between points at times in seconds.
 pub(crate) fn path<const N: usize>(points: [(f64, [f64; 3]); N]) -> Path {
     Path::new(points.map(|(t_s, at)| (t_s, Point::from(at)))).expect("a path")
+}
+
+/// The vertex of this number.
+pub(crate) fn v(index: usize) -> VertexId {
+    VertexId::new(index).expect("an id")
+}
+
+/// Looks down at a place of a sheet in the plane z = 0.
+pub(crate) fn ray(x: f64, y: f64) -> Ray {
+    Ray::new(Point::new(x, y, 5.0), -Vector::z()).expect("a ray")
 }
 
 /// The plane through a point, with a normal.

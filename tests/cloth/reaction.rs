@@ -1,14 +1,15 @@
 //! Forces in constraints and at hands, against weights and accelerations.
 
-use tearmesh::{Masses, Point, Positions, Vector, shapes};
+use tearmesh::{Edits, Positions, Vector, shapes, split};
 use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{
-    Bending, Cloth, Fabric, Loads, Path, Pbd, Provot, Solver, System, Threshold, Verlet, Weave,
-    Wind, Xpbd, force,
+    Bending, Fabric, Loads, Pbd, Provot, Solver, System, Threshold, Verlet, Wind, Xpbd, force,
 };
 
-use crate::parts::nets::{chain, row};
-use crate::parts::{G, gravity, implicit, near, run};
+use crate::parts::cloths::cloth;
+use crate::parts::nets::chain;
+use crate::parts::woven::weave;
+use crate::parts::{G, gravity, implicit, near, run, v};
 use crate::random::Random;
 use crate::rk4::Rk4;
 
@@ -52,16 +53,9 @@ fn a_free_particle_lacks_what_accelerates_it() {
         }),
         ..Fabric::new(30.0)
     };
-    let woven = Fabric::woven(Weave {
-        warp_n_per_m: 40.0,
-        weft_n_per_m: 30.0,
-        shear_n_per_m: 10.0,
-        warp: Vector::x(),
-    });
     let mut random = Random(7);
-    for fabric in [springs, woven] {
-        let masses = Masses::area(&mesh, &positions, 0.3).expect("masses");
-        let mut cloth = Cloth::new(&mesh, &positions, masses, fabric).expect("a cloth");
+    for fabric in [springs, Fabric::woven(weave())] {
+        let mut cloth = cloth(&mesh, &positions, fabric);
         let system = cloth.system_mut();
         let wind = Wind {
             velocity_m_per_s: Vector::new(1.0, 2.0, 5.0),
@@ -88,56 +82,31 @@ fn a_free_particle_lacks_what_accelerates_it() {
 }
 
 #[test]
-fn a_leading_hand_pulls_against_drag() {
-    // A pair at its rest length, led at one metre a second through a thick medium.
-    let mut pair = row(1, 0.5, 100.0, 1.0, Vector::new(1.0, 0.0, 0.0));
-    pair.set_loads(Loads {
-        drag_per_s: Some(3.0),
-        ..Loads::default()
-    })
-    .expect("loads");
-    let away = [
-        (0.0, Point::origin()),
-        (100.0, Point::new(-100.0, 0.0, 0.0)),
-    ];
-    pair.grab(0, Path::new(away).expect("a path"));
-    run(&mut pair, Verlet::new(), 0.01, 3000);
-    near(force::reaction_n(&pair, 0).x, -2.0 * 0.5 * 3.0, 1e-9);
-}
-
-#[test]
 fn copies_of_a_torn_link_share_its_multiplier() {
     let (mut mesh, _) = shapes::grid(2, 2);
     let points = (0..9).map(|i| [f64::from(i % 3), 1.5 * f64::from(i / 3), 0.0]);
     let positions = Positions::new(points).expect("positions");
-    let masses = Masses::area(&mesh, &positions, 1.0).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(80.0)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(80.0));
     let system: &mut System = cloth.system_mut();
     system.set_loads(gravity(0.0)).expect("loads");
     (0..3).chain(6..9).for_each(|v| system.hold(v));
     cloth.step(&mut Xpbd::new(4, 4), 0.05).expect("a step");
-    let centre = tearmesh::VertexId::new(4).expect("a vertex");
+    let centre = v(4);
     let faces: Vec<_> = mesh.faces_of(centre).take(3).collect();
-    let forces: Vec<f64> = mesh
-        .half_edges()
-        .map(|h| force::force_n(cloth.system(), cloth.stretch(h)))
-        .collect();
+    let forces = mesh.half_edges();
+    let forces = forces.map(|h| force::force_n(cloth.system(), cloth.stretch(h)));
+    let forces: Vec<f64> = forces.collect();
     assert!(forces.iter().any(|f| f.abs() > 1e-4));
     // So each copy is as near to tearing as the link was.
     let threshold = Threshold::Force(2.0);
-    let loads: Vec<Option<f64>> = mesh
-        .half_edges()
-        .map(|h| threshold.edge_load(&mesh, &cloth, h))
-        .collect();
-    let mut edits = tearmesh::Edits::new();
-    tearmesh::split::vertex(&mut mesh, centre, &faces, &mut edits).expect("a split");
+    let loads = mesh.half_edges();
+    let loads = loads.map(|h| threshold.edge_load(&mesh, &cloth, h));
+    let loads: Vec<Option<f64>> = loads.collect();
+    let mut edits = Edits::new();
+    split::vertex(&mut mesh, centre, &faces, &mut edits).expect("a split");
     edits.replay(&mut cloth);
     for h in mesh.half_edges() {
-        let share = if mesh.ghost_pair(h).is_some() {
-            0.5
-        } else {
-            1.0
-        };
+        let share = [1.0, 0.5][usize::from(mesh.ghost_pair(h).is_some())];
         let force = force::force_n(cloth.system(), cloth.stretch(h));
         assert_eq!(force, share * forces[h.index()], "{h}");
         let load = threshold.edge_load(&mesh, &cloth, h);

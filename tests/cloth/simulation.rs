@@ -4,20 +4,16 @@
 mod replay;
 
 use tearmesh::geometry::length;
-use tearmesh::{CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, VertexId, shapes};
+use tearmesh::{CutMethod, Edits, Mesh, Point, Positions, Scissor, Vector, VertexId, shapes};
 use tearmesh_cloth::{
     ClothError, CutId, Event, Fabric, HandId, InputError, Method, Simulation, SimulationDef,
     SimulationError, StepError, Tearing, Unstable, Wounds,
 };
 
-use crate::parts::{gravity_along_y, near, plane};
+use crate::parts::{gravity_along_y, near, plane, ray, v};
 
 /// More steps than any test takes at once.
 const ALL: u64 = 1_000_000;
-
-fn v(index: usize) -> VertexId {
-    VertexId::new(index).expect("an id")
-}
 
 /// A sheet of n × n cells of a metre in all.
 fn sheet(n: u32, def: SimulationDef) -> Simulation {
@@ -51,10 +47,6 @@ fn hanging(n: u32, stretch_n_per_m: f64, drag_per_s: f64, method: Method) -> Sim
     hung(n, def)
 }
 
-fn ray(x: f64, y: f64) -> Ray {
-    Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray")
-}
-
 /// A scissor along the plane y = `height`.
 fn across(height: f64) -> Scissor {
     Scissor::by_plane(plane([0.0, height, 0.0], Vector::y()))
@@ -72,10 +64,8 @@ fn at(sim: &Simulation, vertex: VertexId) -> Point {
 
 /// How many vertices are held, in a hand or not.
 fn held(sim: &Simulation) -> usize {
-    let mut all = sim.mesh().vertices();
-    all.by_ref()
-        .filter(|v| sim.cloth().system().is_held(v.index()))
-        .count()
+    let is_held = |v: &VertexId| sim.cloth().system().is_held(v.index());
+    sim.mesh().vertices().filter(is_held).count()
 }
 
 /// The vertex in a hand that holds one.

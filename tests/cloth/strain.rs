@@ -1,4 +1,4 @@
-//! The stretch of faces against deformations whose singular values are known.
+//! The stretch of faces, against that of all their directions.
 
 use tearmesh::{FaceId, Masses, Mesh, Point, Positions, Vector, VertexId, shapes};
 use tearmesh_cloth::{Cloth, Fabric};

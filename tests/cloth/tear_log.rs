@@ -1,5 +1,4 @@
-//! What a log tells of a run, against what the run itself says, the balance of energy, and
-//! weights.
+//! What a log tells of a run, against what the run itself says and the balance of energy.
 
 use std::num::NonZero;
 

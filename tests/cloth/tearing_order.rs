@@ -97,8 +97,8 @@ fn a_tear_does_not_depend_on_the_order_of_storage() {
         to.iter()
             .zip(&strengths)
             .for_each(|(&to, &strength)| others[to] = strength);
-        one.tear = one.tear.with_strengths(strengths).expect("strengths");
-        other.tear = other.tear.with_strengths(others).expect("strengths");
+        one.strengthen(strengths);
+        other.strengthen(others);
         for _ in 0..6 {
             let to = same_vertices(&one.mesh, &other.mesh, &corners);
             let pull = 1.0 + 0.4 * random.next();

@@ -1,15 +1,16 @@
 //! The watch over stability after something went wrong: a state that was no number, one that was
 //! set, a step that failed.
 
-use tearmesh::{Edits, Masses, Mesh, Point, Vector, VertexId, shapes, split};
-use tearmesh_cloth::implicit::Settings;
+use tearmesh::{Edits, Mesh, Vector, shapes, split};
+use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{
-    Balance, Cloth, EnergyBalance, Fabric, Failure, Implicit, Limiter, Loads, Path, Pbd, Provot,
+    Balance, Cloth, EnergyBalance, Fabric, Failure, Implicit, Limiter, Loads, Pbd, Provot,
     SettingError, Solver, StepError, System, Threshold, Verlet, Wind, Xpbd, force,
 };
 
+use crate::parts::cloths::cloth;
 use crate::parts::nets::row;
-use crate::parts::{METHODS, gravity_along_y, tension_n};
+use crate::parts::{METHODS, gravity_along_y, implicit_to, on_a_line, path, state, tension_n, v};
 use crate::plain_verlet::PlainVerlet;
 
 /// Ten springs of 1000 N/m between particles of 10 g: a step of 0.02 s is six times too long.
@@ -19,36 +20,28 @@ fn stiff() -> System {
 
 const TOO_LONG_S: f64 = 0.02;
 
-fn refused(system: &mut System, dt_s: f64) -> StepError {
-    let taken = system.step(&mut PlainVerlet::new(), dt_s);
-    taken.expect_err("a step that is refused")
+/// How long a step may be that is refused.
+fn refused(system: &mut System) -> Result<f64, StepError> {
+    match system.step(&mut PlainVerlet::new(), TOO_LONG_S) {
+        Err(StepError::Unstable { limit_s, .. }) => Ok(limit_s),
+        other => Err(other.expect_err("a step that is refused")),
+    }
 }
 
 #[test]
 fn a_state_that_was_no_number_does_not_switch_the_watch_off() {
-    let mut system = stiff();
-    let clean = refused(&mut system, TOO_LONG_S);
-    let StepError::Unstable { limit_s, .. } = clean else {
-        panic!("{clean}");
-    };
+    let limit_s = refused(&mut stiff()).expect("a limit");
     for bad in [f64::NAN, f64::INFINITY, 1e300] {
         let mut system = stiff();
         let good = system.positions()[3];
         system.state_mut().0[3].x = bad;
-        let broken = refused(&mut system, TOO_LONG_S);
-        assert_eq!(
-            matches!(broken, StepError::BlowUp { .. }),
-            !bad.is_finite(),
-            "{broken}"
-        );
+        let broken = refused(&mut system);
+        let is_blow_up = matches!(broken, Err(StepError::BlowUp { .. }));
+        assert_eq!(is_blow_up, !bad.is_finite(), "{broken:?}");
         system.state_mut().0[3] = good;
-        let again = refused(&mut system, TOO_LONG_S);
-        let StepError::Unstable { limit_s: limit, .. } = again else {
-            panic!("{again}");
-        };
-        assert_eq!(limit, limit_s);
+        assert_eq!(refused(&mut system), Ok(limit_s));
         system.hold(10);
-        refused(&mut system, TOO_LONG_S);
+        refused(&mut system).expect("a limit");
     }
 }
 
@@ -61,38 +54,30 @@ fn named(system: &mut System, method: &mut dyn Solver, dt_s: f64) -> String {
     named.unwrap_or(&words).to_owned()
 }
 
-fn on_a_line(places: &[f64]) -> System {
-    let points = places.iter().map(|&x| Point::new(x, 0.0, 0.0));
-    System::new(points, vec![0.1; places.len()]).expect("particles")
-}
-
 #[test]
 fn a_blow_up_names_what_is_too_long_before_it_is_projected_or_limited() {
     // Implicit steps take a constraint of any length.
     for (name, make) in METHODS.into_iter().filter(|(name, _)| *name != "implicit") {
         let mut method = make();
-        let mut chain = on_a_line(&[0.0, 1.0, 5000.0]);
-        chain.stretch([0, 1], 1.0, 10.0).expect("a spring");
+        let long = |far: f64, stiffness: f64| {
+            let mut chain = on_a_line([0.0, 1.0, far], 0.1);
+            chain.stretch([0, 1], 1.0, stiffness).expect("a spring");
+            chain
+        };
+        let mut chain = long(5000.0, 10.0);
         chain.stretch([1, 2], 1.0, 10.0).expect("a spring");
         let edge = "edge 1-2 is 4999 times its rest length";
         assert_eq!(named(&mut chain, &mut *method, 0.01), edge, "{name}");
-
-        for with_stretch in [false, true] {
-            let mut chain = on_a_line(&[0.0, 1.0, 300.0]);
+        for mut chain in [on_a_line([0.0, 1.0, 300.0], 0.1), long(300.0, 1.0)] {
             chain.bend([1, 2], 1.0, 1.0).expect("a bend");
-            if with_stretch {
-                chain.stretch([0, 1], 1.0, 1.0).expect("a spring");
-            }
             let bend = "the bend 1-2 is 299 times its rest length";
             assert_eq!(named(&mut chain, &mut *method, 0.01), bend, "{name}");
         }
-
         // What a step throws too far by itself; Provot's forces see that in the next step, or never.
         if name.starts_with("Provot") {
             continue;
         }
-        let mut chain = on_a_line(&[0.0, 1.0, 2.0]);
-        chain.stretch([0, 1], 1.0, 1e-3).expect("a spring");
+        let mut chain = long(2.0, 1e-3);
         chain.stretch([1, 2], 1.0, 1e-3).expect("a spring");
         chain.state_mut().1[2].x = 2e4;
         let edge = named(&mut chain, &mut *method, 0.1);
@@ -104,14 +89,14 @@ fn a_blow_up_names_what_is_too_long_before_it_is_projected_or_limited() {
 fn a_blow_up_names_the_particle_whose_numbers_are_too_large() {
     for (name, make) in METHODS {
         let mut method = make();
-        let mut pair = on_a_line(&[0.0, 1.0, 2.0]);
+        let mut pair = on_a_line([0.0, 1.0, 2.0], 0.1);
         for v in &mut pair.state_mut().1[1..] {
             v.x = 1.2e308;
         }
         let particle = "particle 1 is too far away or too fast";
         assert_eq!(named(&mut pair, &mut *method, 1e-308), particle, "{name}");
         // And where it was none when the step began, that one; not those that it drags along.
-        let mut chain = on_a_line(&[0.0, 1.0, 2.0, 3.0]);
+        let mut chain = on_a_line([0.0, 1.0, 2.0, 3.0], 0.1);
         for a in 0..3 {
             chain.stretch([a, a + 1], 1.0, 1.0).expect("a spring");
         }
@@ -121,26 +106,17 @@ fn a_blow_up_names_the_particle_whose_numbers_are_too_large() {
     }
 }
 
-/// A method that gives up.
-struct Never;
-
-impl Solver for Never {
-    fn advance(&mut self, _: &mut System, _: f64) -> Result<(), Failure> {
-        Err(Failure::BlowUp)
-    }
-}
-
 #[test]
 fn a_method_that_gives_up_blames_nothing_that_is_not_there() {
-    let mut alone = on_a_line(&[0.0]);
-    assert_eq!(named(&mut alone, &mut Never, 0.01), "the method gave up");
+    let mut alone = on_a_line([0.0], 0.1);
+    let never = &mut Rash(|_, _| {});
+    assert_eq!(named(&mut alone, never, 0.01), "the method gave up");
 }
 
 /// A sheet in a wind, held at a corner, with all that a step leaves behind.
 fn blown() -> (Mesh, Cloth, Balance) {
     let (mesh, positions) = shapes::grid(4, 4);
-    let masses = Masses::area(&mesh, &positions, 0.15).expect("masses");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(10.0)).expect("a cloth");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(10.0));
     let system = cloth.system_mut();
     let wind = Wind {
         velocity_m_per_s: Vector::new(0.0, 0.0, 5.0),
@@ -152,8 +128,7 @@ fn blown() -> (Mesh, Cloth, Balance) {
     };
     system.set_loads(loads).expect("loads");
     let x = system.positions()[0];
-    let way = [(0.0, x), (1.0, x + Vector::new(-5.0, 0.0, 0.0))];
-    system.grab(0, Path::new(way).expect("a path"));
+    system.grab(0, path([(0.0, x.into()), (1.0, [x.x - 5.0, x.y, x.z])]));
     let balance = Balance::new(system);
     (mesh, cloth, balance)
 }
@@ -186,7 +161,7 @@ fn a_step_that_is_refused_leaves_the_state_and_the_balance_as_they_were() {
             take(&mut cloth, &mut balance, dt_s).expect("a step");
         }
         let mut edits = Edits::new();
-        let v = VertexId::new(12).expect("a vertex");
+        let v = v(12);
         let face = mesh.faces_of(v).next().expect("a face");
         split::vertex(&mut mesh, v, &[face], &mut edits).expect("a split");
         edits.replay(&mut cloth);
@@ -198,13 +173,14 @@ fn a_step_that_is_refused_leaves_the_state_and_the_balance_as_they_were() {
             assert_eq!(left_behind(&cloth, &balance), before, "{name}, {dt_s} s");
         }
         cloth.system_mut().set_stretch_ratio_max(0.5);
-        for mut other in [
-            &mut Xpbd::default() as &mut dyn Solver,
-            &mut Pbd::default(),
-            &mut Late,
-        ] {
+        let others: [Box<dyn Solver>; 3] = [
+            Box::new(Xpbd::default()),
+            Box::new(Pbd::default()),
+            Box::new(Late),
+        ];
+        for mut other in others {
             let system = cloth.system_mut();
-            let refused = system.step_observed(&mut other, dt_s, &mut balance);
+            let refused = system.step_observed(&mut *other, dt_s, &mut balance);
             refused.expect_err("a blow-up");
             assert_eq!(left_behind(&cloth, &balance), before, "{name}");
             // What it left behind in constraints counts for nothing.
@@ -216,6 +192,16 @@ fn a_step_that_is_refused_leaves_the_state_and_the_balance_as_they_were() {
             }
         }
         cloth.system_mut().set_stretch_ratio_max(100.0);
+        for (number, way) in RASH.into_iter().enumerate() {
+            let mut tried = cloth.clone();
+            let system = tried.system_mut();
+            // As if the one who is led had been pushed.
+            system.state_mut().1[0].z = 0.25;
+            let left = state(system);
+            let refused = system.step(&mut Rash(way), dt_s);
+            refused.expect_err("a blow-up");
+            assert!(state(system) == left, "{name}, way {number}");
+        }
         // And the balance goes on as if nothing had been, from forces by lengths.
         let _ = untried.0.system_mut().state_mut();
         let mut both = [(cloth, balance), untried];
@@ -257,68 +243,42 @@ impl Solver for Rash {
     }
 }
 
-#[test]
-fn whatever_a_step_that_gave_up_had_changed_is_as_it_was() {
-    let ways: [fn(&mut System, f64); 9] = [
-        |_, _| {},
-        |system, _| system.state_mut().0[7].x += 1.0,
-        |system, _| system.state_mut().1[7].x += 1.0,
-        |system, _| system.hold(7),
-        |system, _| system.release(0),
-        |system, _| system.grab(7, Path::new([(0.0, Point::origin())]).expect("a path")),
-        |system, dt_s| {
-            // Once beside where the step began, and once more.
-            Verlet::new().advance(system, dt_s).expect("a step");
-            Verlet::new().advance(system, dt_s).expect("a step");
-        },
-        |system, dt_s| Xpbd::default().advance(system, dt_s).expect("a step"),
-        |system, dt_s| Implicit::default().advance(system, dt_s).expect("a step"),
-    ];
-    for (number, way) in ways.into_iter().enumerate() {
-        let (_, mut cloth, _) = blown();
-        let system = cloth.system_mut();
-        for _ in 0..8 {
-            system.step(&mut Verlet::new(), 3e-4).expect("a step");
-        }
-        // As if the one who is led had been pushed.
-        system.state_mut().1[0].z = 0.25;
-        let state = |system: &System| (system.positions().to_vec(), system.velocities().to_vec());
-        let before = state(system);
-        let refused = system.step(&mut Rash(way), 3e-4);
-        refused.expect_err("a blow-up");
-        assert!(state(system) == before, "way {number}");
-    }
-}
+/// What one may change before it gives up.
+const RASH: [fn(&mut System, f64); 9] = [
+    |_, _| {},
+    |system, _| system.state_mut().0[7].x += 1.0,
+    |system, _| system.state_mut().1[7].x += 1.0,
+    |system, _| system.hold(7),
+    |system, _| system.release(0),
+    |system, _| system.grab(7, path([(0.0, [0.0; 3])])),
+    |system, dt_s| {
+        // Once beside where the step began, and once more.
+        Verlet::new().advance(system, dt_s).expect("a step");
+        Verlet::new().advance(system, dt_s).expect("a step");
+    },
+    |system, dt_s| Xpbd::default().advance(system, dt_s).expect("a step"),
+    |system, dt_s| Implicit::default().advance(system, dt_s).expect("a step"),
+];
 
 #[test]
 fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
     let mut refused: Vec<(Box<dyn Solver>, &str, f64)> = Vec::new();
     for given in [f64::NAN, -1.0, 2.0] {
-        let stiffness = Pbd {
-            stiffness: given,
-            ..Pbd::default()
-        };
-        let bend_stiffness = Pbd {
-            bend_stiffness: given,
-            ..Pbd::default()
-        };
-        refused.push((Box::new(stiffness), "stiffness", given));
-        refused.push((Box::new(bend_stiffness), "bend_stiffness", given));
+        let [mut stiff, mut bend] = [Pbd::default(); 2];
+        (stiff.stiffness, bend.bend_stiffness) = (given, given);
+        refused.push((Box::new(stiff), "stiffness", given));
+        refused.push((Box::new(bend), "bend_stiffness", given));
     }
-    for stretch_ratio_max in [f64::NAN, 0.0, -1.0] {
+    for given in [f64::NAN, 0.0, -1.0] {
         let limiter = Limiter {
-            stretch_ratio_max,
+            stretch_ratio_max: given,
             ..Limiter::default()
         };
-        let provot = Provot::new(limiter);
-        refused.push((Box::new(provot), "stretch_ratio_max", stretch_ratio_max));
+        refused.push((Box::new(Provot::new(limiter)), "stretch_ratio_max", given));
     }
-    for tolerance in [f64::NAN, -1.0] {
-        let settings = Settings {
-            tolerance,
-            ..Settings::default()
-        };
-        refused.push((Box::new(Implicit::new(settings)), "tolerance", tolerance));
+    for given in [f64::NAN, -1.0] {
+        let solver = implicit_to(Method::BackwardEuler, given);
+        refused.push((Box::new(solver), "tolerance", given));
     }
     for (mut solver, name, number) in refused {
         let mut system = stiff();
@@ -332,17 +292,17 @@ fn settings_that_cannot_be_used_are_refused_by_name_and_number() {
     }
     let mut system = stiff();
     system.set_stretch_ratio_max(f64::NAN);
-    let error = system.step(&mut Xpbd::default(), 0.001).expect_err("NaN");
-    assert_eq!(
-        error.to_string(),
-        "stretch_ratio_max is NaN, and may be any above 0"
-    );
+    let error = system
+        .step(&mut Xpbd::default(), 0.001)
+        .expect_err("NaN")
+        .to_string();
+    assert_eq!(error, "stretch_ratio_max is NaN, and may be any above 0");
 }
 
 #[test]
 fn no_sweep_counts_as_one() {
     let moved = |sweeps| {
-        let mut system = row(10, 0.01, 1000.0, 0.1, Vector::x() * 0.1);
+        let mut system = stiff();
         system.state_mut().0[3].x += 0.01;
         system.step(&mut Pbd::new(sweeps), 0.01).expect("a step");
         system.positions().to_vec()

@@ -1,13 +1,16 @@
-//! Cloth of triangles against the reference answers: a strip that moves like a chain is one,
-//! because triangles have no Poisson's ratio.
+//! Cloth of triangles: its moduli, its limits, and what is refused.
 
-use tearmesh::{Point, Vector, shapes};
-use tearmesh_cloth::implicit::Method;
-use tearmesh_cloth::{Fabric, Weave, energy};
+use tearmesh::{Masses, Point, Vector, shapes};
+use tearmesh_cloth::{
+    Cloth, ClothError, Fabric, Pbd, Solver, StepError, SystemError, Unstable, Weave, Xpbd, energy,
+    frequency_bound,
+};
 
 use crate::parts::cloths::cloth;
+use crate::parts::vibration::largest_frequency;
 use crate::parts::woven::{moduli, sheet, weave};
-use crate::parts::{G, gravity_along_y, implicit, near};
+use crate::parts::{near, particles};
+use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 
 /// R8: moduli are those that were asked for, on a net with one diagonal a cell that leans, on a fan,
@@ -55,31 +58,94 @@ fn r8_moduli_are_those_asked_for_whatever_the_mesh() {
     }
 }
 
-/// A hanging sheet is as long as the sheet of the continuum: ρ g L² / (2 E) longer.
 #[test]
-fn a_hanging_sheet_comes_to_the_length_of_the_continuum() {
-    let hang = |n: u32| {
-        let along = Weave {
-            warp: Vector::x(),
+fn explicit_methods_are_held_to_the_limit_of_triangles() {
+    let omega = |cloth: &mut Cloth| {
+        let exact = largest_frequency(cloth.system());
+        let bound = frequency_bound(cloth.system_mut()).omega_rad_per_s;
+        assert!(
+            exact <= bound * (1.0 + 1e-12) && exact > 0.4 * bound,
+            "{exact} {bound}"
+        );
+        exact
+    };
+    let (_, _, mut cloth) = sheet(6, weave());
+    let rest = omega(&mut cloth);
+    let error = cloth
+        .step(&mut PlainVerlet::new(), 2.05 / rest)
+        .expect_err("too long");
+    assert!(matches!(error, StepError::Unstable { frequency, .. } if frequency.ends.is_some()));
+    let dt = 1.0 / rest;
+    cloth.step(&mut PlainVerlet::new(), dt).expect("a step");
+
+    // Stretched eight times its shear is stiffer by far: the same step is refused.
+    for p in cloth.system_mut().state_mut().0 {
+        p.x *= 8.0;
+        p.y *= 8.0;
+    }
+    let stretched = omega(&mut cloth);
+    assert!(stretched > 3.0 * rest, "{stretched} {rest}");
+    let error = cloth
+        .step(&mut PlainVerlet::new(), dt)
+        .expect_err("too long now");
+    assert!(matches!(error, StepError::Unstable { .. }), "{error}");
+    cloth.system_mut().when_unstable(Unstable::Substep);
+    let report = cloth.step(&mut PlainVerlet::new(), dt).expect("divided");
+    assert!(report.substeps > 1);
+}
+
+#[test]
+fn what_cannot_be_woven_or_stepped_is_refused() {
+    let (mesh, positions) = shapes::grid(2, 2);
+    let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
+    let made = |fabric: Fabric| Cloth::new(&mesh, &positions, masses.clone(), fabric);
+    for (warp, weft, shear, named) in [
+        (0.0, 1.0, 1.0, "weave.warp_n_per_m is 0,"),
+        (1.0, -1.0, 1.0, "weave.weft_n_per_m is -1,"),
+        (1.0, 1.0, -1.0, "weave.shear_n_per_m is -1,"),
+        (f64::NAN, 1.0, 1.0, "weave.warp_n_per_m is NaN,"),
+        (1.0, 1.0, f64::INFINITY, "weave.shear_n_per_m is inf,"),
+    ] {
+        let weave = Weave {
+            warp_n_per_m: warp,
+            weft_n_per_m: weft,
+            shear_n_per_m: shear,
             ..weave()
         };
-        let (_, _, mut cloth) = sheet(n, along);
-        let row = (n + 1) as usize;
-        (row * (row - 1)..row * row).for_each(|top| cloth.system_mut().hold(top));
-        let loads = gravity_along_y(8.0);
-        cloth.system_mut().set_loads(loads).expect("loads");
-        let mut solver = implicit(Method::BackwardEuler);
-        for _ in 0..150 {
-            cloth.step(&mut solver, 0.2).expect("a step");
-        }
-        let bottom = &cloth.positions()[..row];
-        -bottom.iter().map(|p| p.y).sum::<f64>() / f64::from(n + 1)
-    };
-    let answer = 0.2 * G / (2.0 * 80.0);
-    let errors = [4, 8, 16].map(|n| (hang(n) / answer - 1.0).abs());
-    assert!(
-        errors[1] < 0.6 * errors[0] && errors[2] < 0.6 * errors[1],
-        "{errors:?}"
-    );
-    assert!(errors[2] < 0.01, "{errors:?}");
+        let error = made(Fabric::woven(weave)).expect_err("no modulus");
+        assert!(error.to_string().starts_with(named), "{error}");
+    }
+    let nothing = made(Fabric::new(0.0)).expect_err("nothing at all");
+    let (field, given) = ("modulus_n_per_m", 0.0);
+    assert_eq!(nothing, ClothError::Stiffness { field, given });
+    for warp in [
+        Vector::z(),
+        Vector::zeros(),
+        Vector::new(f64::NAN, 0.0, 0.0),
+    ] {
+        let error = made(Fabric::woven(Weave { warp, ..weave() })).expect_err("no warp");
+        let named = "the face f0 has no area at rest, or";
+        assert!(error.to_string().starts_with(named), "{error}");
+    }
+    let mut cloth = made(Fabric::woven(weave())).expect("a cloth");
+    for method in [&mut Pbd::default() as &mut dyn Solver, &mut Xpbd::default()] {
+        let error = cloth.step(method, 0.01).expect_err("springs alone");
+        assert_eq!(error, StepError::Triangles { count: 8 });
+        let text = "the method supports springs only, and 8 triangles resist stretch";
+        assert_eq!(error.to_string(), text);
+    }
+    let mut system = particles([[0.0; 3], [1.0, 1.0, 0.0], [2.0, 4.0, 0.0]], 1.0);
+    let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+    for (corners, places, stiffness) in [
+        ([0, 1, 1], places, [1.0; 3]),
+        ([0, 1, 3], places, [1.0; 3]),
+        ([0, 1, 2], [[0.0; 2]; 3], [1.0; 3]),
+        ([0, 1, 2], places, [-1.0, 1.0, 1.0]),
+    ] {
+        let error = system
+            .triangle(corners, places, stiffness)
+            .expect_err("none");
+        assert_eq!(error, SystemError::Triangle { corners });
+    }
+    assert_eq!(system.triangle([0, 1, 2], places, [1.0; 3]), Ok(0));
 }

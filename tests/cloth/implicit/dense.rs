@@ -1,6 +1,7 @@
 //! Matrices as lists of rows, and naive code for them.
 
 use super::{Scene, forces};
+use nalgebra::{DMatrix, DVector};
 use tearmesh::Vector;
 use tearmesh_cloth::System;
 
@@ -42,29 +43,26 @@ pub(super) fn clamped(scene: &Scene) -> Matrix {
         matrix[3 * a + row][3 * b + column] += value;
     };
     let identity = |row: usize, column: usize| f64::from(u8::from(row == column));
-    for spring in scene.springs.iter().chain(&scene.bends) {
-        let [a, b] = spring.ends;
+    for &([a, b], rest_m, stiffness) in scene.springs.iter().chain(&scene.bends) {
         let d = scene.x[b] - scene.x[a];
-        let (t, across) = (d / d.norm(), (1.0 - spring.rest_length / d.norm()).max(0.0));
+        let (t, across) = (d / d.norm(), (1.0 - rest_m / d.norm()).max(0.0));
         for (row, column) in (0..9).map(|i| (i / 3, i % 3)) {
             let along = t[row] * t[column];
             let part = along + across * (identity(row, column) - along);
-            let value = spring.stiffness * part;
+            let value = stiffness * part;
             for (ends, sign) in [([a, a], 1.0), ([b, b], 1.0), ([a, b], -1.0), ([b, a], -1.0)] {
                 add(ends, row, column, sign * value);
             }
         }
     }
-    for triangle in &scene.triangles {
-        let [p, q, r] = triangle.material;
+    for &(corners, [p, q, r], [k_u, k_v, k_s]) in &scene.triangles {
         let (e, f) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
         let twice = e[0] * f[1] - e[1] * f[0];
         // How w_u and w_v change with each corner.
         let (g, h) = ([f[1] / twice, -e[1] / twice], [-f[0] / twice, e[0] / twice]);
         let weights = [g, h].map(|[x, y]| [-x - y, x, y]);
-        let x = triangle.corners.map(|corner| scene.x[corner].coords);
+        let x = corners.map(|corner| scene.x[corner].coords);
         let [u, v] = weights.map(|w| x[0] * w[0] + x[1] * w[1] + x[2] * w[2]);
-        let [k_u, k_v, k_s] = triangle.stiffness;
         let shear = u.dot(&v);
         let block = |row: usize, column: usize| -> [[f64; 2]; 2] {
             let unit = identity(row, column);
@@ -82,40 +80,16 @@ pub(super) fn clamped(scene: &Scene) -> Matrix {
             let block = block(row, column);
             let part = |m: usize, n: usize| weights[m][i] * weights[n][j] * block[m][n];
             let sum = part(0, 0) + part(0, 1) + part(1, 0) + part(1, 1);
-            let ends = [triangle.corners[i], triangle.corners[j]];
+            let ends = [corners[i], corners[j]];
             add(ends, row, column, 0.5 * twice.abs() * sum);
         }
     }
     matrix
 }
 
-/// Gaussian elimination with pivots: dense, naive.
-pub(super) fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
-    let n = b.len();
-    for c in 0..n {
-        let best = (c..n).max_by(|&i, &j| a[i][c].abs().total_cmp(&a[j][c].abs()));
-        let best = best.expect("a row");
-        a.swap(c, best);
-        b.swap(c, best);
-        for r in c + 1..n {
-            let factor = a[r][c] / a[c][c];
-            subtract(&mut a, r, c, factor);
-            b[r] -= factor * b[c];
-        }
-    }
-    for c in (0..n).rev() {
-        for k in c + 1..n {
-            b[c] -= a[c][k] * b[k];
-        }
-        b[c] /= a[c][c];
-    }
-    b
-}
-
-/// Row r of a dense matrix less `factor` times row c.
-fn subtract(a: &mut [Vec<f64>], r: usize, c: usize, factor: f64) {
-    let row = a[c].clone();
-    for (x, y) in a[r].iter_mut().zip(row).skip(c) {
-        *x -= factor * y;
-    }
+/// The solution of a dense system of equations.
+pub(super) fn solve(a: &[Vec<f64>], b: Vec<f64>) -> Vec<f64> {
+    let matrix = DMatrix::from_fn(b.len(), b.len(), |row, column| a[row][column]);
+    let solution = matrix.lu().solve(&DVector::from_vec(b));
+    solution.expect("it is not singular").as_slice().to_vec()
 }

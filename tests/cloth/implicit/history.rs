@@ -2,11 +2,13 @@
 
 use super::matrix::crumpled;
 use super::{G, Scene, step};
-use crate::parts::implicit_by_default;
-use tearmesh::{Edits, Masses, Plane, Point, Vector, VertexId, mend, shapes, split};
+use crate::parts::cloths::cloth;
+use crate::parts::nets::row;
+use crate::parts::{gravity, implicit_by_default, plane, state, v};
+use tearmesh::{Edits, Point, Vector, mend, shapes, split};
 use tearmesh_cloth::implicit::{Method, Stats};
 use tearmesh_cloth::{
-    Abilities, Cloth, Fabric, Failure, Implicit, Loads, Solver, StepError, System, Unstable, Verlet,
+    Abilities, Fabric, Failure, Implicit, Solver, StepError, System, Unstable, Verlet,
 };
 
 fn bdf2() -> Implicit {
@@ -21,10 +23,6 @@ fn scene(seed: u64) -> Scene {
     scene.gravity = Vector::new(0.0, 0.0, -G);
     scene.drag = 1.0;
     scene
-}
-
-fn state(system: &System) -> (Vec<Point>, Vec<Vector>) {
-    (system.positions().to_vec(), system.velocities().to_vec())
 }
 
 /// The method by which a step was taken.
@@ -87,24 +85,6 @@ fn a_step_that_is_far_longer_than_the_last_begins_again() {
     }
 }
 
-/// A solver that comes back to a system that has been elsewhere meanwhile.
-#[test]
-fn what_another_solver_has_stepped_since_is_no_history() {
-    let mut system = scene(4).system();
-    system.when_unstable(Unstable::Allow);
-    let mut solver = bdf2();
-    for _ in 0..3 {
-        step(&mut system, &mut solver, 0.01).expect("a step");
-    }
-    system.step(&mut Verlet::new(), 1e-3).expect("a step");
-    let expected = alone(&system, &[0.01, 0.01]);
-    let report = step(&mut system, &mut solver, 0.01).expect("a step");
-    assert_eq!(method_of(&report), Method::BackwardEuler);
-    let report = step(&mut system, &mut solver, 0.01).expect("a step");
-    assert_eq!(method_of(&report), Method::Bdf2);
-    assert_eq!(state(&system), expected);
-}
-
 /// BDF2 in two parts a step, of which the second can be made to fail.
 struct Halves {
     bdf2: Implicit,
@@ -131,10 +111,7 @@ impl Solver for Halves {
 /// What was undone is no history, whichever part of a step failed, and whoever steps next.
 #[test]
 fn substeps_of_a_step_that_was_refused_are_no_history() {
-    let points = [Point::origin(), Point::new(0.0, 0.0, -1.2)];
-    let mut system = System::new(points, vec![1.0; 2]).expect("two particles");
-    system.stretch([0, 1], 1.0, 1.0).expect("a spring");
-    system.hold(0);
+    let mut system = row(1, 1.0, 1.0, 1.0, Vector::z() * -1.2);
     system.when_unstable(Unstable::Substep);
     // ω is 1.
     let dt_s = 1.9e-6;
@@ -189,22 +166,16 @@ fn particles_that_are_pushed_from_outside_go_on_with_their_acceleration() {
 #[test]
 fn particles_that_came_and_went_have_no_history() {
     let (mut mesh, positions) = shapes::grid(3, 3);
-    let masses = Masses::area(&mesh, &positions, 0.15).expect("an area");
-    let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::new(50.0)).expect("a cloth");
-    let gravity_m_per_s2 = Some(Vector::new(0.0, 0.0, -G));
-    let loads = Loads {
-        gravity_m_per_s2,
-        ..Loads::default()
-    };
-    cloth.system_mut().set_loads(loads).expect("loads");
+    let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
+    cloth.system_mut().set_loads(gravity(0.0)).expect("loads");
     cloth.system_mut().hold(0);
     let (mut solver, mut edits) = (bdf2(), Edits::new());
-    let vertex = VertexId::new(5).expect("an id");
+    let vertex = v(5);
     let mut copy = None;
     for turn in 0..8 {
         if turn == 3 {
-            let plane = Plane::new(cloth.positions()[5], Vector::x()).expect("a plane");
-            let split = split::by_plane(&mut mesh, vertex, &plane, cloth.positions(), &mut edits);
+            let across = plane(cloth.positions()[5], Vector::x());
+            let split = split::by_plane(&mut mesh, vertex, &across, cloth.positions(), &mut edits);
             copy = Some(split.expect("faces on both sides").new);
         } else if turn == 6 {
             let copy = copy.expect("a split");

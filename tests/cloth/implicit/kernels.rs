@@ -1,6 +1,6 @@
 //! Forces are gradients.
 
-use super::{Scene, Triangle, forces, spring};
+use super::{Scene, forces};
 use crate::random::Random;
 use tearmesh::Vector;
 use tearmesh_cloth::{Buckling, System, energy};
@@ -8,16 +8,15 @@ use tearmesh_cloth::{Buckling, System, energy};
 /// Scenes of one constraint each, in a general position: name and scene.
 fn specimens() -> Vec<(&'static str, Scene)> {
     let mut random = Random(5);
-    let mut specimens = Vec::new();
-    let points = |n: usize, size: f64, random: &mut Random| {
+    let mut particles = |n: usize, size: f64| {
         let point = |_| [0, 1, 2].map(|_| size * (2.0 * random.next() - 1.0));
-        (0..n).map(point).collect::<Vec<[f64; 3]>>()
+        Scene::particles((0..n).map(point), 1.0)
     };
+    let mut specimens = Vec::new();
     for (name, part) in [("stretched spring", 0.7), ("compressed spring", 1.4)] {
-        let ends = points(2, 1.0, &mut random);
-        let mut scene = Scene::particles(ends, 1.0);
+        let mut scene = particles(2, 1.0);
         let length = (scene.x[1] - scene.x[0]).norm();
-        scene.springs.push(spring(0, 1, part * length, 3.0));
+        scene.springs.push(([0, 1], part * length, 3.0));
         specimens.push((name, scene));
     }
     // d/L well inside the arc, near its ends, in the spring's range, beyond L.
@@ -28,36 +27,22 @@ fn specimens() -> Vec<(&'static str, Scene)> {
         ("bend before buckling", 0.995),
         ("bend beyond L", 1.2),
     ] {
-        let ends = points(2, 1.0, &mut random);
-        let mut scene = Scene::particles(ends, 1.0);
+        let mut scene = particles(2, 1.0);
         let l = (scene.x[1] - scene.x[0]).norm() / part;
-        bend(&mut scene, 0.992, 1.0, l);
+        let law = Buckling::new(0.992).expect("a law");
+        scene.law = Some(law);
+        scene
+            .bends
+            .push(([0, 1], l, law.compression_n_per_m(1.0, l)));
         specimens.push((name, scene));
     }
     for (name, size) in [("stretched triangle", 2.0), ("compressed triangle", 0.3)] {
-        let mut scene = Scene::particles(points(3, size, &mut random), 1.0);
-        scene.triangles.push(oblique());
+        let mut scene = particles(3, size);
+        let material = [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]];
+        scene.triangles.push(([0, 1, 2], material, [3.0, 2.0, 0.7]));
         specimens.push((name, scene));
     }
     specimens
-}
-
-/// A triangle that no axis runs along.
-fn oblique() -> Triangle {
-    Triangle {
-        corners: [0, 1, 2],
-        material: [[0.1, 0.0], [1.2, 0.3], [0.4, 0.9]],
-        stiffness: [3.0, 2.0, 0.7],
-    }
-}
-
-/// Adds a bend between the first two particles that buckles below this part of its length l, with
-/// the flexural stiffness k.
-fn bend(scene: &mut Scene, buckles_below: f64, k: f64, l: f64) {
-    let law = Buckling::new(buckles_below).expect("a law");
-    scene.law = Some(law);
-    let stiffness = law.compression_n_per_m(k, l);
-    scene.bends.push(spring(0, 1, l, stiffness));
 }
 
 /// The system with one coordinate moved.

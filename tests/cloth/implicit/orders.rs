@@ -1,7 +1,7 @@
 //! Orders of convergence against a fine solution by Runge and Kutta's method: with a tolerance that
 //! falls with Δt no error of the solver shows (F13).
 
-use super::{Scene, norm, spring, step};
+use super::{Scene, norm, step};
 use crate::parts::{G, implicit_by_default, run};
 use crate::rk4::Rk4;
 use tearmesh::{Point, Vector};
@@ -19,7 +19,7 @@ fn frame() -> Scene {
         scene.held[i] = true;
         scene.v[i] = Vector::zeros();
     }
-    scene.springs.push(spring(6, 12, 0.3, 5.0));
+    scene.springs.push(([6, 12], 0.3, 5.0));
     scene.gravity = Vector::new(0.0, 0.0, -G);
     scene.drag = 1.0;
     scene

@@ -2,7 +2,7 @@
 
 use std::error::Error as _;
 
-use super::{Scene, spring, step};
+use super::{Scene, step};
 use crate::parts::{implicit_by_default, state};
 use tearmesh_cloth::implicit::{Method, StepError};
 use tearmesh_cloth::{BlowUpSite, Implicit, System};
@@ -14,7 +14,7 @@ fn f12_the_threshold_of_indefiniteness_is_the_closed_form() {
     let points = [[-0.095, 0.0, 0.0], [0.0; 3], [0.095, 0.0, 0.0]];
     let mut scene = Scene::particles(points, 0.01);
     (scene.held[0], scene.held[2]) = (true, true);
-    scene.springs = vec![spring(0, 1, 0.1, 1e3), spring(1, 2, 0.1, 1e3)];
+    scene.springs = vec![([0, 1], 0.1, 1e3), ([1, 2], 0.1, 1e3)];
     for drag in [0.0, 3.0] {
         scene.drag = drag;
         let (mut low, mut high) = (1e-3, 1e-1);

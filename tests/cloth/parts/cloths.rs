@@ -1,6 +1,10 @@
 //! Cloths of meshes: made, moved, measured, torn.
 
-use tearmesh::{Edit, Edits, ExactSum, Masses, Mesh, Point, Positions, VertexId, shapes};
+use tearmesh::insert::Plan;
+use tearmesh::{
+    Edit, Edits, ExactSum, FaceId, HalfEdgeId, Masses, Mesh, Point, Positions, VertexId, mend,
+    shapes, slide, split,
+};
 use tearmesh_cloth::{Cloth, Copies, Fabric, Stretch, Tear, TearReport, Tearing};
 
 use crate::random::Random;
@@ -93,6 +97,12 @@ impl Torn {
         }
     }
 
+    /// Sets the strengths of vertices.
+    pub(crate) fn strengthen(&mut self, strengths: Vec<f64>) {
+        let tear = self.tear.clone().with_strengths(strengths);
+        self.tear = tear.expect("strengths");
+    }
+
     /// Tears what is due. The mesh is checked.
     pub(crate) fn apply(&mut self) -> TearReport {
         let report = self
@@ -109,5 +119,60 @@ impl Torn {
             _ => None,
         };
         self.edits.iter().filter_map(old).collect()
+    }
+}
+
+/// What an edit did.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Done {
+    Nothing,
+    Split,
+    Insert,
+    Merge,
+    Slide,
+}
+
+/// One random edit of a mesh that the cloth is in step with.
+pub(crate) fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &mut Random) -> Done {
+    let done = |done, is_done| if is_done { done } else { Done::Nothing };
+    let verb = random.below(6);
+    let half_edge = |mesh: &Mesh, random: &mut Random| {
+        HalfEdgeId::new(random.below(mesh.half_edge_count())).expect("a half-edge")
+    };
+    match verb {
+        0 | 1 => {
+            let v = VertexId::new(random.below(mesh.vertex_count())).expect("a vertex");
+            let faces: Vec<FaceId> = mesh.faces_of(v).filter(|_| random.below(2) == 0).collect();
+            done(Done::Split, split::vertex(mesh, v, &faces, edits).is_ok())
+        }
+        2 => {
+            let mut plan = Plan::new();
+            let h = half_edge(mesh, random);
+            plan.on_edge(h, 0.2 + 0.6 * random.below(1000) as f64 / 1000.0);
+            if random.below(2) == 0 {
+                let f = FaceId::new(random.below(mesh.face_count())).expect("a face");
+                plan.in_face(f, [0.2, 0.3, 0.5]);
+            }
+            done(Done::Insert, plan.apply(mesh, edits).is_ok())
+        }
+        3 => {
+            let h = half_edge(mesh, random);
+            let t = 0.01 + 0.2 * random.below(1000) as f64 / 1000.0;
+            slide::toward(mesh, mesh.origin(h), mesh.target(h), t, edits).expect("a slide");
+            Done::Slide
+        }
+        _ => {
+            let stitches = mend::stitches(mesh, |_| true);
+            if stitches.is_empty() {
+                return Done::Nothing;
+            }
+            let stitch = stitches[random.below(stitches.len())];
+            let [kept, gone] = [stitch.kept(), stitch.gone()];
+            let weights = [kept, gone].map(|v| cloth.masses().at(v));
+            done(
+                Done::Merge,
+                mend::merge(mesh, kept, gone, weights, edits).is_ok(),
+            )
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Systems of springs alone, and what is known of them by statics.
 
-use tearmesh::{Point, Vector};
+use tearmesh::{Point, Vector, VertexId, shapes};
 use tearmesh_cloth::{Loads, System};
 
 use super::{G, gravity};
@@ -44,38 +44,22 @@ pub(crate) fn catenary(n: usize, mass: f64, stiffness: f64, rest: f64, drag: f64
 
 /// A square net of n × n cells with a diagonal each, in a frame of one metre with 2 % pretension,
 /// under gravity across it.
-pub(crate) fn framed(n: usize, stiffness: f64, drag: f64) -> System {
-    let at = |i: usize, j: usize| j * (n + 1) + i;
-    let apart = 1.0 / n as f64;
-    let points = (0..(n + 1) * (n + 1)).map(|v| {
-        Point::new(
-            (v % (n + 1)) as f64 * apart,
-            (v / (n + 1)) as f64 * apart,
-            0.0,
-        )
-    });
-    let mut net = System::new(points, vec![0.01; (n + 1) * (n + 1)]).expect("particles");
-    let rest = apart / 1.02;
-    for j in 0..=n {
-        for i in 0..=n {
-            if i < n {
-                net.stretch([at(i, j), at(i + 1, j)], rest, stiffness)
-                    .expect("warp");
-            }
-            if j < n {
-                net.stretch([at(i, j), at(i, j + 1)], rest, stiffness)
-                    .expect("weft");
-            }
-            if i < n && j < n {
-                let diagonal = [at(i, j), at(i + 1, j + 1)];
-                net.stretch(diagonal, rest * 2.0_f64.sqrt(), stiffness)
-                    .expect("a diagonal");
-            }
-            if i == 0 || j == 0 || i == n || j == n {
-                net.hold(at(i, j));
-            }
-        }
+pub(crate) fn framed(n: u32, stiffness: f64, drag: f64) -> System {
+    let (mesh, positions) = shapes::grid(n, n);
+    let points = positions.as_slice();
+    let masses = vec![0.01; points.len()];
+    let mut net = System::new(points.iter().copied(), masses).expect("particles");
+    for h in mesh.edges() {
+        let ends = [mesh.origin(h), mesh.target(h)].map(VertexId::index);
+        let rest = (points[ends[1]] - points[ends[0]]).norm() / 1.02;
+        net.stretch(ends, rest, stiffness).expect("an edge");
     }
+    let border = |&i: &usize| {
+        [points[i].x, points[i].y]
+            .iter()
+            .any(|x| [0.0, 1.0].contains(x))
+    };
+    (0..points.len()).filter(border).for_each(|i| net.hold(i));
     net.set_loads(gravity(drag)).expect("loads");
     net
 }

@@ -13,8 +13,9 @@ use tearmesh_cloth::{
     SimulationDef, Tearing, Threshold, Unstable, Wounds,
 };
 
-use super::{ALL, across, at, check, drag, hung, pass, ray, sheet, v};
+use super::{ALL, across, at, check, drag, hung, pass, sheet};
 use crate::parts::scenes::methods;
+use crate::parts::{ray, v};
 
 /// Everything that a simulation computed, as bits.
 fn bits(sim: &Simulation) -> (Vec<u64>, Vec<u32>) {

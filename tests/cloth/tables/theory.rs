@@ -1,37 +1,15 @@
 //! What each method makes of y′ = i ω y: x and v/ω of an oscillator as one complex number.
 
-/// Complex numbers, as far as they are needed.
-#[derive(Clone, Copy, Debug)]
-struct Complex(f64, f64);
-
-impl Complex {
-    fn times(self, other: Complex) -> Complex {
-        Complex(
-            self.0 * other.0 - self.1 * other.1,
-            self.0 * other.1 + self.1 * other.0,
-        )
-    }
-
-    fn over(self, other: Complex) -> Complex {
-        let square = other.0 * other.0 + other.1 * other.1;
-        let Complex(a, b) = self.times(Complex(other.0, -other.1));
-        Complex(a / square, b / square)
-    }
-}
+use nalgebra::Complex;
 
 /// The position after 0, 1, 2, … steps of an oscillator that starts from 1 at rest, as the method
 /// makes it with z = ω Δt. `None` for PBD, which has no frequency.
 pub(super) fn oscillation(method: &str, z: f64, steps: usize) -> Option<Vec<f64>> {
     let turn = (1.0 - z * z / 2.0).acos();
     let times = 0..=steps;
-    let powers = |factor: Complex| -> Vec<f64> {
-        let mut y = Complex(1.0, 0.0);
-        let mut all = Vec::new();
-        for _ in 0..=steps {
-            all.push(y.0);
-            y = y.times(factor);
-        }
-        all
+    let powers = |factor: Complex<f64>| -> Vec<f64> {
+        let power = |n| factor.powu(n).re;
+        (0..=steps as u32).map(power).collect()
     };
     match method {
         "Verlet" | "guarded" => Some(times.map(|n| (turn * n as f64).cos()).collect()),
@@ -43,18 +21,18 @@ pub(super) fn oscillation(method: &str, z: f64, steps: usize) -> Option<Vec<f64>
         }
         "RK4" => {
             let even = 1.0 - z * z / 2.0 + z * z * z * z / 24.0;
-            Some(powers(Complex(even, z - z * z * z / 6.0)))
+            Some(powers(Complex::new(even, z - z * z * z / 6.0)))
         }
-        "Euler" | "XPBD" => Some(powers(Complex(1.0, 0.0).over(Complex(1.0, -z)))),
+        "Euler" | "XPBD" => Some(powers(Complex::new(1.0, -z).inv())),
         "BDF2" => {
-            let mut before = Complex(1.0, 0.0);
-            let mut y = before.over(Complex(1.0, -z));
-            let mut all = vec![before.0];
+            let mut before = Complex::new(1.0, 0.0);
+            let mut y = Complex::new(1.0, -z).inv();
+            let mut all = vec![before.re];
             for _ in 0..steps {
-                all.push(y.0);
-                let sum = Complex((4.0 * y.0 - before.0) / 3.0, (4.0 * y.1 - before.1) / 3.0);
+                all.push(y.re);
+                let sum = (y * 4.0 - before) / 3.0;
                 before = y;
-                y = sum.over(Complex(1.0, -2.0 * z / 3.0));
+                y = sum / Complex::new(1.0, -2.0 * z / 3.0);
             }
             Some(all)
         }
