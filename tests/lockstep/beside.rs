@@ -1,9 +1,11 @@
 //! What is kept beside a mesh: positions, masses, data of vertices and corners.
 
+use std::collections::BTreeMap;
+
 use tearmesh::script::World;
 use tearmesh::{
-    ChildFace, CornerSource, Cursor, Edit, HalfEdgeId, InsertLocation, Masses, Mesh, PerCorner,
-    PerVertex, Point, Positions, Slide, VertexId,
+    ChildFace, CornerSource, Edit, HalfEdgeId, Insert, InsertLocation, Masses, Mesh, PerCorner,
+    PerVertex, Positions, Slide, VertexId,
 };
 
 use crate::oracle::{Soup, WHOLE, between};
@@ -85,70 +87,94 @@ fn scattered(i: usize) -> f64 {
     ((i * 7919 + 13) % 1009) as f64 / 16.0
 }
 
-fn scattered_points(mesh: &Mesh, seen: Cursor) -> Positions {
+/// The places of all vertices, and a number for each.
+type Values = Vec<[f64; 4]>;
+
+fn values(positions: &Positions, numbers: &PerVertex<f64>) -> Values {
+    let points = positions.as_slice().iter().zip(numbers.as_slice());
+    points.map(|(p, &x)| [p.x, p.y, p.z, x]).collect()
+}
+
+/// Scattered values of vertices before an edit and after it, and of corners after it.
+fn scattered_values(mesh: &Mesh, edit: &Edit<'_>) -> ([Values; 2], Vec<f64>) {
+    let seen = edit.before();
     let point = |v: VertexId| [0, 1, 2].map(|i| scattered(3 * v.index() + i));
-    Positions::new(mesh.vertices().map(point))
-        .expect("small numbers")
-        .starting_at(seen)
-}
-
-fn coordinates(point: Point) -> [f64; 3] {
-    [point.x, point.y, point.z]
-}
-
-/// New vertices and corners have what the record's weights give, wherever the copies of the
-/// ends have moved meanwhile; all others keep what they have.
-pub(super) fn new_values_come_from_the_right_places(mesh: &Mesh, edit: &Edit<'_>) {
-    let Edit::Insert(insert) = edit else {
-        panic!("not an insertion: {edit:?}");
-    };
-    let mut positions = scattered_points(mesh, edit.before());
-    let speed = |v: VertexId| scattered(v.index());
-    let mut speeds = PerVertex::new(mesh.vertices().map(speed).collect());
-    speeds = speeds.starting_at(edit.before());
-    let mut values = PerCorner::new(mesh.half_edges().map(|h| scattered(h.index())).collect());
-    values = values.starting_at(edit.before());
-    let old = positions.clone();
+    let positions = Positions::new(mesh.vertices().map(point)).expect("small numbers");
+    let numbers = mesh.vertices().map(|v| scattered(v.index()));
+    let corners = mesh.half_edges().map(|h| scattered(h.index()));
+    let mut positions = positions.starting_at(seen);
+    let mut numbers = PerVertex::new(numbers.collect()).starting_at(seen);
+    let mut corners = PerCorner::new(corners.collect()).starting_at(seen);
+    let old = values(&positions, &numbers);
     edit.pass_on(&mut positions);
-    edit.pass_on(&mut speeds);
-    edit.pass_on(&mut values);
+    edit.pass_on(&mut numbers);
+    edit.pass_on(&mut corners);
+    let new = values(&positions, &numbers);
+    ([old, new], corners.as_slice().to_vec())
+}
 
-    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} is not {b} after {edit:?}");
-    for v in mesh.vertices() {
-        assert_eq!((positions.at(v), *speeds.at(v)), (old.at(v), speed(v)));
-    }
-    for point in insert.points {
-        let weights: Vec<(VertexId, f64)> = match point.at {
-            InsertLocation::Edge { ends: [a, b], t } => vec![(a, 1.0 - t), (b, t)],
-            InsertLocation::Face { vertices, weights } => {
-                vertices.into_iter().zip(weights).collect()
+/// Vertices that are new, merged or slid, and new corners, have what the record's weights give,
+/// wherever the copies of the ends have moved meanwhile; all others keep what they have.
+pub(super) fn new_values_come_from_the_right_places(mesh: &Mesh, edit: &Edit<'_>) {
+    let ([old, new], corners) = scattered_values(mesh, edit);
+    let mut was: Vec<usize> = (0..old.len()).collect();
+    let mut made: BTreeMap<usize, Vec<(VertexId, f64)>> = BTreeMap::new();
+    match edit {
+        Edit::Split(split) => was.push(split.old.index()),
+        Edit::Insert(insert) => {
+            for point in insert.points {
+                let weights = match point.at {
+                    InsertLocation::Edge { ends: [a, b], t } => vec![(a, 1.0 - t), (b, t)],
+                    InsertLocation::Face { vertices, weights } => {
+                        vertices.into_iter().zip(weights).collect()
+                    }
+                };
+                made.insert(point.vertex.index(), weights);
+                was.push(usize::MAX);
             }
-        };
-        let sum = |of: &dyn Fn(VertexId) -> f64| weights.iter().map(|&(v, w)| w * of(v)).sum();
-        close(*speeds.at(point.vertex), sum(&speed));
-        for i in 0..3 {
-            let mean = sum(&|v| coordinates(old.at(v))[i]);
-            close(coordinates(positions.at(point.vertex))[i], mean);
+            corners_come_from_their_faces(mesh, insert, &corners);
+        }
+        Edit::Merge(merge) => {
+            was.swap_remove(merge.gone.index());
+            let weights = vec![(merge.kept, merge.share), (merge.gone, 1.0 - merge.share)];
+            made.insert(merge.kept.index(), weights);
+        }
+        Edit::Slide(slide) => {
+            let weights = vec![(slide.vertex, 1.0 - slide.t), (slide.toward, slide.t)];
+            made.insert(slide.vertex.index(), weights);
         }
     }
-    let mut divided = vec![false; mesh.half_edge_count()];
+    assert_eq!(new.len(), was.len());
+    for (v, (new, was)) in new.iter().zip(was).enumerate() {
+        let Some(weights) = made.get(&v) else {
+            assert_eq!(*new, old[was], "{v} after {edit:?}");
+            continue;
+        };
+        for (i, x) in new.iter().enumerate() {
+            let mean: f64 = weights.iter().map(|&(v, w)| w * old[v.index()][i]).sum();
+            assert!((x - mean).abs() < 1e-9, "{v} after {edit:?}");
+        }
+    }
+}
+
+/// Of the children of divided faces; all others keep what they have.
+fn corners_come_from_their_faces(mesh: &Mesh, insert: &Insert<'_>, corners: &[f64]) {
+    let mut divided = vec![false; corners.len()];
     for child in insert.children {
         for (h, source) in child.face.half_edges().into_iter().zip(child.sources) {
             let weights = weights_in_parent(child, &source);
             let parent = child.parent.half_edges().map(|h| scattered(h.index()));
-            let mean = (0..3).map(|i| weights[i] * parent[i]).sum();
-            close(*values.at(h), mean);
-            if h.index() < divided.len() {
-                divided[h.index()] = true;
-            }
+            let mean: f64 = (0..3).map(|i| weights[i] * parent[i]).sum();
+            assert!((corners[h.index()] - mean).abs() < 1e-9, "{h} of {child:?}");
+            divided[h.index()] = true;
         }
     }
-    for h in mesh.half_edges().filter(|h| !divided[h.index()]) {
-        assert_eq!(
-            *values.at(h),
-            scattered(h.index()),
-            "{h} is of no divided face"
-        );
+    for h in mesh
+        .half_edges()
+        .map(HalfEdgeId::index)
+        .filter(|&h| !divided[h])
+    {
+        assert_eq!(corners[h], scattered(h), "{h} is of no divided face");
     }
 }
 
@@ -168,76 +194,6 @@ pub(super) fn weights_in_parent(child: &ChildFace, source: &CornerSource) -> [f6
         CornerSource::Face { weights: given } => weights = given,
     }
     weights
-}
-
-/// What moved apart is joined at the weighted mean; all other vertices keep what they have.
-pub(super) fn merged_values_are_joined_by_weight(mesh: &Mesh, edit: &Edit<'_>) {
-    let Edit::Merge(merge) = edit else {
-        panic!("not a merge: {edit:?}");
-    };
-    let mut positions = scattered_points(mesh, edit.before());
-    let speed = |v: VertexId| scattered(v.index());
-    let mut speeds = PerVertex::new(mesh.vertices().map(speed).collect());
-    speeds = speeds.starting_at(edit.before());
-    let old = positions.clone();
-    edit.pass_on(&mut positions);
-    edit.pass_on(&mut speeds);
-    let last = mesh.vertices().next_back().expect("a vertex");
-    assert_eq!(positions.len(), last.index());
-    for v in mesh.vertices().take(last.index()) {
-        if v == merge.kept {
-            let mean = |kept: f64, gone: f64| merge.share * kept + (1.0 - merge.share) * gone;
-            let [kept, gone] = [v, merge.gone].map(|v| coordinates(old.at(v)));
-            for (i, x) in coordinates(positions.at(v)).into_iter().enumerate() {
-                assert!(
-                    (x - mean(kept[i], gone[i])).abs() < 1e-9,
-                    "{v} after {merge:?}"
-                );
-            }
-            assert!((*speeds.at(v) - mean(speed(v), speed(merge.gone))).abs() < 1e-9);
-        } else {
-            let was = if v == merge.gone { last } else { v };
-            assert_eq!(
-                (positions.at(v), *speeds.at(v)),
-                (old.at(was), speed(was)),
-                "{v}"
-            );
-        }
-    }
-}
-
-/// A vertex that slides has what lies between it and the other end of the edge; all other vertices
-/// keep what they have.
-pub(super) fn slid_values_lie_along_the_edge(mesh: &Mesh, edit: &Edit<'_>) {
-    let Edit::Slide(slide) = edit else {
-        panic!("not a slide: {edit:?}");
-    };
-    let mut positions = scattered_points(mesh, edit.before());
-    let speed = |v: VertexId| scattered(v.index());
-    let mut speeds = PerVertex::new(mesh.vertices().map(speed).collect());
-    speeds = speeds.starting_at(edit.before());
-    let old = positions.clone();
-    edit.pass_on(&mut positions);
-    edit.pass_on(&mut speeds);
-    for v in mesh.vertices() {
-        if v == slide.vertex {
-            let mean = |v: f64, toward: f64| (1.0 - slide.t) * v + slide.t * toward;
-            let [from, toward] = [v, slide.toward].map(|v| coordinates(old.at(v)));
-            for (i, x) in coordinates(positions.at(v)).into_iter().enumerate() {
-                assert!(
-                    (x - mean(from[i], toward[i])).abs() < 1e-9,
-                    "{v} after {slide:?}"
-                );
-            }
-            assert!((*speeds.at(v) - mean(speed(v), speed(slide.toward))).abs() < 1e-9);
-        } else {
-            assert_eq!(
-                (positions.at(v), *speeds.at(v)),
-                (old.at(v), speed(v)),
-                "{v}"
-            );
-        }
-    }
 }
 
 /// Where a vertex slides, its corners in the faces of the edge have what lies between the two ends in

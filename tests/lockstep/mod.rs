@@ -16,7 +16,6 @@ use tearmesh::split as split_op;
 use tearmesh::{Cursor, Edit, Edits, FaceId, Mesh, Positions, Split, VertexId};
 
 use crate::oracle::{Soup, is_strict, lump};
-pub(crate) use history::{Told, told};
 
 /// How much was done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,8 +55,8 @@ pub(crate) struct Model {
     unit: f64,
     input: Mesh,
     before: World,
-    /// Every edit so far, those that were cleared included.
-    history: Vec<Told>,
+    /// The edits that were cleared.
+    cleared: Vec<Edits>,
     pub(crate) done: Done,
 }
 
@@ -73,7 +72,7 @@ impl Model {
             unit,
             input: world.mesh.clone(),
             before: world.clone(),
-            history: Vec::new(),
+            cleared: Vec::new(),
             done: Done::default(),
         };
         model.everything_agrees(world);
@@ -87,7 +86,7 @@ impl Model {
 
     /// Checks a step, and everything after it.
     pub(crate) fn follow(&mut self, world: &World, step: &Step<'_>) {
-        let edits = self.history.len();
+        let place = self.before.edits.cursor();
         match *step {
             Step::Split {
                 vertex,
@@ -95,11 +94,8 @@ impl Model {
                 outcome,
             } => {
                 let expected = self.soup.split(vertex.index(), &indices(faces));
-                assert_eq!(
-                    outcome.map_err(split::plain).map(|_| ()),
-                    expected,
-                    "outcome of {step:?}"
-                );
+                let told = outcome.map_err(split::plain).map(|_| ());
+                assert_eq!(told, expected, "outcome of {step:?}");
                 self.one_edit(world, outcome.ok());
             }
             Step::Plane {
@@ -142,11 +138,8 @@ impl Model {
                 outcome,
             } => {
                 let expected = self.soup.slide(vertex.index(), toward.index(), t);
-                assert_eq!(
-                    outcome.map_err(slide::plain).map(|_| ()),
-                    expected,
-                    "outcome of {step:?}"
-                );
+                let told = outcome.map_err(slide::plain).map(|_| ());
+                assert_eq!(told, expected, "outcome of {step:?}");
                 self.one_edit(world, outcome.ok());
             }
             Step::Sewn {
@@ -154,34 +147,28 @@ impl Model {
                 stitches,
                 merges,
             } => {
-                assert_eq!(first.number(), edits as u64, "edits are numbered from 0");
+                assert_eq!(first, place, "the edits of this step");
                 let mut mesh = self.before.mesh.clone();
                 for edit in world.edits.since(first) {
                     merge::is_carried_out(&mut self.soup, &edit);
                     let after = merge::is_a_merge(&mesh, &edit);
                     merge::changes_nothing_else(&mesh, &after, &edit);
                     mesh = after;
-                    self.history.push(Told::by(&edit));
                 }
                 assert_eq!(mesh, world.mesh, "sewing is nothing but merges");
-                assert_eq!(self.history.len() - edits, merges, "merges");
-                assert_eq!(stitches.len(), merges, "one merge for each stitch");
+                let done = world.edits.since(first).len();
+                assert_eq!([done, stitches.len()], [merges; 2], "merges, stitches");
                 merge::copies_are_sewn(&self.before.mesh, &world.mesh, stitches);
                 self.done.merges += merges;
             }
             Step::Cut { first, report } => {
+                assert_eq!(first, place, "the edits of this step");
                 assert_eq!(report.pieces_before, self.before.mesh.components().count());
                 self.a_cut_is_made_of_splits(world, first);
-                assert_eq!(
-                    report.splits,
-                    self.history.len() - edits,
-                    "splits of the cut"
-                );
-                assert_eq!(
-                    report.pieces,
-                    self.soup.piece_count(),
-                    "pieces after the cut"
-                );
+                let splits = world.edits.since(first).len();
+                assert_eq!(report.splits, splits, "splits of the cut");
+                let pieces = self.soup.piece_count();
+                assert_eq!(report.pieces, pieces, "pieces after the cut");
             }
             Step::Cleared => {
                 assert!(world.edits.is_empty(), "the log was cleared");
@@ -191,17 +178,13 @@ impl Model {
                     "a late follower sees all edits at once"
                 );
                 assert_eq!(world.mesh, self.before.mesh);
+                self.cleared.push(self.before.edits.clone());
                 self.before = world.clone();
             }
             Step::Nothing => self.one_edit(world, None),
             ref other => panic!("the mesh is built once, and this is {other:?}"),
         }
-        assert_eq!(
-            world.edits.cursor().number(),
-            self.history.len() as u64,
-            "edits are numbered from 0"
-        );
-        if self.history.len() > edits {
+        if world.edits.cursor() != place {
             self.everything_agrees(world);
             self.before = world.clone();
         }
@@ -213,16 +196,14 @@ impl Model {
             self.done.refused += 1;
             return nothing_changed(&self.before, world);
         };
-        assert_eq!(
-            place.number(),
-            self.history.len() as u64,
-            "edits are numbered from 0"
-        );
+        assert_eq!(place, self.before.edits.cursor(), "edits have no gap");
         let mut edits = world.edits.since(place);
         let edit = edits.next().expect("what was done is in the log");
         assert!(edits.next().is_none(), "one operation is one edit");
         assert_eq!((edit.before(), edit.after()), (place, world.edits.cursor()));
+        assert_eq!(place.number() + 1, world.edits.cursor().number());
         let [before, after] = [&self.before, world];
+        beside::new_values_come_from_the_right_places(&before.mesh, &edit);
         match edit {
             Edit::Split(split) => {
                 split::changes_nothing_else(&before.mesh, &after.mesh, &split);
@@ -237,7 +218,6 @@ impl Model {
             }
             Edit::Insert(insert) => {
                 insert::changes_nothing_else(&before.mesh, &after.mesh, &insert);
-                beside::new_values_come_from_the_right_places(&before.mesh, &edit);
                 assert!(
                     after.half.is_none() && !insert.points.is_empty() || after.mesh == before.mesh
                 );
@@ -245,26 +225,18 @@ impl Model {
             }
             Edit::Merge(_) => {
                 merge::changes_nothing_else(&before.mesh, &after.mesh, &edit);
-                beside::merged_values_are_joined_by_weight(&before.mesh, &edit);
                 self.done.merges += 1;
             }
             Edit::Slide(slide) => {
                 slide::changes_nothing_else(before, after, &slide);
                 beside::corners_go_along(before, after, &slide);
-                beside::slid_values_lie_along_the_edge(&before.mesh, &edit);
                 self.done.slides += 1;
             }
         }
-        self.history.push(Told::by(&edit));
     }
 
     /// Replaying the splits of a cut one by one makes the same mesh.
     fn a_cut_is_made_of_splits(&mut self, world: &World, first: Cursor) {
-        assert_eq!(
-            first.number(),
-            self.history.len() as u64,
-            "edits are numbered from 0"
-        );
         let mut mesh = self.before.mesh.clone();
         for edit in world.edits.since(first) {
             let split = split_of(edit);
@@ -272,12 +244,10 @@ impl Model {
             let expected = self.soup.split(split.old.index(), &indices(&faces));
             assert_eq!(expected, Ok(()), "a cut makes no split that is refused");
             let before = mesh.clone();
-            let mut edits = Edits::new();
+            let mut edits = Edits::starting_at(edit.before());
             let again = split_op::vertex(&mut mesh, split.old, &faces, &mut edits);
-            let again = again.map(|split| Told::by(&Edit::Split(split)));
-            assert_eq!(again, Ok(Told::by(&edit)), "a split of a cut is a split");
+            assert_eq!(again, Ok(split), "a split of a cut is a split");
             split::changes_nothing_else(&before, &mesh, &split);
-            self.history.push(Told::by(&edit));
             self.done.splits += 1;
         }
         assert_eq!(mesh, world.mesh, "a cut is nothing but splits");
@@ -301,7 +271,9 @@ impl Model {
 
     /// I21: with all edits undone in reverse order, the triangles build the input again.
     pub(crate) fn undoing_everything_gives_the_input_back(&self) {
-        let (vertices, triangles) = history::undone(&self.history, &self.before.mesh);
+        let logs = self.cleared.iter().chain([&self.before.edits]).rev();
+        let last_first = logs.flat_map(|log| log.iter().rev());
+        let (vertices, triangles) = history::undone(last_first, &self.before.mesh);
         let rebuilt = Mesh::build(vertices, &triangles);
         assert_eq!(rebuilt.as_ref(), Ok(&self.input), "the input, bit for bit");
     }
@@ -310,13 +282,9 @@ impl Model {
 /// The soup of a mesh that nothing was done to, and the unit of its masses.
 pub(crate) fn soup_of(mesh: &Mesh, positions: &Positions) -> (Soup, f64) {
     let triangles = history::triangles(mesh);
-    let points: Vec<[f64; 3]> = positions
-        .as_slice()
-        .iter()
-        .map(|p| [p.x, p.y, p.z])
-        .collect();
-    let (unit, corner_mass) = lump(&points, &triangles);
-    (Soup::new(&points, &triangles, &corner_mass), unit)
+    let points: Vec<[f64; 3]> = positions.as_slice().iter().map(|&p| p.into()).collect();
+    let (unit, corner_mass) = lump(&points, triangles);
+    (Soup::new(&points, triangles, &corner_mass), unit)
 }
 
 fn indices(faces: &[FaceId]) -> Vec<usize> {
@@ -325,22 +293,20 @@ fn indices(faces: &[FaceId]) -> Vec<usize> {
 
 /// I22: a refused operation leaves everything as it was, bit for bit.
 pub(crate) fn nothing_changed(before: &World, after: &World) {
-    assert_eq!(after.mesh, before.mesh, "the mesh");
-    assert_eq!(after.positions, before.positions, "the positions");
+    is_same(before, after);
     assert_eq!(after.indices, before.indices, "the followers");
     assert_eq!(after.corners, before.corners, "the followers");
-    assert_eq!(
-        after.edits.cursor(),
-        before.edits.cursor(),
-        "the numbering of edits"
-    );
-    assert_eq!(told(&after.edits), told(&before.edits), "the log");
+}
+
+fn is_same(one: &World, other: &World) {
+    assert_eq!(one.mesh, other.mesh, "the mesh");
+    assert_eq!(one.positions, other.positions, "the positions");
+    let logs = [one, other].map(|world| &world.edits);
+    assert_eq!(logs[0].cursor(), logs[1].cursor(), "the numbering");
+    assert!(logs[0].iter().eq(logs[1].iter()), "the log");
 }
 
 /// Running a script twice gives the same bytes.
-pub(crate) fn running_again_gives_the_same_bytes(script: &Script, world: &World) {
-    let again = script.run(|_, _| {});
-    assert_eq!(again.mesh, world.mesh, "the mesh");
-    assert_eq!(again.positions, world.positions, "the positions");
-    assert_eq!(told(&again.edits), told(&world.edits), "the log");
+fn running_again_gives_the_same_bytes(script: &Script, world: &World) {
+    is_same(&script.run(|_, _| {}), world);
 }
