@@ -12,11 +12,13 @@ use tearmesh::{
 
 use crate::cases::scripts;
 use crate::random::Random;
+use crate::surfaces::{File, corpus};
+use crate::work::Work;
 
 type Value = [f64; 2];
 
 /// What a GPU has, which is told of changes alone.
-#[derive(Default)]
+#[derive(PartialEq)]
 struct Gpu {
     vertices: Vec<([f32; 3], Value)>,
     indices: Vec<u32>,
@@ -29,9 +31,8 @@ impl Gpu {
         changes: &DrawChanges,
         positions: &Positions,
     ) {
-        assert!(
-            changes.slots.is_sorted_by(|a, b| a < b) && changes.corners.is_sorted_by(|a, b| a < b)
-        );
+        assert!(changes.slots.is_sorted_by(|a, b| a < b));
+        assert!(changes.corners.is_sorted_by(|a, b| a < b));
         self.vertices
             .resize(buffers.len(), ([f32::NAN; 3], [f64::NAN; 2]));
         self.indices.resize(buffers.indices().len(), u32::MAX);
@@ -92,53 +93,30 @@ fn values_of(mesh: &Mesh) -> Vec<Value> {
 }
 
 #[test]
-fn buffers_that_follow_are_those_made_anew_and_a_gpu_is_told_of_all_that_changed() {
-    struct Beside {
-        values: PerCorner<Value>,
-        buffers: DrawBuffers<Value>,
-        gpu: Gpu,
-    }
+fn buffers_that_follow_are_those_made_anew_and_a_gpu_is_told() {
     let (mut count, mut edits, mut seams, mut written, mut all) = (0, 0, 0, 0, 0);
     for script in scripts(3_000) {
         count += 1;
-        let mut beside: Option<Beside> = None;
+        let mut beside: Option<(PerCorner<Value>, DrawBuffers<Value>, Gpu)> = None;
         script.run(|world: &World, step: &Step<'_>| {
-            let beside = beside.get_or_insert_with(|| {
+            let (values, buffers, gpu) = beside.get_or_insert_with(|| {
                 let values = values_of(&world.mesh);
                 let buffers = DrawBuffers::new(&world.mesh, values.clone());
                 let gpu = Gpu::full(&buffers, &world.positions);
-                let values = PerCorner::new(values);
-                Beside {
-                    values,
-                    buffers,
-                    gpu,
-                }
+                (PerCorner::new(values), buffers, gpu)
             });
-            let Beside {
-                values,
-                buffers,
-                gpu,
-            } = beside;
             world.edits.replay(&mut (&mut *values, &mut *buffers));
             seams += check(&world.mesh, values.as_slice(), buffers);
             let changes = buffers.take_changes();
             gpu.upload(buffers, &changes, &world.positions);
             let full = Gpu::full(buffers, &world.positions);
-            assert_eq!(
-                gpu.vertices, full.vertices,
-                "the vertex buffer after {step:?} of\n{script}"
-            );
-            assert_eq!(
-                gpu.indices, full.indices,
-                "the index buffer after {step:?} of\n{script}"
-            );
+            assert!(*gpu == full, "after {step:?} of\n{script}");
             assert_eq!(buffers.take_changes(), DrawChanges::default());
             edits += 1;
             written += changes.slots.len();
             all += buffers.len();
         });
     }
-    println!("{edits} steps, {seams} slots beyond vertices, {written} of {all} slots written");
     assert!(edits > 10 * count && seams > 100 * count && 10 * written < all);
 }
 
@@ -162,78 +140,64 @@ fn an_edit_writes_what_it_touches() {
 
 /// The buffers that an engine would have of a mesh: a vertex for each pair of a vertex and a value, in
 /// any order.
-fn engine_buffers(
-    mesh: &Mesh,
-    positions: &Positions,
-    random: &mut Random,
-) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
-    let values = values_of(mesh);
-    let pairs = mesh
-        .half_edges()
-        .map(|h| (mesh.origin(h), values[h.index()].map(f64::to_bits)));
+fn engine_buffers(work: &Work, random: &mut Random) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+    let values = values_of(&work.mesh);
+    let corners = work.mesh.half_edges().zip(values);
+    let pairs = corners.map(|(h, value)| (work.mesh.origin(h), value.map(f64::to_bits)));
     let pairs: Vec<_> = pairs.collect();
-    let mut order: Vec<_> = pairs
-        .iter()
-        .copied()
-        .collect::<BTreeSet<_>>()
-        .into_iter()
-        .collect();
+    let mut order: Vec<_> = pairs.clone();
+    order.sort_unstable();
+    order.dedup();
     random.shuffle(&mut order);
     let number: BTreeMap<_, u32> = order.iter().copied().zip(0..).collect();
     let places = order.iter().map(|(v, _)| {
-        let p = positions.at(*v);
+        let place: [f64; 3] = work.positions.at(*v).into();
         // A zero has two signs, and is one place.
-        [p.x, p.y, p.z].map(|x| {
-            if x == 0.0 && random.next() < 0.5 {
-                -0.0
-            } else {
-                x as f32
-            }
+        place.map(|x| match x == 0.0 && random.next() < 0.5 {
+            true => -0.0,
+            false => x as f32,
         })
     });
-    let faces = pairs
-        .as_chunks::<3>()
-        .0
-        .iter()
-        .map(|face| face.map(|pair| number[&pair]));
-    (places.collect(), faces.collect())
+    let places = places.collect();
+    let faces = pairs.as_chunks::<3>().0.iter();
+    (
+        places,
+        faces.map(|face| face.map(|pair| number[&pair])).collect(),
+    )
 }
 
 #[test]
 fn a_mesh_that_was_taken_apart_at_its_seams_is_welded() {
     let mut random = Random(3);
-    for (mesh, positions) in [
+    for shape in [
         shapes::grid(5, 4),
         shapes::octahedron(),
         shapes::tube(7, 3),
         shapes::torus(9, 7),
         shapes::fan(6, false),
     ] {
+        let work = Work::new(shape);
         for _ in 0..20 {
-            let (places, triangles) = engine_buffers(&mesh, &positions, &mut random);
-            assert!(places.len() > mesh.vertex_count());
-            let welded = weld::by_place(&places, &triangles).expect("a manifold");
-            assert_eq!(welded.mesh.check(), []);
-            assert_eq!(welded.mesh.vertex_count(), mesh.vertex_count());
+            let (places, faces) = engine_buffers(&work, &mut random);
+            assert!(places.len() > work.mesh.vertex_count());
+            let welded = weld::by_place(&places, &faces).expect("a manifold");
+            let own = &welded.mesh;
+            assert_eq!(own.check(), []);
+            assert_eq!(own.vertex_count(), work.mesh.vertex_count());
             assert_eq!(welded.vertices.len(), places.len());
             // The same faces, by a map of vertices that is one to one.
             let mut to: BTreeMap<u32, u32> = BTreeMap::new();
-            let mut highest = None;
-            for (h, &v) in mesh.indices().iter().enumerate() {
-                let own = welded.mesh.indices()[h];
-                assert_eq!(*to.entry(v).or_insert(own), own, "corner {h}");
-                let slot = triangles[h / 3][h % 3] as usize;
-                assert_eq!(u32::from(welded.vertices[slot]), own, "the map");
+            let slots = faces.as_flattened();
+            for ((&v, &own), &slot) in work.mesh.indices().iter().zip(own.indices()).zip(slots) {
+                assert_eq!(*to.entry(v).or_insert(own), own, "{v}");
+                assert_eq!(u32::from(welded.vertices[slot as usize]), own, "the map");
             }
             assert_eq!(to.values().collect::<BTreeSet<_>>().len(), to.len());
+            let mut next = 0;
             for (v, place) in welded.vertices.iter().zip(&places) {
                 assert_eq!(welded.positions.tail_f32(v.index())[0], *place);
-                let is_new = highest.is_none_or(|highest| *v > highest);
-                assert!(
-                    !is_new || v.index() == highest.map_or(0, |v| v.index() + 1),
-                    "in order"
-                );
-                highest = highest.max(Some(*v));
+                assert!(v.index() <= next, "in order");
+                next = next.max(v.index() + 1);
             }
         }
     }
@@ -242,103 +206,51 @@ fn a_mesh_that_was_taken_apart_at_its_seams_is_welded() {
 #[test]
 fn buffers_that_make_no_mesh_are_refused() {
     let places = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, 0.0, 0.0]];
-    let refused = |places: &[[f32; 3]], triangles: &[[u32; 3]]| {
-        weld::by_place(places, triangles).expect_err("no mesh")
-    };
-    let error = refused(&places, &[[0, 1, 4]]);
+    let refused = |places: &[[f32; 3]], face| weld::by_place(places, &[face]).expect_err("no mesh");
+    let error = refused(&places, [0, 1, 4]);
     assert_eq!(error, WeldError::Index { index: 4, known: 4 });
-    assert_eq!(
-        error.to_string(),
-        "a triangle names vertex 4, but there are 4 vertices"
-    );
+    let told = "a triangle names vertex 4, but there are 4 vertices";
+    assert_eq!(error.to_string(), told);
     let mut spoilt = places;
     spoilt[3][1] = f32::NAN;
-    let WeldError::Place(error) = refused(&spoilt, &[[0, 1, 2]]) else {
+    let WeldError::Place(error) = refused(&spoilt, [0, 1, 2]) else {
         panic!("no place")
     };
     assert_eq!(error.unusable()[0].0.index(), 3, "a vertex of the buffer");
-    let error = refused(&places, &[[0, 1, 3]]);
-    assert!(
-        matches!(error, WeldError::Build(_)),
-        "0 and 3 are at one place: {error}"
-    );
+    // 0 and 3 are at one place.
+    let error = refused(&places, [0, 1, 3]);
+    assert!(matches!(error, WeldError::Build(_)), "{error}");
 }
 
-/// The t-shirt of the corpus, if there is one.
+/// The t-shirt of the corpus, if there is one: on a GPU it has a vertex for each place and texture
+/// coordinate, also after a cut from side to side.
 #[test]
-fn a_garment_has_a_vertex_for_a_gpu_for_each_place_and_texture_coordinate() {
-    let Some(folder) = std::env::var_os("TEARMESH_CORPUS") else {
-        return;
-    };
-    let path = std::path::Path::new(&folder).join("snug_tshirt.obj");
-    let text = std::fs::read_to_string(path).expect("the t-shirt of the corpus");
-    let (mut places, mut texture) = (Vec::new(), Vec::new());
-    let mut corners: Vec<[u32; 2]> = Vec::new();
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        let number = |word: &str| word.parse::<f32>().expect("a number");
-        match words.next() {
-            Some("v") => places.push([(); 3].map(|()| number(words.next().expect("three")))),
-            Some("vt") => {
-                texture.push([(); 2].map(|()| f64::from(number(words.next().expect("two")))));
-            }
-            Some("f") => corners.extend(words.map(|word| {
-                let mut indices = word
-                    .split('/')
-                    .map(|index| index.parse::<u32>().expect("an index") - 1);
-                [(); 2].map(|()| indices.next().expect("two indices"))
-            })),
-            _ => {}
-        }
+fn a_garment_is_welded_and_its_buffers_follow_a_cut() {
+    for path in corpus(&["snug_tshirt"]) {
+        let file = File::read(&path);
+        // As an engine has it: a vertex for each pair that some corner names.
+        let pairs: BTreeSet<[usize; 2]> = file.corners.iter().copied().collect();
+        let number: BTreeMap<[usize; 2], u32> = pairs.iter().copied().zip(0..).collect();
+        let on_gpu = pairs
+            .iter()
+            .map(|&[v, _]| file.surface.points[v].map(|x| x as f32));
+        let on_gpu: Vec<[f32; 3]> = on_gpu.collect();
+        let faces = file.corners.as_chunks::<3>().0.iter();
+        let faces: Vec<[u32; 3]> = faces.map(|face| face.map(|pair| number[&pair])).collect();
+        let welded = weld::by_place(&on_gpu, &faces).expect("a manifold");
+        let mut work = Work::new((welded.mesh, welded.positions));
+        let values = file.corners.iter().map(|&[_, vt]| file.texture[vt]);
+        let mut values = PerCorner::new(values.collect::<Vec<Value>>());
+        let mut buffers = DrawBuffers::new(&work.mesh, values.as_slice().to_vec());
+        let counts = [work.mesh.vertex_count(), buffers.len(), on_gpu.len()];
+        assert_eq!(counts, [4424, 4649, 4649]);
+        let sum: Vector = work.positions.as_slice().iter().map(|p| p.coords).sum();
+        let middle = Point::from(sum / 4424.0);
+        let plane = Plane::new(middle, Vector::new(0.1, 1.0, 0.05)).expect("a plane");
+        work.cut(CutMethod::Exact, &Scissor::by_plane(plane));
+        work.edits.replay(&mut (&mut values, &mut buffers));
+        check(&work.mesh, values.as_slice(), &buffers);
+        let written = buffers.take_changes().slots.len();
+        assert!(work.mesh.vertex_count() > 4500 && written < buffers.len() / 4);
     }
-    // As an engine has it: a vertex for each pair that some corner names.
-    let pairs: BTreeSet<[u32; 2]> = corners.iter().copied().collect();
-    let number: BTreeMap<[u32; 2], u32> = pairs.iter().copied().zip(0..).collect();
-    let on_gpu: Vec<[f32; 3]> = pairs.iter().map(|&[v, _]| places[v as usize]).collect();
-    let triangles = corners
-        .as_chunks::<3>()
-        .0
-        .iter()
-        .map(|face| face.map(|pair| number[&pair]));
-    let triangles: Vec<[u32; 3]> = triangles.collect();
-    let welded = weld::by_place(&on_gpu, &triangles).expect("a manifold");
-    let (mut mesh, mut positions) = (welded.mesh, welded.positions);
-    let values: Vec<Value> = corners
-        .iter()
-        .map(|&[_, vt]| texture[vt as usize])
-        .collect();
-    let mut buffers = DrawBuffers::new(&mesh, values.clone());
-    println!(
-        "{} vertices, {} for a GPU",
-        mesh.vertex_count(),
-        buffers.len()
-    );
-    assert_eq!(
-        (mesh.vertex_count(), buffers.len(), on_gpu.len()),
-        (4424, 4649, 4649)
-    );
-    // And after a cut from side to side.
-    let middle = positions
-        .as_slice()
-        .iter()
-        .map(|p| p.coords)
-        .sum::<Vector>()
-        / 4424.0;
-    let plane = Plane::new(Point::from(middle), Vector::new(0.1, 1.0, 0.05)).expect("a plane");
-    let mut values = PerCorner::new(values);
-    let mut edits = Edits::new();
-    let scissor = Scissor::by_plane(plane);
-    scissor
-        .cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
-        .expect("in step");
-    edits.replay(&mut (&mut values, &mut buffers));
-    check(&mesh, values.as_slice(), &buffers);
-    let changes = buffers.take_changes();
-    println!(
-        "after a cut {} and {}, {} of these written",
-        mesh.vertex_count(),
-        buffers.len(),
-        changes.slots.len()
-    );
-    assert!(mesh.vertex_count() > 4500 && changes.slots.len() < buffers.len() / 4);
 }
