@@ -81,88 +81,75 @@ fn circles_of(planted: &[(&str, &str)]) -> Vec<String> {
     Files::of(planted.collect()).circles()
 }
 
+/// By `use`, by a path within the code, between parent and child, and through what is exported.
 #[test]
 fn planted_circles_are_seen() {
-    let by_use = [
-        ("lib.rs", "mod a; mod b;"),
-        ("a.rs", "use crate::b::B; pub struct A(B);"),
-        ("b.rs", "use crate::a::A; pub struct B(Vec<A>);"),
-    ];
-    let by_inline_path = [
-        ("lib.rs", "mod a; mod b;"),
+    let modules = "mod a; mod b;";
+    let exported = "mod a; mod b; pub use a::A; pub use b::B;";
+    for (lib, a, b, name) in [
         (
-            "a.rs",
-            "pub fn run() { println!(\"{}\", super::b::run()); }",
-        ),
-        ("b.rs", "use crate::a; pub fn run() { a::run() }"),
-    ];
-    let parent_and_child = [
-        ("lib.rs", "mod a;"),
-        ("a.rs", "mod b; pub use b::B; pub struct A; fn of(b: &B) {}"),
-        ("a/b.rs", "use super::A; pub struct B(A);"),
-    ];
-    let through_what_is_exported = [
-        ("lib.rs", "mod a; mod b; pub use a::A; pub use b::B;"),
-        (
-            "a.rs",
-            "pub struct A; impl A { fn b(&self) -> crate::B { todo!() } }",
-        ),
-        (
+            modules,
+            "use crate::b::B; pub struct A(B);",
+            "use crate::a::A; pub struct B(Vec<A>);",
             "b.rs",
-            "pub struct B; impl B { fn a(&self) -> crate::A { todo!() } }",
         ),
-    ];
-    for planted in [
-        by_use,
-        by_inline_path,
-        parent_and_child,
-        through_what_is_exported,
+        (
+            modules,
+            "pub fn run() { println!(\"{}\", super::b::run()); }",
+            "use crate::a; pub fn run() { a::run() }",
+            "b.rs",
+        ),
+        (
+            "mod a;",
+            "mod b; pub use b::B; pub struct A; fn of(b: &B) {}",
+            "use super::A; pub struct B(A);",
+            "a/b.rs",
+        ),
+        (
+            exported,
+            "pub struct A; impl A { fn b(&self) -> crate::B { todo!() } }",
+            "pub struct B; impl B { fn a(&self) -> crate::A { todo!() } }",
+            "b.rs",
+        ),
     ] {
-        let circles = circles_of(&planted);
-        assert_eq!(circles.len(), 1, "{planted:?}: {circles:?}");
-        println!("{}", circles[0]);
+        let circles = circles_of(&[("lib.rs", lib), ("a.rs", a), (name, b)]);
+        assert_eq!(circles.len(), 1, "{a} {b}: {circles:?}");
     }
 }
 
+/// A child uses its parent; a test alone; a function has the name of its module; and words alone.
 #[test]
-fn what_is_no_circle_is_not_called_one() {
-    let child_uses_parent = [
-        ("lib.rs", "mod a; pub use a::{A, b::B};"),
-        ("a.rs", "pub mod b; pub use b::B; pub struct A;"),
-        ("a/b.rs", "use super::A; pub struct B(A);"),
-    ];
-    let for_tests_alone = [
-        ("lib.rs", "mod a; mod b;"),
+fn files_that_make_no_circle_are_not_called_one() {
+    let modules = "mod a; mod b;";
+    let both = "mod a; mod b; use b::b; fn main() { b(); a::a(); }";
+    for (lib, a, b, name) in [
         (
-            "a.rs",
+            "mod a; pub use a::{A, b::B};",
+            "pub mod b; pub use b::B; pub struct A;",
+            "use super::A; pub struct B(A);",
+            "a/b.rs",
+        ),
+        (
+            modules,
             "pub struct A; #[cfg(test)] mod tests { use crate::b::B; }",
+            "use crate::a::A; pub struct B(A);",
+            "b.rs",
         ),
-        ("b.rs", "use crate::a::A; pub struct B(A);"),
-    ];
-    let module_and_function_of_one_name = [
         (
-            "lib.rs",
-            "mod a; mod b; use b::b; fn main() { b(); a::a(); }",
+            both,
+            "use crate::b::b; pub fn a() { b() }",
+            "pub fn b() {}",
+            "b.rs",
         ),
-        ("a.rs", "use crate::b::b; pub fn a() { b() }"),
-        ("b.rs", "pub fn b() {}"),
-    ];
-    let in_words_alone = [
-        ("lib.rs", "mod a; mod b;"),
         (
-            "a.rs",
-            "/// See [`B`](crate::b::B). // crate::b::B\npub struct A; const B: &str = \"crate::b::B\";",
+            modules,
+            "/// [`B`](crate::b::B). // crate::b::B\npub struct A; const B: &str = \"crate::b::B\";",
+            "use crate::a::A; pub struct B(A);",
+            "b.rs",
         ),
-        ("b.rs", "use crate::a::A; pub struct B(A);"),
-    ];
-    for planted in [
-        child_uses_parent,
-        for_tests_alone,
-        module_and_function_of_one_name,
-        in_words_alone,
     ] {
-        let none: [String; 0] = [];
-        assert_eq!(circles_of(&planted), none, "{planted:?}");
+        let circles = circles_of(&[("lib.rs", lib), ("a.rs", a), (name, b)]);
+        assert!(circles.is_empty(), "{circles:?}");
     }
 }
 
@@ -197,175 +184,112 @@ const FLOORS: [(&str, u32); 23] = [
 fn floor(module: &str) -> u32 {
     let known = FLOORS.iter().find(|(name, _)| *name == module);
     known
-        .unwrap_or_else(|| panic!("`{module}` has no floor: give it one in this test"))
+        .unwrap_or_else(|| panic!("`{module}` has no floor here"))
         .1
 }
 
 /// The imports of the kernel that go up, each told.
 fn upward_imports(files: &Files) -> Vec<String> {
-    let module = |file: usize| {
-        let name = files.names[file].split(['/', '.']).next();
-        name.expect("a module")
-    };
+    let name = |file: usize| files.names[file].trim_end_matches(".rs");
+    let module = |file: usize| name(file).split('/').next().expect("a module");
     let goes_up = |&(&(from, to), _): &(&(usize, usize), &String)| {
         module(from) != "lib" && floor(module(to)) > floor(module(from))
     };
-    let up = files.edges.iter().filter(goes_up);
-    up.map(|(&(from, to), path)| {
-        format!(
-            "src/{} uses {path} of src/{}",
-            files.names[from], files.names[to]
-        )
-    })
-    .collect()
+    let told = |(&(from, to), path)| format!("{} uses {path} of {}", name(from), name(to));
+    files.edges.iter().filter(goes_up).map(told).collect()
 }
 
 #[test]
-fn imports_of_the_kernel_run_downward() {
+fn imports_of_the_kernel_run_downward_and_one_that_goes_up_is_seen() {
     let none: [String; 0] = [];
     assert_eq!(upward_imports(&files_of("src", "lib.rs", None)), none);
-}
-
-#[test]
-fn a_planted_upward_import_is_seen() {
     let planted = "\nfn planted() { use crate::scissor; scissor::Scissor::SNAP; }";
     let files = files_of("src", "lib.rs", Some(("mesh/walk.rs", planted)));
     let up = upward_imports(&files);
-    assert_eq!(
-        up,
-        ["src/mesh/walk.rs uses crate::scissor of src/scissor.rs"]
-    );
+    assert_eq!(up, ["mesh/walk uses crate::scissor of scissor"]);
 }
 
-/// A file of the library: its module, its path, and its code without comments and tests.
-struct Source {
-    module: String,
-    path: String,
-    code: String,
-}
-
-fn sources() -> Vec<Source> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut sources = Vec::new();
-    let mut folders = vec![src.clone()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a folder of the library") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            if path.extension().is_none_or(|extension| extension != "rs") {
-                continue;
-            }
-            let name = path
-                .strip_prefix(&src)
-                .expect("it lies in src")
-                .with_extension("");
-            let module = name
-                .iter()
-                .next()
-                .expect("a module")
-                .to_string_lossy()
-                .into_owned();
-            let text = fs::read_to_string(&path).expect("a source file");
-            let code = text
-                .split("\n#[cfg(test)]\nmod tests")
-                .next()
-                .expect("some code");
-            let code = code
-                .lines()
-                .map(|line| line.split("//").next().unwrap_or_default());
-            let code = code.collect::<Vec<_>>().join("\n");
-            sources.push(Source {
-                module,
-                path: name.display().to_string(),
-                code,
-            });
-        }
+/// Shows the files of the kernel, by their paths without `.rs`, but for the first, and their words.
+fn for_kernel(check: impl Fn(&str, &[String])) {
+    let files = files_of("src", "lib.rs", None);
+    for (name, words) in files.names.iter().zip(&files.words).skip(1) {
+        check(name.trim_end_matches(".rs"), words);
     }
-    sources.retain(|source| source.module != "lib");
-    assert!(
-        sources.len() >= 20,
-        "the library has more files than {}",
-        sources.len()
-    );
-    sources
 }
 
-/// The words of a text: names and numbers.
-fn words(code: &str) -> impl Iterator<Item = &str> {
-    code.split(|c: char| !c.is_alphanumeric() && c != '_')
-        .filter(|word| !word.is_empty())
-}
+/// The words that no file of some modules has, or no file at all: topology knows no float, and the log has
+/// the weights of insertions and merges and no more; the library reads no file, prints nothing and knows
+/// no clock; and one file names nalgebra.
+const FOREIGN: [(&[&str], &[&str]); 4] = [
+    (&["id", "mesh", "split"], &["f32", "f64", "Point", "Vector"]),
+    (&["edit", "insert"], &["f32", "Vector", "geometry"]),
+    (
+        &[],
+        &[
+            "fs",
+            "io",
+            "net",
+            "env",
+            "time",
+            "thread",
+            "process",
+            "println",
+            "eprintln",
+            "print",
+            "dbg",
+            "Instant",
+            "SystemTime",
+            "HashMap",
+            "HashSet",
+            "unwrap",
+            "unsafe",
+        ],
+    ),
+    (&[], &["nalgebra"]),
+];
 
 #[test]
-fn topology_knows_no_float() {
-    for Source { module, path, code } in sources() {
-        // The log has the weights of insertions and merges, and no more.
-        let foreign: &[&str] = match &*module {
-            "id" | "mesh" | "split" => &["f32", "f64", "Point", "Vector"],
-            "edit" | "insert" => &["f32", "Vector", "geometry"],
-            _ => &[],
-        };
-        let float = words(&code).find(|word| foreign.contains(word));
-        assert_eq!(float, None, "src/{path}.rs");
-    }
+fn files_of_the_kernel_have_no_foreign_words() {
+    for_kernel(|name, words| {
+        let module = name.split('/').next().expect("a module");
+        for (modules, foreign) in FOREIGN {
+            let is_meant = modules.is_empty() || modules.contains(&module);
+            let is_home = name == "geometry" && foreign == ["nalgebra"];
+            let found = words.iter().find(|word| foreign.contains(&&***word));
+            assert!(found.is_none() || !is_meant || is_home, "{name}: {found:?}");
+        }
+        for cloth in ["cloth", "solver", "spring", "particle"] {
+            let found = words
+                .iter()
+                .find(|word| word.to_lowercase().contains(cloth));
+            assert_eq!(found, None, "src/{name}.rs");
+        }
+    });
 }
 
 #[test]
 fn one_file_tears_links_and_one_sews_them() {
     let writers: [(&str, &[&str]); 10] = [
-        (".tear(", &["split"]),
-        (".sew(", &["mend"]),
-        (".pop_vertex(", &["mend"]),
-        (".isolate(", &["mend"]),
-        (".link(", &["insert"]),
-        (".unlink(", &["insert"]),
-        (".push_face(", &["insert"]),
-        (".push_vertex(", &["split", "insert"]),
-        (".set_origin(", &["split", "mend", "insert"]),
-        (".set_half_edge_of(", &["split", "mend", "insert"]),
+        ("tear", &["split"]),
+        ("sew", &["mend"]),
+        ("pop_vertex", &["mend"]),
+        ("isolate", &["mend"]),
+        ("link", &["insert"]),
+        ("unlink", &["insert"]),
+        ("push_face", &["insert"]),
+        ("push_vertex", &["split", "insert"]),
+        ("set_origin", &["split", "mend", "insert"]),
+        ("set_half_edge_of", &["split", "mend", "insert"]),
     ];
-    for Source { path, code, .. } in sources() {
+    for_kernel(|name, words| {
+        let has = |sequence: [&str; 3]| words.windows(3).any(|three| three == sequence);
         for (writer, files) in writers {
-            assert!(
-                !code.contains(writer) || files.contains(&&*path),
-                "src/{path}.rs calls {writer}…)"
-            );
+            let calls = has([".", writer, "("]);
+            assert!(!calls || files.contains(&name), "{name} calls {writer}");
         }
-        assert!(
-            !code.contains("Link::TORN") || ["mesh", "mesh/torn"].contains(&&*path),
-            "src/{path}.rs writes torn marks"
-        );
-    }
-}
-
-#[test]
-fn the_library_reads_no_file_prints_nothing_and_knows_no_clock() {
-    let foreign = [
-        "fs",
-        "io",
-        "net",
-        "env",
-        "time",
-        "thread",
-        "process",
-        "println",
-        "eprintln",
-        "print",
-        "dbg",
-        "Instant",
-        "SystemTime",
-        "HashMap",
-        "HashSet",
-        "unwrap",
-        "unsafe",
-    ];
-    for Source { path, code, .. } in sources() {
-        let found = words(&code).find(|word| foreign.contains(word));
-        assert_eq!(found, None, "src/{path}.rs");
-    }
+        let marks = has(["Link", "::", "TORN"]);
+        assert!(!marks || ["mesh", "mesh/torn"].contains(&name), "{name}");
+    });
 }
 
 /// The functions of `f64` whose last bits differ from machine to machine, or may.
@@ -376,39 +300,20 @@ const PLATFORM: &[&str] = &[
 ];
 
 /// The functions of the platform that some code names, as methods or by their path.
-fn platform_calls(code: &str) -> Vec<&str> {
-    let named = code.split(['.', ':']).skip(1);
-    let named = named.filter_map(|rest| words(rest).next().filter(|name| rest.starts_with(name)));
+fn platform_calls(words: &[String]) -> Vec<&str> {
+    let named = words
+        .windows(2)
+        .filter(|two| [".", "::"].contains(&&*two[0]));
+    let named = named.map(|two| &*two[1]);
     named.filter(|name| PLATFORM.contains(name)).collect()
 }
 
 #[test]
 fn the_kernel_calls_no_transcendental_function_of_the_platform() {
-    for Source { path, code, .. } in sources() {
-        let none: [&str; 0] = [];
-        assert_eq!(platform_calls(&code), none, "src/{path}.rs");
-    }
-    let planted =
-        "let (y, x) = a.sin_cos(); f64::atan2(y, x) + x\n    .exp() + sin(x).map(f64::tan)";
-    assert_eq!(platform_calls(planted), ["sin_cos", "atan2", "exp", "tan"]);
-}
-
-#[test]
-fn the_kernel_knows_no_cloth() {
-    for Source { path, code, .. } in sources() {
-        let foreign = ["cloth", "solver", "spring", "particle"];
-        let code = code.to_lowercase();
-        let found = foreign.iter().find(|&&word| code.contains(word));
-        assert_eq!(found, None, "src/{path}.rs");
-    }
-}
-
-#[test]
-fn one_file_names_nalgebra() {
-    for Source { path, code, .. } in sources() {
-        assert!(
-            path == "geometry" || !code.contains("nalgebra"),
-            "src/{path}.rs"
-        );
-    }
+    let none: [&str; 0] = [];
+    for_kernel(|name, words| assert_eq!(platform_calls(words), none, "src/{name}.rs"));
+    let planted = "fn f() { a.sin_cos(); f64::atan2(y, x) + x\n .exp() + sin(x).map(f64::tan) }";
+    let files = Files::of(vec![("lib.rs".to_owned(), planted.to_owned())]);
+    let calls = platform_calls(&files.words[0]);
+    assert_eq!(calls, ["sin_cos", "atan2", "exp", "tan"]);
 }

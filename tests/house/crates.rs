@@ -18,6 +18,8 @@ pub(crate) struct Files {
     pub(crate) names: Vec<String>,
     /// From a file to another, with a path that leads there.
     pub(crate) edges: BTreeMap<(usize, usize), String>,
+    /// The names, signs and literals of each file's code, without its tests.
+    pub(crate) words: Vec<Vec<String>>,
 }
 
 impl Files {
@@ -54,7 +56,12 @@ impl Files {
                 }
             }
         }
-        Files { names, edges }
+        let words = codes.into_iter().map(|code| code.words).collect();
+        Files {
+            names,
+            edges,
+            words,
+        }
     }
 
     /// The sets of files that use each other in a circle, each with the arrows among them.
@@ -221,7 +228,9 @@ fn add_words(tokens: TokenStream, is_inside: bool, words: &mut Vec<String>) {
         match token {
             TokenTree::Ident(name) if is_inside && name == "super" => words.push("self".to_owned()),
             TokenTree::Ident(name) => words.push(name.to_string()),
-            TokenTree::Literal(_) => {}
+            TokenTree::Literal(literal) => words.push(literal.to_string()),
+            // Comments for the documentation are attributes here.
+            TokenTree::Group(group) if group.to_string().starts_with("[doc") => {}
             TokenTree::Punct(sign) => match (sign.as_char(), tokens.peek()) {
                 (':', Some(TokenTree::Punct(next))) if next.as_char() == ':' => {
                     tokens.next();
@@ -239,6 +248,7 @@ fn add_words(tokens: TokenStream, is_inside: bool, words: &mut Vec<String>) {
             TokenTree::Group(group) => {
                 let [open, close] = match group.delimiter() {
                     Delimiter::Brace => ["{", "}"],
+                    Delimiter::Bracket => ["[", "]"],
                     _ => ["(", ")"],
                 };
                 let is_module = words.len() > 1 && words[words.len() - 2] == "mod" && open == "{";
