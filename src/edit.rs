@@ -21,16 +21,18 @@
 
 mod cursor;
 mod form;
+mod mix;
 mod record;
 
 pub use cursor::Cursor;
-pub use form::{CornerOp, FaceFamily, Mix, VertexOp};
+pub use form::{CornerOp, FaceFamily, VertexOp};
+pub use mix::Mix;
 pub use record::{
-    ChildFace, CornerSource, Edit, Insert, InsertLocation, InsertedPoint, Merge, Renumbered, Slide,
-    Split, TornLink,
+    ChildFace, Edit, Insert, InsertLocation, InsertedPoint, Merge, Renumbered, Slide, Split,
+    TornLink,
 };
 
-use crate::id::{HalfEdgeId, VertexId};
+use crate::id::HalfEdgeId;
 use crate::mesh::MeshSize;
 
 /// The log of the edits of a mesh.
@@ -49,8 +51,8 @@ use crate::mesh::MeshSize;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Edits {
-    /// Before the oldest record that is still here.
-    first: Cursor,
+    /// After the last record.
+    end: Cursor,
     records: Vec<Record>,
     corners: Vec<HalfEdgeId>,
     links: Vec<TornLink>,
@@ -58,47 +60,23 @@ pub struct Edits {
     children: Vec<ChildFace>,
 }
 
-/// What was done, and where the record's lists end; they start where those of the record
-/// before end.
+/// A record without its lists, and where these end; they start where those of the record before end.
 #[derive(Clone, Copy, Debug)]
 struct Record {
-    kind: Kind,
+    edit: Edit<'static>,
     ends: Ends,
     /// Of the mesh before this record.
     size: MeshSize,
-    /// That of the cursor after this record.
-    hash: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Ends {
+    /// Of a merge, the corners that move; those of the vertex that is renumbered follow.
+    moved: usize,
     corners: usize,
     links: usize,
     points: usize,
     children: usize,
-}
-
-/// What was done, without the lists.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Kind {
-    Split {
-        old: VertexId,
-        new: VertexId,
-    },
-    Insert,
-    Merge {
-        kept: VertexId,
-        gone: VertexId,
-        share: f64,
-        /// The vertex that took the id of `gone`. Its corners were noted last, from that index on.
-        renumbered: Option<(VertexId, usize)>,
-    },
-    Slide {
-        vertex: VertexId,
-        toward: VertexId,
-        t: f64,
-        along: [Option<[HalfEdgeId; 2]>; 2],
-    },
 }
 
 impl Edits {
@@ -113,7 +91,7 @@ impl Edits {
     #[must_use]
     pub fn starting_at(cursor: Cursor) -> Self {
         Edits {
-            first: cursor,
+            end: cursor,
             ..Self::default()
         }
     }
@@ -142,7 +120,7 @@ impl Edits {
     /// edits.
     #[must_use]
     pub fn cursor(&self) -> Cursor {
-        self.place(self.records.len())
+        self.end
     }
 
     /// Returns the records, from the oldest to the newest.
@@ -161,7 +139,8 @@ impl Edits {
         &self,
         cursor: Cursor,
     ) -> impl ExactSizeIterator<Item = Edit<'_>> + DoubleEndedIterator {
-        let (first, end) = (self.first.number(), self.cursor().number());
+        let end = self.end.number();
+        let first = end - self.records.len() as u64;
         let seen = cursor.number();
         assert!(
             cursor != Cursor::HALF_WAY,
@@ -325,7 +304,6 @@ impl Edits {
     /// Removes all records, and keeps the allocated memory. Later records are numbered from where
     /// these end. All followers must replay the log first.
     pub fn clear(&mut self) {
-        self.first = self.cursor();
         self.records.clear();
         self.corners.clear();
         self.links.clear();
@@ -335,69 +313,39 @@ impl Edits {
 
     /// The place before record `i` of those that are here, or after the last.
     fn place(&self, i: usize) -> Cursor {
-        match i.checked_sub(1) {
-            None => self.first,
-            Some(last) => {
-                let number = self.first.number() + i as u64;
-                Cursor::new(number, self.records[last].hash)
-            }
-        }
+        let record = self.records.get(i);
+        record.map_or(self.end, |record| record.edit.before())
     }
 
     fn record(&self, i: usize) -> Edit<'_> {
-        let Record { kind, ends, .. } = self.records[i];
+        let Record { edit, ends, .. } = self.records[i];
         let starts = self.ends_before(i);
-        let before = self.place(i);
         let corners = &self.corners[starts.corners..ends.corners];
         let links = &self.links[starts.links..ends.links];
-        match kind {
-            Kind::Split { old, new } => Edit::Split(Split {
-                before,
-                old,
-                new,
+        match edit {
+            Edit::Split(split) => Edit::Split(Split {
                 corners,
                 torn: links,
+                ..split
             }),
-            Kind::Insert => Edit::Insert(Insert {
-                before,
+            Edit::Insert(insert) => Edit::Insert(Insert {
                 points: &self.points[starts.points..ends.points],
                 children: &self.children[starts.children..ends.children],
+                ..insert
             }),
-            Kind::Merge {
-                kept,
-                gone,
-                share,
-                renumbered,
-            } => {
-                let moved = renumbered.map_or(corners.len(), |(_, at)| at - starts.corners);
-                let (corners, others) = corners.split_at(moved);
+            Edit::Merge(merge) => {
+                let (corners, others) = corners.split_at(ends.moved - starts.corners);
                 Edit::Merge(Merge {
-                    before,
-                    kept,
-                    gone,
-                    share,
                     corners,
-                    renumbered: renumbered.map(|(from, _)| Renumbered {
-                        from,
-                        to: gone,
+                    renumbered: merge.renumbered.map(|renumbered| Renumbered {
                         corners: others,
+                        ..renumbered
                     }),
                     sewn: links,
+                    ..merge
                 })
             }
-            Kind::Slide {
-                vertex,
-                toward,
-                t,
-                along,
-            } => Edit::Slide(Slide {
-                before,
-                vertex,
-                toward,
-                t,
-                along,
-                corners,
-            }),
+            Edit::Slide(slide) => Edit::Slide(Slide { corners, ..slide }),
         }
     }
 
@@ -444,21 +392,20 @@ impl Edits {
         self.children.extend(children);
     }
 
-    /// Makes a record of what was noted since the last one. `size` is that of the mesh before.
-    pub(crate) fn finish(&mut self, kind: Kind, size: MeshSize) -> Edit<'_> {
+    /// Makes a record of an edit after the last one, with what was noted since. Of the corners noted, those
+    /// of a vertex that is renumbered begin at `moved`. `size` is that of the mesh before.
+    pub(crate) fn finish(&mut self, edit: Edit<'static>, moved: usize, size: MeshSize) -> Edit<'_> {
+        debug_assert_eq!(edit.before(), self.end);
         let i = self.records.len();
-        self.records.push(Record {
-            kind,
-            ends: Ends {
-                corners: self.corners.len(),
-                links: self.links.len(),
-                points: self.points.len(),
-                children: self.children.len(),
-            },
-            size,
-            hash: 0,
-        });
-        self.records[i].hash = self.record(i).after().hash();
+        let ends = Ends {
+            moved,
+            corners: self.corners.len(),
+            links: self.links.len(),
+            points: self.points.len(),
+            children: self.children.len(),
+        };
+        self.records.push(Record { edit, ends, size });
+        self.end = self.record(i).after();
         self.record(i)
     }
 }

@@ -23,7 +23,7 @@ use std::fmt;
 
 pub use plan::{Chord, ChordEnd, Plan, Point, PointId};
 
-use crate::edit::{ChildFace, Edit, Edits, Insert, InsertLocation, InsertedPoint, Kind};
+use crate::edit::{ChildFace, Edit, Edits, Insert, InsertLocation, InsertedPoint};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use face::{Fault, Retriangulation};
@@ -161,7 +161,7 @@ impl Work {
             outline(mesh, f, &on_edges, &mut face);
             let here = in_faces.partition_point(|&(g, ..)| g < f);
             for &(_, vertex, weights) in in_faces[here..].iter().take_while(|&&(g, ..)| g == f) {
-                face.inside(vertex, weights);
+                face.inside(f, vertex, weights);
             }
             let here = chords.partition_point(|chord| chord.f < f);
             for chord in chords[here..].iter().take_while(|chord| chord.f == f) {
@@ -322,7 +322,12 @@ impl Work {
         let size = mesh.size();
         self.change(mesh);
         edits.note_insertion(self.placed, self.children);
-        let Edit::Insert(insert) = edits.finish(Kind::Insert, size) else {
+        let insert = Insert {
+            before: edits.cursor(),
+            points: &[],
+            children: &[],
+        };
+        let Edit::Insert(insert) = edits.finish(Edit::Insert(insert), 0, size) else {
             unreachable!("an insertion was finished");
         };
         insert

@@ -120,9 +120,8 @@ pub mod weld;
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};
 pub use draw::{DrawBuffers, DrawChanges};
 pub use edit::{
-    ChildFace, CornerOp, CornerSource, Cursor, Edit, Edits, FaceFamily, Follower, Followers,
-    Insert, InsertLocation, InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink,
-    VertexOp,
+    ChildFace, CornerOp, Cursor, Edit, Edits, FaceFamily, Follower, Followers, Insert,
+    InsertLocation, InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink, VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};

@@ -18,7 +18,7 @@
 
 use std::fmt;
 
-use crate::edit::{ChildFace, CornerSource, Cursor, Edit, Follower};
+use crate::edit::{ChildFace, Cursor, Edit, Follower, Mix};
 use crate::exact::{ExactSum, exponent_above, power_of_two};
 use crate::geometry::area;
 use crate::id::{FaceId, VertexId};
@@ -417,7 +417,7 @@ fn divide(family: &[ChildFace], corners: &mut Vec<u64>, vertices: &mut [u64]) {
     let mut units = 0;
     for child in family {
         for (vertex, source) in child.vertices.iter().zip(child.sources) {
-            if let CornerSource::Corner(h) = source {
+            if let Mix::Copy(h) = source {
                 // Several children may have it; what is taken once is gone.
                 let taken = std::mem::take(&mut corners[h.index()]);
                 vertices[vertex.index()] -= taken;

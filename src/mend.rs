@@ -12,7 +12,7 @@
 use std::collections::BinaryHeap;
 use std::fmt;
 
-use crate::edit::{Edit, Edits, Kind, Merge, TornLink};
+use crate::edit::{Edit, Edits, Merge, Renumbered, TornLink};
 use crate::geometry::length;
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -135,26 +135,30 @@ fn commit<'e>(
             }
         }
     }
-    let kind = Kind::Merge {
+    let moved = edits.noted().end;
+    let merge = Merge {
+        before: edits.cursor(),
         kept,
         gone,
         share,
+        corners: &[],
         renumbered: free(mesh, gone, edits, note_corners),
+        sewn: &[],
     };
-    let Edit::Merge(merge) = edits.finish(kind, size) else {
+    let Edit::Merge(merge) = edits.finish(Edit::Merge(merge), moved, size) else {
         unreachable!("a merge was finished");
     };
     merge
 }
 
 /// Takes a vertex without corners off the mesh: the last vertex gets its id. Notes the corners
-/// of that one, and returns it and where they start.
+/// of that one.
 fn free(
     mesh: &mut Mesh,
     gone: VertexId,
     edits: &mut Edits,
     note_corners: impl FnOnce(&Mesh, VertexId, &mut Edits),
-) -> Option<(VertexId, usize)> {
+) -> Option<Renumbered<'static>> {
     let last = VertexId::from_u32(mesh.next_vertex().to_u32() - 1);
     let start = edits.noted().end;
     if gone != last {
@@ -169,7 +173,11 @@ fn free(
         }
     }
     mesh.pop_vertex();
-    (gone != last).then_some((last, start))
+    (gone != last).then_some(Renumbered {
+        from: last,
+        to: gone,
+        corners: &[],
+    })
 }
 
 /// A request to merge two vertices that have the same root.

@@ -46,7 +46,7 @@
 //! ```
 //! use tearmesh::script::Script;
 //! use std::collections::BTreeSet;
-//! use tearmesh::{CornerSource, Cursor, Edit, Follower, HalfEdgeId};
+//! use tearmesh::{Cursor, Edit, Follower, HalfEdgeId, Mix};
 //!
 //! /// How many faces each vertex has: what you keep beside the mesh.
 //! struct Valences { of: Vec<usize>, seen: Cursor, divided: BTreeSet<HalfEdgeId> }
@@ -70,7 +70,7 @@
 //!                 for child in insert.children {
 //!                     for (v, source) in child.vertices.iter().zip(child.sources) {
 //!                         self.of[v.index()] += 1;
-//!                         if let CornerSource::Corner(h) = source {
+//!                         if let Mix::Copy(h) = source {
 //!                             if self.divided.insert(h) {
 //!                                 self.of[v.index()] -= 1; // that of the divided face
 //!                             }

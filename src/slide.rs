@@ -9,7 +9,7 @@
 
 use std::fmt;
 
-use crate::edit::{Edit, Edits, Kind, Slide};
+use crate::edit::{Edit, Edits, Slide};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
 
@@ -71,13 +71,15 @@ pub fn toward<'e>(
     for h in mesh.corners_of(vertex) {
         edits.note_corner(h);
     }
-    let kind = Kind::Slide {
+    let slide = Slide {
+        before: edits.cursor(),
         vertex,
         toward,
         t,
         along,
+        corners: &[],
     };
-    let Edit::Slide(slide) = edits.finish(kind, mesh.size()) else {
+    let Edit::Slide(slide) = edits.finish(Edit::Slide(slide), 0, mesh.size()) else {
         unreachable!("a slide was finished");
     };
     Ok(slide)

@@ -14,7 +14,7 @@
 use std::fmt;
 
 use crate::classify;
-use crate::edit::{Edit, Edits, Kind, Split, TornLink};
+use crate::edit::{Edit, Edits, Split, TornLink};
 use crate::geometry::{Plane, Side};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -229,7 +229,14 @@ fn commit<'e>(mesh: &mut Mesh, v: VertexId, stays: HalfEdgeId, edits: &'e mut Ed
             }
         }
     }
-    let Edit::Split(split) = edits.finish(Kind::Split { old: v, new }, size) else {
+    let split = Split {
+        before: edits.cursor(),
+        old: v,
+        new,
+        corners: &[],
+        torn: &[],
+    };
+    let Edit::Split(split) = edits.finish(Edit::Split(split), 0, size) else {
         unreachable!("a split was finished");
     };
     split

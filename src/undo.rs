@@ -29,7 +29,7 @@ use crate::mesh::Mesh;
 /// The divided faces of a mesh, from which the insertions can be undone.
 ///
 /// ```
-/// use tearmesh::{insert::Plan, shapes, CornerSource, Edits, FacePart, Insertions};
+/// use tearmesh::{insert::Plan, shapes, Edits, FacePart, Insertions, Mix};
 ///
 /// let (mut mesh, _) = shapes::triangle();
 /// let (mut plan, mut edits) = (Plan::new(), Edits::new());
@@ -39,7 +39,7 @@ use crate::mesh::Mesh;
 /// // One divided face. None of its parts' new corners is on a side of it.
 /// let parts = insert.children.iter().map(|child| {
 ///     let corners = child.sources.map(|source| match source {
-///         CornerSource::Corner(h) => Some(h.corner()),
+///         Mix::Copy(h) => Some(h.corner()),
 ///         _ => None,
 ///     });
 ///     let sides_at = |corner: usize| [0, 1, 2].map(|side| side == corner || (side + 1) % 3 == corner);

@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 use tearmesh::mend::{self, Stitch};
 use tearmesh::script::World;
 use tearmesh::{
-    CornerSource, CutMethod, Edit, Edits, FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Point,
-    Positions, Ray, RemovalPlan, Scissor, Vector, VertexId, shapes,
+    CutMethod, Edit, Edits, FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Mix, Point, Positions,
+    Ray, RemovalPlan, Scissor, Vector, VertexId, shapes,
 };
 
 use crate::cases::{cases, scripts};
@@ -89,14 +89,14 @@ impl Plain {
                         let mut points_at = [None; 3];
                         for (i, source) in child.sources.iter().enumerate() {
                             match *source {
-                                CornerSource::Corner(h) => places[i][h.index() % 3] = 1.0,
-                                CornerSource::Edge { ends, t } => {
+                                Mix::Copy(h) => places[i][h.index() % 3] = 1.0,
+                                Mix::Between { ends, t } => {
                                     places[i][ends[0].index() % 3] = 1.0 - t;
                                     places[i][ends[1].index() % 3] = t;
                                 }
-                                CornerSource::Face { weights } => places[i] = weights,
+                                Mix::Weighted { weights, .. } => places[i] = weights,
                             }
-                            if !matches!(source, CornerSource::Corner(_)) {
+                            if !matches!(source, Mix::Copy(_)) {
                                 let points = &self.points[child.vertices[i].index()];
                                 division.points.extend(points);
                                 points_at[i] = points.first().copied();

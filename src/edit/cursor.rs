@@ -39,10 +39,6 @@ impl Cursor {
         self.number
     }
 
-    pub(super) const fn hash(self) -> u64 {
-        self.hash
-    }
-
     /// Returns this cursor as sixteen bytes. [`Cursor::from_bytes`] restores it.
     #[must_use]
     pub fn to_bytes(self) -> [u8; 16] {

@@ -17,88 +17,9 @@
 //! each half of a split vertex weighs less than the whole did. [`Masses`](crate::Masses) therefore
 //! reads the records themselves.
 
-use super::record::{ChildFace, CornerSource, Edit, Insert, InsertLocation, Slide};
+use super::mix::Mix;
+use super::record::{ChildFace, Edit, Insert, InsertLocation, Slide};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
-
-/// The one, two or three values that a new value derives from.
-///
-/// A copy has its own case because it must be exact to the bit, and interpolation because a value
-/// between two equal values must equal them. A general weighted sum guarantees neither.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mix<I> {
-    /// A copy of one value.
-    Copy(I),
-    /// The interpolated value `ends[0] + t (ends[1] − ends[0])`.
-    Between {
-        /// The two values to interpolate between.
-        ends: [I; 2],
-        /// The fraction of the way from `ends[0]` to `ends[1]`, from 0 to 1.
-        t: f64,
-    },
-    /// The weighted sum of three values.
-    Weighted {
-        /// The three values to be added.
-        of: [I; 3],
-        /// The weights of the values, in the same order. They are positive, and their sum is one up
-        /// to rounding.
-        weights: [f64; 3],
-    },
-}
-
-impl<I> Mix<I> {
-    /// Returns this mix with each source replaced by the result of `f`. It can, for example,
-    /// replace ids by their values.
-    #[must_use]
-    pub fn map<J>(self, f: impl FnMut(I) -> J) -> Mix<J> {
-        let mut f = f;
-        match self {
-            Mix::Copy(one) => Mix::Copy(f(one)),
-            Mix::Between { ends, t } => Mix::Between {
-                ends: ends.map(f),
-                t,
-            },
-            Mix::Weighted { of, weights } => Mix::Weighted {
-                of: of.map(f),
-                weights,
-            },
-        }
-    }
-
-    /// Returns the source with the largest weight, or the first of several with equal weights. Use
-    /// it for values that cannot be interpolated, such as the index of a bone or a material.
-    ///
-    /// ```
-    /// use tearmesh::Mix;
-    ///
-    /// assert_eq!(Mix::Between { ends: ["hip", "knee"], t: 0.75 }.nearest(), "knee");
-    /// assert_eq!(Mix::Weighted { of: [7, 8, 9], weights: [0.25, 0.5, 0.25] }.nearest(), 8);
-    /// ```
-    #[must_use]
-    pub fn nearest(self) -> I {
-        match self {
-            Mix::Copy(one) => one,
-            Mix::Between { ends: [a, b], t } => {
-                if t > 0.5 {
-                    b
-                } else {
-                    a
-                }
-            }
-            Mix::Weighted {
-                of: [a, b, c],
-                weights: [wa, wb, wc],
-            } => {
-                if wa >= wb && wa >= wc {
-                    a
-                } else if wb >= wc {
-                    b
-                } else {
-                    c
-                }
-            }
-        }
-    }
-}
 
 impl From<InsertLocation> for Mix<VertexId> {
     fn from(at: InsertLocation) -> Mix<VertexId> {
@@ -209,7 +130,7 @@ impl<'e> FaceFamily<'e> {
         let before = parent.map(|h| mix(Mix::Copy(h.of(values))));
         for child in self.children {
             for (corner, source) in child.face.half_edges().into_iter().zip(child.sources) {
-                let value = mix(source.in_parent(parent).map(|h| &before[h.corner()]));
+                let value = mix(source.map(|h| &before[h.corner()]));
                 if child.face == child.parent {
                     values[corner.index()] = value;
                 } else {
@@ -225,30 +146,6 @@ fn push_at<T>(place: usize, values: &mut Vec<T>, value: T) {
     values.push(value);
 }
 
-impl CornerSource {
-    /// The corners of the parent that a corner of a child lies between.
-    fn in_parent(self, parent: [HalfEdgeId; 3]) -> Mix<HalfEdgeId> {
-        match self {
-            CornerSource::Corner(h) => Mix::Copy(h),
-            CornerSource::Edge { ends, t } => Mix::Between { ends, t },
-            CornerSource::Face { weights } => Mix::Weighted {
-                of: parent,
-                weights,
-            },
-        }
-    }
-}
-
-impl ChildFace {
-    /// Returns, for each corner of this child, the corners of the parent that it lies between,
-    /// with their weights. The ids are those from before the insertion.
-    #[must_use]
-    pub fn corner_mixes(&self) -> [Mix<HalfEdgeId>; 3] {
-        let parent = self.parent.half_edges();
-        self.sources.map(|source| source.in_parent(parent))
-    }
-}
-
 /// A change to the vertices of corners and to a list that has one value for each corner. The
 /// operations of one edit must be applied in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -260,7 +157,7 @@ pub enum CornerOp<'e> {
         /// The vertex that the corners belong to after the edit.
         to: VertexId,
     },
-    /// Divides a face. See [`ChildFace::corner_mixes`] for the values of the new corners.
+    /// Divides a face. See [`ChildFace::sources`] for the values of the new corners.
     Divide(FaceFamily<'e>),
     /// Slides a vertex along an edge. A corner in [`Slide::along`] gets the value at the fraction `t` of
     /// the way to that of the other corner. A corner of the vertex that is not in it, but has the same

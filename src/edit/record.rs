@@ -1,6 +1,7 @@
 //! The records of the log: what each split, insertion, merge and slide did.
 
 use super::cursor::{Cursor, RunningHash};
+use super::mix::Mix;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A record of one change of a mesh.
@@ -183,33 +184,13 @@ pub struct ChildFace {
     pub face: FaceId,
     /// The vertices of the child, in the order of its half-edges.
     pub vertices: [VertexId; 3],
-    /// The locations of the child's corners in the parent, in the order of `vertices`.
-    pub sources: [CornerSource; 3],
+    /// The corners of the parent that each corner of the child lies between, in the order of `vertices`,
+    /// with their ids from before the insertion: a corner itself, the ends of an edge (both faces of which
+    /// use the same fraction and the same direction), or all three.
+    pub sources: [Mix<HalfEdgeId>; 3],
     /// The fraction of the parent's area that the child covers. The shares of all children of a
     /// parent add up to one, up to rounding.
     pub share: f64,
-}
-
-/// The location of a child's corner in its parent. Half-edges stand for the corners of the parent,
-/// with their ids from before the insertion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum CornerSource {
-    /// The corner coincides with this corner of the parent.
-    Corner(HalfEdgeId),
-    /// The corner lies on an edge of the parent, at `ends[0] + t (ends[1] − ends[0])`. Both faces
-    /// of the edge use the same `t` and the same direction.
-    Edge {
-        /// The corners of the parent at the ends of the edge.
-        ends: [HalfEdgeId; 2],
-        /// The fraction of the way from `ends[0]` to `ends[1]`, strictly between 0 and 1.
-        t: f64,
-    },
-    /// The corner lies inside the parent.
-    Face {
-        /// The weights of the parent's corners, in the order of its half-edges. They are positive,
-        /// and their sum is one up to rounding.
-        weights: [f64; 3],
-    },
 }
 
 /// The record of a merge: two vertices that were split from the same one became one.

@@ -14,15 +14,15 @@
 //!   which no altitude is smaller than r (1 − r) of the parent's where r <= s, t <= 1 − r.
 
 use super::plan::PointId;
-use crate::edit::CornerSource;
+use crate::edit::Mix;
 use crate::exact::ROUNDING;
-use crate::id::{HalfEdgeId, VertexId};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A corner or a new point of a face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) vertex: VertexId,
-    pub(super) source: CornerSource,
+    pub(super) source: Mix<HalfEdgeId>,
     /// The point of the plan, for one on an edge.
     pub(super) point: Option<PointId>,
     /// The weights of the corners.
@@ -67,7 +67,7 @@ impl Retriangulation {
         let mut at = [0.0; 3];
         at[h.corner()] = 1.0;
         self.corners[h.corner()] = self.nodes.len();
-        self.outline(vertex, CornerSource::Corner(h), None, at);
+        self.outline(vertex, Mix::Copy(h), None, at);
     }
 
     /// Adds the next point on the edge `h` to the outline, at `t` from the origin of `h`
@@ -88,13 +88,13 @@ impl Retriangulation {
         let mut at = [0.0; 3];
         at[ends[0].corner()] = 1.0 - t;
         at[ends[1].corner()] = t;
-        self.outline(vertex, CornerSource::Edge { ends, t }, Some(point), at);
+        self.outline(vertex, Mix::Between { ends, t }, Some(point), at);
     }
 
     fn outline(
         &mut self,
         vertex: VertexId,
-        source: CornerSource,
+        source: Mix<HalfEdgeId>,
         point: Option<PointId>,
         at: [f64; 3],
     ) {
@@ -107,11 +107,14 @@ impl Retriangulation {
         self.ring = self.nodes.len();
     }
 
-    /// Adds a point inside, once the outline is complete.
-    pub(super) fn inside(&mut self, vertex: VertexId, weights: [f64; 3]) {
+    /// Adds a point inside the face, once the outline is complete.
+    pub(super) fn inside(&mut self, f: FaceId, vertex: VertexId, weights: [f64; 3]) {
         self.nodes.push(Node {
             vertex,
-            source: CornerSource::Face { weights },
+            source: Mix::Weighted {
+                of: f.half_edges(),
+                weights,
+            },
             point: None,
             at: weights,
         });

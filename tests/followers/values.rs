@@ -1,6 +1,6 @@
 //! Values beside a mesh, kept by reading what each kind of record says, and nothing derived from it.
 
-use tearmesh::{CornerSource, Edit, InsertLocation, VertexId};
+use tearmesh::{Edit, InsertLocation, Mix, VertexId};
 
 pub(crate) type Value = [f64; 2];
 
@@ -53,11 +53,11 @@ impl Values {
                         let of = |h: usize| before.corners[h];
                         let parent = child.parent.index();
                         self.corners[3 * face + i] = match child.sources[i] {
-                            CornerSource::Corner(h) => of(h.index()),
-                            CornerSource::Edge { ends: [a, b], t } => {
+                            Mix::Copy(h) => of(h.index()),
+                            Mix::Between { ends: [a, b], t } => {
                                 between(of(a.index()), of(b.index()), t)
                             }
-                            CornerSource::Face { weights } => {
+                            Mix::Weighted { weights, .. } => {
                                 weighted([0, 1, 2].map(|j| of(3 * parent + j)), weights)
                             }
                         };

@@ -12,7 +12,8 @@
 
 use super::planner::Planner;
 use super::trace::{Piece, Place, Site, Trace, is_closed};
-use crate::edit::{ChildFace, CornerSource};
+use crate::attribute::Blend;
+use crate::edit::{ChildFace, Mix};
 use crate::geometry::{Point, altitude, between, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -262,11 +263,9 @@ impl<'t> Trial<'t> {
     }
 
     fn altitude_of(&self, child: &ChildFace) -> f64 {
-        altitude(child.sources.map(|source| match source {
-            CornerSource::Corner(h) => self.corner(h),
-            CornerSource::Edge { ends: [a, b], t } => between(self.corner(a), self.corner(b), t),
-            CornerSource::Face { weights } => self.weighted(child.parent, weights),
-        }))
+        let corners = child.parent.half_edges().map(|h| self.corner(h));
+        let place = |source: Mix<HalfEdgeId>| Point::blend(source.map(|h| &corners[h.corner()]));
+        altitude(child.sources.map(place))
     }
 }
 

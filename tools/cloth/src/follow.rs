@@ -3,8 +3,8 @@
 
 use tearmesh::geometry::{Vector, between};
 use tearmesh::{
-    Blend, ChildFace, CornerSource, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Mix, Slide,
-    Split, VertexId, VertexOp,
+    Blend, ChildFace, Cursor, Edit, Follower, HalfEdgeId, Insert, Merge, Mix, Slide, Split,
+    VertexId, VertexOp,
 };
 
 use crate::constraint::{Constraint, ConstraintId, Constraints};
@@ -334,7 +334,7 @@ impl Cloth {
         let on = parent
             .into_iter()
             .find(|&h| sources.into_iter().all(|source| lies_on(source, h)));
-        let is_corner = |source: &CornerSource| matches!(source, CornerSource::Corner(_));
+        let is_corner = |source: &Mix<HalfEdgeId>| matches!(source, Mix::Copy(_));
         let by_length = |h: HalfEdgeId| {
             let constraint = self.system.model.stretch.get(self.stretch(h));
             constraint.stiffness_n_per_m * constraint.rest_length_m
@@ -372,11 +372,11 @@ impl Cloth {
 }
 
 /// Whether a corner of a child lies on this edge of its parent.
-pub(super) fn lies_on(source: &CornerSource, h: HalfEdgeId) -> bool {
+pub(super) fn lies_on(source: &Mix<HalfEdgeId>, h: HalfEdgeId) -> bool {
     match *source {
-        CornerSource::Corner(corner) => corner == h || corner == h.next(),
-        CornerSource::Edge { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),
-        CornerSource::Face { .. } => false,
+        Mix::Copy(corner) => corner == h || corner == h.next(),
+        Mix::Between { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),
+        Mix::Weighted { .. } => false,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::{Blend, ChildFace, CornerSource, HalfEdgeId, Insert, Slide, VertexId};
+use tearmesh::{Blend, ChildFace, HalfEdgeId, Insert, Mix, Slide, VertexId};
 
 use super::slots::Slots;
 use crate::document::Document;
@@ -164,19 +164,19 @@ impl<'d> Corners<'d> {
     /// have these.
     fn index(
         &mut self,
-        source: CornerSource,
+        source: Mix<HalfEdgeId>,
         before: [u32; 3],
         class: u32,
         which: usize,
         made: &mut BTreeMap<Between, u32>,
     ) -> u32 {
         let (between, weights) = match source {
-            CornerSource::Corner(h) => return before[h.corner()],
-            CornerSource::Edge { ends, t } => {
+            Mix::Copy(h) => return before[h.corner()],
+            Mix::Between { ends, t } => {
                 let [a, b] = ends.map(|h| before[h.corner()]);
                 ([a, b, b], [1.0 - t, t, 0.0])
             }
-            CornerSource::Face { weights } => (before, weights),
+            Mix::Weighted { weights, .. } => (before, weights),
         };
         if between.contains(&NONE) {
             return NONE;
@@ -264,7 +264,7 @@ fn original(family: &[ChildFace], class: impl Fn(VertexId) -> u32) -> [u32; 3] {
     let mut corners = [NONE; 3];
     for child in family {
         for (source, &vertex) in child.sources.iter().zip(&child.vertices) {
-            if let CornerSource::Corner(h) = source {
+            if let Mix::Copy(h) = source {
                 corners[h.corner()] = class(vertex);
             }
         }
