@@ -39,6 +39,7 @@ use crate::mesh::Mesh;
 use crate::place::Positions;
 use exact::layers;
 use measure::Survey;
+use offsets::Offsets;
 use outcome::Outcome;
 use paper::Form;
 use strip::Strip;
@@ -67,19 +68,19 @@ use way::Way;
 /// one ended.
 ///
 /// ```
-/// use tearmesh::{shapes, Cut, CutMethod, Edits, Point, Ray, Scissor, Vector};
+/// use tearmesh::{shapes, CutMethod, Edits, Point, Ray, Scissor, Vector};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(8, 8);
 /// let mouse = |x: f64, y: f64| Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
-/// let (mut edits, mut cut) = (Edits::new(), Cut::default());
+/// let mut edits = Edits::new();
 /// let mut scissor = Scissor::new(mouse(0.2, 0.3)?, mouse(0.4, 0.35)?)?;
 /// for to in [mouse(0.6, 0.5)?, mouse(0.7, 0.7)?] {
-///     scissor.cut_into(CutMethod::Exact, &mut mesh, &mut positions, &mut edits, &mut cut)?;
+///     let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
 ///     let [_, end] = cut.ends().expect("there are rays");
 ///     scissor = Scissor::continued(end, to, &positions)?;
 ///     edits.clear(); // whatever follows has followed
 /// }
-/// scissor.cut_into(CutMethod::Exact, &mut mesh, &mut positions, &mut edits, &mut cut)?;
+/// scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
 /// assert_eq!(mesh.boundary_loops().len(), 2); // the sheet's, and that of one slit
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -347,28 +348,9 @@ impl Scissor {
         positions: &mut Positions,
         edits: &mut Edits,
     ) -> Result<Cut, CutError> {
-        let mut cut = Cut::default();
-        self.cut_into(method, mesh, positions, edits, &mut cut)?;
-        Ok(cut)
-    }
-
-    /// Cuts a mesh like [`Scissor::cut`], but writes the result to an existing [`Cut`] and reuses
-    /// its memory. Use it for many cuts of one mesh.
-    ///
-    /// # Errors
-    ///
-    /// [`CutError`] gives the reason for a refusal. Nothing has changed then, including `cut`.
-    pub fn cut_into(
-        &self,
-        method: CutMethod,
-        mesh: &mut Mesh,
-        positions: &mut Positions,
-        edits: &mut Edits,
-        cut: &mut Cut,
-    ) -> Result<(), CutError> {
         self.in_step(mesh, positions, edits)?;
-        self.make(method, mesh, positions, edits, cut, false);
-        Ok(())
+        let (cut, _) = self.make(method, mesh, positions, edits, false);
+        Ok(cut)
     }
 
     /// Cuts a mesh like [`Scissor::cut`], and also measures the result. Measuring visits the whole
@@ -389,8 +371,7 @@ impl Scissor {
         edits: &mut Edits,
     ) -> Result<(Cut, CutReport), CutError> {
         self.in_step(mesh, positions, edits)?;
-        let mut cut = Cut::default();
-        let report = self.make(method, mesh, positions, edits, &mut cut, true);
+        let (cut, report) = self.make(method, mesh, positions, edits, true);
         Ok((cut, report.expect("a report that is asked for is made")))
     }
 
@@ -401,13 +382,11 @@ impl Scissor {
         mesh: &mut Mesh,
         positions: &mut Positions,
         edits: &mut Edits,
-        cut: &mut Cut,
         is_measured: bool,
-    ) -> Option<CutReport> {
+    ) -> (Cut, Option<CutReport>) {
         let is_exact = method == CutMethod::Exact;
         let (vertices_before, first) = (mesh.vertex_count(), edits.cursor());
-        let Cut { offsets, .. } = cut;
-        offsets.measure(&self.strip.plane, is_exact, mesh, positions);
+        let offsets = &Offsets::new(&self.strip.plane, is_exact, mesh, positions);
         let joints = self.joints.each_ref().map(|end| match end {
             Some(end) if is_exact => end.vertices.clone(),
             _ => Vec::new(),
@@ -457,30 +436,22 @@ impl Scissor {
         };
         edits.replay(positions);
         let report = survey.map(|survey| survey.report(mesh, positions, &outcome, edits, first));
-        cut.hits = hits;
-        cut.lines
-            .collect(edits, first, mesh, vertices_before, &outcome.touched);
-        cut.tips.clear();
-        let lines = cut.lines.spans();
-        cut.tips.extend(lines.map(|lips| {
-            let ends = lips.first().zip(lips.last());
-            let ([begin, across_begin], [end, across_end]) = ends.expect("a line has an edge");
-            let [begin, end] = [
-                [mesh.origin(*begin), mesh.target(*across_begin)],
-                [mesh.target(*end), mesh.origin(*across_end)],
-            ];
-            [begin, end].map(|[one, other]| (one == other).then_some(one))
-        }));
-        cut.touched = outcome.touched;
-        cut.ends = self.rays.map(|rays| {
-            let mut vertices = outcome.ends.into_iter();
+        let lines = seam::lines(edits, first, mesh, vertices_before, &outcome.touched);
+        let mut ends = outcome.ends.into_iter();
+        let ends = self.rays.map(|rays| {
             rays.map(|ray| CutEnd {
                 ray,
-                vertices: vertices.next().unwrap_or_default(),
+                vertices: ends.next().unwrap_or_default(),
                 seen: edits.cursor(),
             })
         });
-        report
+        let cut = Cut {
+            touched: outcome.touched,
+            lines,
+            hits,
+            ends,
+        };
+        (cut, report)
     }
 
     /// Whether positions and ends have seen every edit, and the positions are those of this mesh.

@@ -2,9 +2,8 @@
 //! continue.
 
 use super::exact::layers::LayerHit;
-use super::offsets::Offsets;
 use super::outcome::{Sides, side_of};
-use super::seam::Lines;
+use super::seam::Line;
 use crate::edit::{Cursor, Edit, Follower};
 use crate::geometry::{Ray, Side};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -36,12 +35,9 @@ use crate::mesh::{Components, Mesh};
 #[derive(Clone, Debug, Default)]
 pub struct Cut {
     pub(super) touched: Sides,
-    pub(super) lines: Lines,
-    pub(super) tips: Vec<[Option<VertexId>; 2]>,
+    pub(super) lines: Vec<Line>,
     pub(super) hits: [Option<LayerHit>; 2],
     pub(super) ends: Option<[CutEnd; 2]>,
-    /// Kept for the next cut.
-    pub(super) offsets: Offsets,
 }
 
 impl Cut {
@@ -63,13 +59,15 @@ impl Cut {
     /// the seam ends or branches. Closed lines come last.
     #[must_use]
     pub fn seam(&self) -> impl ExactSizeIterator<Item = SeamLine<'_>> {
-        let lines = self.lines.spans().zip(&self.tips);
-        lines.map(|(lips, &tips)| SeamLine { lips, tips })
+        self.lines.iter().map(|line| SeamLine {
+            lips: &line.lips,
+            tips: line.tips,
+        })
     }
 
     /// Returns the vertices at which the seam ends inside the mesh, in the order of the lines.
     pub fn tips(&self) -> impl Iterator<Item = VertexId> {
-        self.tips.iter().flatten().flatten().copied()
+        self.lines.iter().flat_map(|line| line.tips).flatten()
     }
 
     /// Returns where each ray met a layer that was cut, or `None` for a ray that found no layer or a cut
@@ -93,7 +91,7 @@ impl Cut {
     pub fn pieces(&self, mesh: &Mesh) -> CutPieces {
         let components = mesh.components();
         let mut has = vec![[false; 2]; components.count()];
-        for &[front, back] in &self.lines.lips {
+        for [front, back] in self.lines.iter().flat_map(|line| line.lips.iter().copied()) {
             has[components.of(front.face())][0] = true;
             has[components.of(back.face())][1] = true;
         }

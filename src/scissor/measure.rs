@@ -10,7 +10,7 @@ use super::exact::{self, Trace, with_copies};
 use super::neck::{self, CutNeck};
 use super::outcome::{Outcome, side_of};
 use super::pieces::{Census, Pinch};
-use super::quality::{MARGIN, Quality, squares_of_sides};
+use super::quality::Quality;
 use super::seam::Nodes;
 use super::way::Way;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
@@ -90,8 +90,6 @@ pub(super) struct Survey<'w> {
     slit_length: f64,
     pinches: Vec<Pinch>,
     mean_edge: f64,
-    /// Of the faces that no cut changes: those far from the plane.
-    quality_far_away: Quality,
     /// What is known before the cut.
     report: CutReport,
 }
@@ -108,14 +106,12 @@ impl<'w> Survey<'w> {
         let joints = way.joints.iter().flatten();
         touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
         let census = Census::new(mesh, &touched);
-        let (mean_edge, quality_far_away) = edges_and_far_faces(mesh, positions, &census);
         let mut survey = Survey {
             way,
             slit: Vec::new(),
             slit_length: 0.0,
             pinches: Vec::new(),
-            mean_edge,
-            quality_far_away,
+            mean_edge: mean_edge(mesh, positions),
             report: CutReport {
                 pieces_before: census.before(mesh),
                 nearest_vertex: nearest_vertex(way, mesh, positions),
@@ -261,13 +257,7 @@ impl<'w> Survey<'w> {
         let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
         let mut ends: Vec<VertexId> = Vec::new();
         let (pieces, expected) = (self.census.after(mesh), self.report.pieces_expected);
-        let mut quality = self.quality_far_away.clone();
-        for f in self.census.near_now(mesh) {
-            let corners = mesh.face_vertices(f).map(|v| positions.at(v));
-            if !quality.is_surely_better(squares_of_sides(corners)) {
-                quality.add(corners);
-            }
-        }
+        let quality = Quality::of(mesh, positions);
         let mut splits = 0;
         let mut vertices_inserted = 0;
         let mut seam_length = 0.0;
@@ -315,8 +305,8 @@ impl<'w> Survey<'w> {
             seam_deviation_max,
             seam_deviation_max_edges: ratio(seam_deviation_max, self.mean_edge),
             vertices_inserted,
-            angle_min_deg: quality.angle_min_deg(),
-            altitude_min: quality.altitude_min(),
+            angle_min_deg: quality.angle_min_deg,
+            altitude_min: quality.altitude_min,
             missed: self.slit.is_empty(),
             tip_overshoots: self.overshoots(mesh, positions, ends),
             ..self.report.clone()
@@ -398,46 +388,29 @@ fn ends_of(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> [Point; 2] {
     [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v))
 }
 
-/// The mean length of the edges, and the worst of the faces that the cut is far from.
-fn edges_and_far_faces(mesh: &Mesh, positions: &Positions, census: &Census) -> (f64, Quality) {
+/// The mean length of the edges.
+fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
     let (mut sum, mut count) = (0.0, 0u32);
-    let mut quality = Quality::OF_NOTHING;
-    let places = positions.as_slice();
-    for (f, triangle) in mesh.faces().zip(mesh.indices().as_chunks::<3>().0) {
-        let corners = || triangle.map(|v| places[v as usize]);
-        let squares = squares_of_sides(corners());
-        let [ab, bc, ca] = f.half_edges().map(|h| mesh.is_edge(h));
-        count += u32::from(ab) + u32::from(bc) + u32::from(ca);
-        for (is_edge, square) in [(ab, squares[0]), (bc, squares[1]), (ca, squares[2])] {
-            if is_edge {
-                sum += square.sqrt();
-            }
-        }
-        if !census.is_near(f) && !quality.is_surely_better(squares) {
-            quality.add(corners());
-        }
+    for h in mesh.edges() {
+        let [p, q] = ends_of(mesh, positions, h);
+        sum += length(q - p);
+        count += 1;
     }
-    (sum / f64::from(count.max(1)), quality)
+    sum / f64::from(count.max(1))
 }
 
 /// How far the vertex nearest to the slit is from it.
 fn nearest_vertex(way: &Way<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
-    let plane = way.strip.plane;
-    let mut least = f64::INFINITY;
-    // Beyond this the distance from the plane is more than the least.
-    let mut offset_max = f64::INFINITY;
-    for (v, offset) in mesh.vertices().zip(way.offsets.all()) {
-        if offset.abs() > offset_max || mesh.half_edge_of(v).is_none() {
-            continue;
-        }
+    let bounds = way.strip.bounds();
+    let with_faces = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
+    let distances = with_faces.map(|v| {
         let p = positions.at(v);
-        let off = plane.distance(p);
-        let outside = way
-            .strip
-            .bounds()
-            .map_or(0.0, |[a, b]| (-a.distance(p)).max(-b.distance(p)).max(0.0));
-        least = least.min((off * off + outside * outside).sqrt());
-        offset_max = least * plane.offset_of_unit() * (1.0 + MARGIN);
-    }
-    least
+        let off = way.strip.plane.distance(p);
+        let outside = bounds.map_or(0.0, |sides| {
+            let [a, b] = sides.map(|side| -side.distance(p));
+            a.max(b).max(0.0)
+        });
+        (off * off + outside * outside).sqrt()
+    });
+    distances.fold(f64::INFINITY, f64::min)
 }

@@ -6,14 +6,9 @@ use crate::id::{FaceId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
-/// For each vertex a number with the sign of its signed distance from the plane. Reused from cut to
-/// cut, so that a second one asks for no memory.
-#[derive(Clone, Debug, Default)]
+/// For each vertex a number with the sign of its signed distance from the plane.
 pub(super) struct Offsets {
     of: Vec<f64>,
-    /// By vertex, whether it is behind the plane and whether it is in front: an eighth of the
-    /// offsets, so that what is looked up for every corner fits the cache.
-    sides: Vec<u8>,
     touched: Vec<FaceId>,
     /// What rounding alone explains of a distance.
     bound: f64,
@@ -23,34 +18,32 @@ pub(super) struct Offsets {
 
 impl Offsets {
     /// Measures all vertices. If `rounded`, what rounding cannot vouch for is zero.
-    pub(super) fn measure(
-        &mut self,
-        plane: &Plane,
-        rounded: bool,
-        mesh: &Mesh,
-        positions: &Positions,
-    ) {
+    pub(super) fn new(plane: &Plane, rounded: bool, mesh: &Mesh, positions: &Positions) -> Offsets {
         let mut reach = max_abs(plane.point().coords);
         let offset = |&p: &Point| {
             reach = reach.max(max_abs(p.coords));
             plane.offset(p)
         };
-        self.of.clear();
-        self.of.extend(positions.as_slice().iter().map(offset));
-        self.bound = ROUNDING * reach;
-        self.zero = if rounded { self.bound } else { 0.0 };
-        let side = |&d: &f64| u8::from(d < -self.zero) | u8::from(d > self.zero) << 1;
-        self.sides.clear();
-        self.sides.extend(self.of.iter().map(side));
+        let of: Vec<f64> = positions.as_slice().iter().map(offset).collect();
+        let bound = ROUNDING * reach;
+        let zero = if rounded { bound } else { 0.0 };
+        // By vertex, whether it is behind the plane and whether it is in front: an eighth of the
+        // offsets, so that what is looked up for every corner fits the cache.
+        let side = |&d: &f64| u8::from(d < -zero) | u8::from(d > zero) << 1;
+        let sides: Vec<u8> = of.iter().map(side).collect();
         let corners = mesh.indices().as_chunks::<3>().0.iter();
         let touches = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|v| self.sides[v as usize]);
+            let [a, b, c] = triangle.map(|v| sides[v as usize]);
             a & b & c == 0
         };
         let faces = mesh.faces().zip(corners);
         let touched = faces.filter(|(_, triangle)| touches(triangle));
-        self.touched.clear();
-        self.touched.extend(touched.map(|(f, _)| f));
+        Offsets {
+            touched: touched.map(|(f, _)| f).collect(),
+            of,
+            bound,
+            zero,
+        }
     }
 
     pub(super) fn bound(&self) -> f64 {
@@ -70,11 +63,6 @@ impl Offsets {
         } else {
             offset
         }
-    }
-
-    /// The offset of each vertex, also where rounding cannot vouch for its sign.
-    pub(super) fn all(&self) -> &[f64] {
-        &self.of
     }
 
     /// Whether a face has vertices strictly on both sides of the plane.

@@ -86,18 +86,13 @@ impl Census {
     pub(super) fn round(&self, mesh: &Mesh, met: &[FaceId]) -> Vec<FaceId> {
         let is_marked = corners(mesh, met);
         let is_round = |&f: &FaceId| mesh.face_vertices(f).iter().any(|v| is_marked[v.index()]);
-        self.near_now(mesh).filter(is_round).collect()
-    }
-
-    /// Whether a cut may change a face, or vertices of it.
-    pub(super) fn is_near(&self, f: FaceId) -> bool {
-        self.part[f.index()] >= self.parts
-    }
-
-    /// The faces near the plane, and those made since the census; ascending.
-    pub(super) fn near_now(&self, mesh: &Mesh) -> impl Iterator<Item = FaceId> {
         let made = (self.part.len()..mesh.face_count()).filter_map(FaceId::new);
-        self.near.iter().copied().chain(made)
+        self.near
+            .iter()
+            .copied()
+            .chain(made)
+            .filter(is_round)
+            .collect()
     }
 
     /// The pieces of the mesh as it was looked at.

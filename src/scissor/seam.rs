@@ -45,95 +45,86 @@ impl Nodes {
     }
 }
 
-/// Lines of edges that follow one another.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Lines {
+/// A line of edges that follow one another.
+#[derive(Clone, Debug)]
+pub(super) struct Line {
     pub(super) lips: Vec<[HalfEdgeId; 2]>,
-    /// Where each line ends.
-    pub(super) ends: Vec<usize>,
+    /// Where it ends, as far as both lips do there.
+    pub(super) tips: [Option<VertexId>; 2],
 }
 
-impl Lines {
-    /// The edges of each line.
-    pub(super) fn spans(&self) -> impl ExactSizeIterator<Item = &[[HalfEdgeId; 2]]> {
-        let mut start = 0;
-        self.ends.iter().map(move |&end| {
-            let line = &self.lips[start..end];
-            start = end;
-            line
-        })
+/// What a cut tore. `sides` are those of the faces along it.
+pub(super) fn lines(
+    edits: &Edits,
+    first_edit: Cursor,
+    mesh: &Mesh,
+    vertices_before: usize,
+    sides: &[(FaceId, Option<Side>)],
+) -> Vec<Line> {
+    let nodes = Nodes::new(edits, first_edit, vertices_before);
+    let splits = edits.since(first_edit).filter_map(|edit| match edit {
+        Edit::Split(split) => Some(split),
+        Edit::Insert(_) | Edit::Merge(_) | Edit::Slide(_) => None,
+    });
+    let torn = splits.flat_map(|split| split.torn);
+    let mut edges: Vec<[HalfEdgeId; 2]> = torn.map(|link| [link.stayed, link.moved]).collect();
+    edges.sort_unstable();
+    let mut at: Vec<(VertexId, usize)> = Vec::new();
+    for (i, &[h, _]) in edges.iter().enumerate() {
+        at.extend(nodes.of_edge(mesh, h).map(|node| (node, i)));
     }
-
-    /// Collects what a cut tore.
-    pub(super) fn collect(
-        &mut self,
-        edits: &Edits,
-        first_edit: Cursor,
-        mesh: &Mesh,
-        vertices_before: usize,
-        sides: &[(FaceId, Option<Side>)],
-    ) {
-        self.lips.clear();
-        self.ends.clear();
-        let nodes = Nodes::new(edits, first_edit, vertices_before);
-        let splits = edits.since(first_edit).filter_map(|edit| match edit {
-            Edit::Split(split) => Some(split),
-            Edit::Insert(_) | Edit::Merge(_) | Edit::Slide(_) => None,
-        });
-        let torn = splits.flat_map(|split| split.torn);
-        let mut edges: Vec<[HalfEdgeId; 2]> = torn.map(|link| [link.stayed, link.moved]).collect();
-        edges.sort_unstable();
-        let mut at: Vec<(VertexId, usize)> = Vec::new();
+    at.sort_unstable();
+    // Three are as good as all: only two go on.
+    let edges_at = |node: VertexId| {
+        let first = at.partition_point(|&(other, _)| other < node);
+        let of_node = at[first..].iter().take_while(|&&(other, _)| other == node);
+        &at[first..first + of_node.take(3).count()]
+    };
+    let mut done = vec![false; edges.len()];
+    let mut follow = |mut node: VertexId, mut i: usize| {
+        let mut lips = Vec::new();
+        // The half-edges that run along a line are all on its left.
+        while !std::mem::replace(&mut done[i], true) {
+            let [one, other] = edges[i];
+            let [from, to] = nodes.of_edge(mesh, one);
+            let is_along = from == node;
+            lips.push(if is_along { [one, other] } else { [other, one] });
+            node = if is_along { to } else { from };
+            match edges_at(node) {
+                &[(_, a), (_, b)] => i = if a == i { b } else { a },
+                _ => break,
+            }
+        }
+        lips
+    };
+    let is_turned = |&[left, right]: &[HalfEdgeId; 2]| {
+        let sides = [left, right].map(|h| side_of(sides, h.face()));
+        let is_turned = sides[0] == Some(Side::Back) || sides[1] == Some(Side::Front);
+        (sides[0] != sides[1]).then_some(is_turned)
+    };
+    let mut lines = Vec::new();
+    // What is left when all lines with ends have been followed goes round.
+    for goes_round in [false, true] {
         for (i, &[h, _]) in edges.iter().enumerate() {
-            at.extend(nodes.of_edge(mesh, h).map(|node| (node, i)));
-        }
-        at.sort_unstable();
-        // Three are as good as all: only two go on.
-        let edges_at = |node: VertexId| {
-            let first = at.partition_point(|&(other, _)| other < node);
-            let of_node = at[first..].iter().take_while(|&&(other, _)| other == node);
-            &at[first..first + of_node.take(3).count()]
-        };
-        let mut done = vec![false; edges.len()];
-        let mut follow = |lips: &mut Vec<[HalfEdgeId; 2]>, mut node: VertexId, mut i: usize| {
-            // The half-edges that run along a line are all on its left.
-            while !std::mem::replace(&mut done[i], true) {
-                let [one, other] = edges[i];
-                let [from, to] = nodes.of_edge(mesh, one);
-                let is_along = from == node;
-                lips.push(if is_along { [one, other] } else { [other, one] });
-                node = if is_along { to } else { from };
-                match edges_at(node) {
-                    &[(_, a), (_, b)] => i = if a == i { b } else { a },
-                    _ => break,
+            for node in nodes.of_edge(mesh, h) {
+                if !goes_round && edges_at(node).len() == 2 {
+                    continue;
                 }
-            }
-        };
-        // What is left when all lines with ends have been followed goes round.
-        for goes_round in [false, true] {
-            for (i, &[h, _]) in edges.iter().enumerate() {
-                for node in nodes.of_edge(mesh, h) {
-                    if !goes_round && edges_at(node).len() == 2 {
-                        continue;
-                    }
-                    let start = self.lips.len();
-                    follow(&mut self.lips, node, i);
-                    let line = &mut self.lips[start..];
-                    let is_turned = |&[left, right]: &[HalfEdgeId; 2]| {
-                        let sides = [left, right].map(|h| side_of(sides, h.face()));
-                        (sides[0] != sides[1]).then_some(
-                            sides[0] == Some(Side::Back) || sides[1] == Some(Side::Front),
-                        )
-                    };
-                    if line.iter().find_map(is_turned) == Some(true) {
-                        line.reverse();
-                        line.iter_mut().for_each(|lips| lips.reverse());
-                    }
-                    if !line.is_empty() {
-                        self.ends.push(self.lips.len());
-                    }
+                let mut lips = follow(node, i);
+                if lips.iter().find_map(is_turned) == Some(true) {
+                    lips.reverse();
+                    lips.iter_mut().for_each(|lips| lips.reverse());
+                }
+                if let (Some(begin), Some(end)) = (lips.first(), lips.last()) {
+                    let ends = [
+                        [mesh.origin(begin[0]), mesh.target(begin[1])],
+                        [mesh.target(end[0]), mesh.origin(end[1])],
+                    ];
+                    let tips = ends.map(|[one, other]| (one == other).then_some(one));
+                    lines.push(Line { lips, tips });
                 }
             }
         }
     }
+    lines
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use tearmesh::{Cut, CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
+use tearmesh::{CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
 use tearmesh_obj::{Document, TornDocument};
 
 use crate::harness::Folder;
@@ -166,7 +166,7 @@ fn a_slit_led_in_a_hundred_calls_is_one_polyline() {
     let mut mesh = document.mesh().expect("a mesh");
     let mut positions = Positions::new(document.positions().iter().copied()).expect("finite");
     let mut torn = TornDocument::new(&document);
-    let (mut edits, mut cut) = (Edits::new(), Cut::default());
+    let mut edits = Edits::new();
     let mut end = None;
     for two in places.windows(2) {
         let [from, to] = [two[0], two[1]].map(|[x, y]| {
@@ -177,14 +177,8 @@ fn a_slit_led_in_a_hundred_calls_is_one_polyline() {
             None => Scissor::new(from, to),
         };
         let scissor = scissor.expect("a plane");
-        let made = scissor.cut_into(
-            CutMethod::Exact,
-            &mut mesh,
-            &mut positions,
-            &mut edits,
-            &mut cut,
-        );
-        made.expect("in step");
+        let made = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+        let cut = made.expect("in step");
         edits.replay(&mut torn);
         edits.clear();
         torn.next_cut();

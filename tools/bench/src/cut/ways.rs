@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use tearmesh::{Cut, CutMethod, Edits, Scissor};
+use tearmesh::{CutMethod, Edits, Scissor};
 
 use crate::irregular::{self, Sheet};
 use crate::measure::timed_on_cpu;
@@ -86,15 +86,15 @@ pub(super) fn time(
         mesh.reserve_faces(room);
         positions.reserve(room);
     }
-    let mut lent = Cut::default();
     if form == Form::Second {
         let before = irregular::through([0.31, 0.62], 0.4).snap(Scissor::SNAP);
-        let made = before.cut_into(method, &mut mesh, &mut positions, &mut edits, &mut lent);
+        let made = before.cut(method, &mut mesh, &mut positions, &mut edits);
         made.expect("positions are in step");
     }
     let (result, time) = timed_on_cpu(|| match form {
         Form::First | Form::Room | Form::Second => {
-            scissor.cut_into(method, &mut mesh, &mut positions, &mut edits, &mut lent)
+            let made = scissor.cut(method, &mut mesh, &mut positions, &mut edits);
+            made.map(drop)
         }
         Form::Report => {
             let made = scissor.cut_measured(method, &mut mesh, &mut positions, &mut edits);
