@@ -29,19 +29,3 @@ pub(crate) fn side(mesh: &Mesh, f: FaceId, offset: impl Fn(VertexId) -> f64) -> 
     let [a, b, c] = corners.map(offset);
     Side::of(a + b + c)
 }
-
-/// Returns the faces of a vertex, each with its side of the plane, in the order of
-/// [`Mesh::corners_of`]. The two sides are the two sets of faces of Souza et al. 2014 §IV-B.
-///
-/// # Panics
-///
-/// If `v` is not in this mesh (I2), or `place` does not store the positions of its neighbours.
-pub fn faces_of<'m, P: Place + ?Sized>(
-    mesh: &'m Mesh,
-    v: VertexId,
-    plane: &'m Plane,
-    place: &'m P,
-) -> impl Iterator<Item = (FaceId, Side)> + 'm {
-    mesh.faces_of(v)
-        .map(move |f| (f, face(mesh, f, plane, place)))
-}

@@ -138,15 +138,6 @@ impl Plane {
         debug_assert!(check_point(point).is_ok());
         Plane { point, ..*self }
     }
-
-    /// Returns this plane with its normal reversed.
-    #[must_use]
-    pub fn flipped(&self) -> Plane {
-        Plane {
-            normal: -self.normal,
-            ..*self
-        }
-    }
 }
 
 /// The reason why a plane was refused.

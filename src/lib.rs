@@ -130,7 +130,7 @@ pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
 pub use mesh::{
-    BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fans, Invariant, Mesh, TornError,
+    BuildError, Components, Defect, DerivedMesh, Faces, Fans, Invariant, Listed, Mesh, TornError,
     Violation,
 };
 /// The linear algebra crate that defines [`Point`] and [`Vector`], in the version used by this

@@ -29,10 +29,10 @@ mod walk;
 use std::iter::FusedIterator;
 
 pub use check::{Invariant, Violation};
-pub use defect::{BuildError, Defect, Faces, Fans};
+pub use defect::{BuildError, Defect, Faces, Fans, Listed};
 pub use pieces::DerivedMesh;
 pub use torn::TornError;
-pub use walk::{Components, Corners};
+pub use walk::Components;
 
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 

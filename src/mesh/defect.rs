@@ -153,12 +153,37 @@ pub enum Defect {
 }
 
 /// The faces of a [`Defect`], in ascending order. There is always at least one.
+pub type Faces = Listed<FaceId>;
+
+/// The fans that a [`Defect::BowTie`] lists. There are always at least two. The fan that contains
+/// the smallest face comes first.
+pub type Fans = Listed<Faces>;
+
+/// What a [`Defect`] lists, which is never nothing.
 ///
 /// A list of a [`BuildError`] that has more than [`Faces::LISTED_MAX`] holds the first ones and the last.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Faces {
-    listed: Vec<FaceId>,
+pub struct Listed<T> {
+    listed: Vec<T>,
     count: usize,
+}
+
+impl<T> Listed<T> {
+    fn of(all: impl Iterator<Item = T>, count: usize, most: usize) -> Listed<T> {
+        let listed = all.enumerate();
+        let listed = listed.filter(|&(i, _)| is_listed(i, count, most));
+        Listed {
+            listed: listed.map(|(_, one)| one).collect(),
+            count,
+        }
+    }
+
+    /// Returns the number of all, whether listed or not.
+    #[expect(clippy::len_without_is_empty, reason = "it is never empty")]
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.count
+    }
 }
 
 impl Faces {
@@ -166,24 +191,9 @@ impl Faces {
     pub const LISTED_MAX: usize = 100;
 
     /// The faces of half-edges, at most `most` of them.
-    pub(super) fn of(half_edges: &[u32], most: usize) -> Faces {
-        let count = half_edges.len();
-        let listed = half_edges.iter().enumerate();
-        let listed = listed.filter(|&(i, _)| is_listed(i, count, most));
-        Faces {
-            listed: listed.map(|(_, h)| FaceId::from_u32(h / 3)).collect(),
-            count,
-        }
-    }
-
-    /// Returns the number of all faces, whether listed or not.
-    #[expect(
-        clippy::len_without_is_empty,
-        reason = "a list of faces is never empty"
-    )]
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.count
+    pub(super) fn of_half_edges(half_edges: &[u32], most: usize) -> Faces {
+        let faces = half_edges.iter().map(|h| FaceId::from_u32(h / 3));
+        Listed::of(faces, half_edges.len(), most)
     }
 
     /// Returns an iterator over the faces that are listed.
@@ -199,36 +209,14 @@ impl Faces {
     }
 }
 
-/// The fans that a [`Defect::BowTie`] lists. There are always at least two. The fan that contains
-/// the smallest face comes first.
-///
-/// A list of a [`BuildError`] that has more than [`Faces::LISTED_MAX`] holds the first ones and the last.
-#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Fans {
-    listed: Vec<Faces>,
-    count: usize,
-}
-
 impl Fans {
     /// The fans of corners, at most `most` of them and of the faces of each.
-    pub(super) fn of<'c>(fans: impl Iterator<Item = &'c [u32]> + Clone, most: usize) -> Fans {
+    pub(super) fn of_corners<'c>(
+        fans: impl Iterator<Item = &'c [u32]> + Clone,
+        most: usize,
+    ) -> Fans {
         let count = fans.clone().count();
-        let listed = fans.enumerate();
-        let listed = listed.filter(|&(i, _)| is_listed(i, count, most));
-        Fans {
-            listed: listed.map(|(_, fan)| Faces::of(fan, most)).collect(),
-            count,
-        }
-    }
-
-    /// Returns the number of all fans, whether listed or not.
-    #[expect(
-        clippy::len_without_is_empty,
-        reason = "a bow-tie has two fans or more"
-    )]
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.count
+        Listed::of(fans.map(|fan| Faces::of_half_edges(fan, most)), count, most)
     }
 
     /// Returns an iterator over the fans that are listed, each given as its faces.
@@ -264,15 +252,9 @@ impl fmt::Display for BuildError {
 
 impl std::error::Error for BuildError {}
 
-impl fmt::Debug for Faces {
+impl<T: fmt::Debug> fmt::Debug for Listed<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.iter()).finish()
-    }
-}
-
-impl fmt::Debug for Fans {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.iter()).finish()
+        self.listed.fmt(f)
     }
 }
 

@@ -188,7 +188,7 @@ impl Soup<'_> {
                     faces: [h, g].map(|h| FaceId::from_u32(h / 3)),
                 }),
                 _ => {
-                    let faces = Faces::of(group, self.listed);
+                    let faces = Faces::of_half_edges(group, self.listed);
                     visit(Defect::DuplicateFaces { vertices, faces });
                 }
             }
@@ -206,7 +206,7 @@ impl Soup<'_> {
                 faces: [one, other].map(|h| FaceId::from_u32(h / 3)),
             }),
             _ => {
-                let faces = Faces::of(along, self.listed);
+                let faces = Faces::of_half_edges(along, self.listed);
                 visit(Defect::CrowdedEdge { ends, faces });
             }
         }
@@ -234,7 +234,7 @@ impl Soup<'_> {
         let vertex = VertexId::from_u32(self.origin(around[0]));
         around.sort_unstable_by_key(|&h| (fan(h), h));
         let fans = around.chunk_by(|&h, &g| fan(h) == fan(g));
-        let fans = Fans::of(fans, self.listed);
+        let fans = Fans::of_corners(fans, self.listed);
         visit(Defect::BowTie { vertex, fans });
     }
 }
