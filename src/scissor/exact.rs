@@ -43,7 +43,7 @@ use crate::insert::{InsertRefusal, Plan};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use label::Patches;
-use planner::{Chain, Planner};
+use planner::Planner;
 pub(super) use trace::Trace;
 use trace::{Place, Site};
 
@@ -231,17 +231,14 @@ impl Slit {
         let mut tips: [Vec<VertexId>; 2] = Default::default();
         let mut off_plane = Vec::new();
         for piece in &trace.pieces {
-            let Chain { from, middle, to } = planner.piece(trace, mesh, piece);
+            let chain = planner.piece(trace, mesh, piece);
             if piece.inset > 0.0 {
-                off_plane.extend([from, to].into_iter().chain(middle));
+                off_plane.extend(&chain);
             }
-            match middle {
-                Some(middle) => edges.extend([[from, middle], [middle, to]]),
-                None => edges.push([from, to]),
-            }
-            for (end, v) in piece.tips.into_iter().zip([from, to]) {
+            edges.extend(chain.array_windows::<2>());
+            for (end, v) in piece.tips.into_iter().zip([chain.first(), chain.last()]) {
                 if let Some(side) = end {
-                    tips[side].push(v);
+                    tips[side].extend(v);
                 }
             }
         }

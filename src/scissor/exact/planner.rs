@@ -81,8 +81,8 @@ impl Planner {
         }
     }
 
-    /// Plans the tips and the middle of a piece, and returns the vertices along it.
-    pub(super) fn piece(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece) -> Chain {
+    /// Plans the tips and the middle of a piece, and returns the two or three vertices along it.
+    pub(super) fn piece(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece) -> Vec<VertexId> {
         // The middle comes first: the first point in a face is joined to all of its outline.
         let middle = piece
             .middle
@@ -97,7 +97,10 @@ impl Planner {
             let chord = piece.nodes.map(end);
             self.plan.chord(f, chord);
         }
-        Chain { from, middle, to }
+        [Some(from), middle, Some(to)]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 
     fn end(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece, end: usize) -> VertexId {
@@ -123,13 +126,6 @@ impl Planner {
         }
         self.new_vertices(1)
     }
-}
-
-/// The vertices along a piece of the slit: two, or three.
-pub(super) struct Chain {
-    pub(super) from: VertexId,
-    pub(super) middle: Option<VertexId>,
-    pub(super) to: VertexId,
 }
 
 const COUNTED: &str = "I1: there are fewer vertices than half-edges";

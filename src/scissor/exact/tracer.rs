@@ -49,13 +49,6 @@ struct Node {
     depths: [f64; 2],
 }
 
-/// The part of a piece between the side planes.
-struct Span {
-    from: f64,
-    to: f64,
-    sides: [Option<usize>; 2],
-}
-
 /// A trace in the making.
 struct Tracer<'t> {
     way: &'t Way<'t>,
@@ -217,45 +210,48 @@ impl Tracer<'_> {
         Some([nodes.next()?, nodes.next()?])
     }
 
-    /// The part between the side planes of the piece from one node to the other.
+    /// The piece from one node to the other, as far as it is between the side planes.
     ///
     /// An end so near to a node that it is the node counts as one. Where nothing is left, the node
     /// at which a side plane ends the slit is returned with that plane.
-    fn span(&self, [one, other]: [Node; 2]) -> Result<Span, Option<(usize, Site)>> {
-        let mut span = Span {
+    fn piece(&self, place: Place, [one, other]: [Node; 2]) -> Result<Piece, Option<(usize, Site)>> {
+        let mut piece = Piece {
+            place,
+            nodes: [one.site, other.site],
             from: 0.0,
             to: 1.0,
-            sides: [None; 2],
+            tips: [None; 2],
+            middle: false,
+            inset: 0.0,
         };
         for side in 0..2 {
             let (start, end) = (one.depths[side], other.depths[side]);
             if start < 0.0 && end < 0.0 {
                 return Err(None);
             }
-            if start < 0.0 && start / (start - end) > span.from {
-                span.from = start / (start - end);
-                span.sides[0] = Some(side);
-            } else if end < 0.0 && start / (start - end) < span.to {
-                span.to = start / (start - end);
-                span.sides[1] = Some(side);
+            if start < 0.0 && start / (start - end) > piece.from {
+                piece.from = start / (start - end);
+                piece.tips[0] = Some(side);
+            } else if end < 0.0 && start / (start - end) < piece.to {
+                piece.to = start / (start - end);
+                piece.tips[1] = Some(side);
             }
         }
-        if span.to - span.from <= self.near {
+        if piece.to - piece.from <= self.near {
             let is_inside = |node: Node| node.depths.into_iter().all(|depth| depth >= 0.0);
-            let tip = match span.sides {
+            return Err(match piece.tips {
                 [None, Some(side)] if is_inside(one) => Some((side, one.site)),
                 [Some(side), None] if is_inside(other) => Some((side, other.site)),
                 _ => None,
-            };
-            return Err(tip);
+            });
         }
-        if span.from <= self.near {
-            span.from = 0.0;
+        if piece.from <= self.near {
+            piece.from = 0.0;
         }
-        if 1.0 - span.to <= self.near {
-            span.to = 1.0;
+        if 1.0 - piece.to <= self.near {
+            piece.to = 1.0;
         }
-        Ok(span)
+        Ok(piece)
     }
 
     /// Puts vertices on the plane that are near a crossing that the slit meets: nearer than
@@ -267,10 +263,8 @@ impl Tracer<'_> {
         let mut snapped = Vec::new();
         for &f in touched {
             let Some(nodes) = self.nodes(f) else { continue };
-            let at_node = match self.span(nodes) {
-                Ok(span) => [span.from == 0.0, span.to == 1.0],
-                Err(_) => [false; 2],
-            };
+            let piece = self.piece(Place::Face(f), nodes);
+            let at_node = piece.map_or([false; 2], |piece| piece.ends_at_nodes());
             for (node, at_node) in nodes.into_iter().zip(at_node) {
                 let inside = node.depths.into_iter().all(|depth| depth >= 0.0);
                 let is_met = at_node || inside || met.contains(&node.site);
@@ -332,12 +326,17 @@ impl Tracer<'_> {
     }
 
     fn trace(&self, touched: &[FaceId]) -> Trace {
-        let mut pieces = Vec::new();
-        let mut lone_tips = Vec::new();
+        let mut trace = Trace {
+            pieces: Vec::new(),
+            crossings: Vec::new(),
+            lone_tips: Vec::new(),
+            snapped: self.snapped.clone(),
+            near: self.near,
+        };
         let mut on_plane = Vec::new();
         for &f in touched {
             if let Some(nodes) = self.nodes(f) {
-                self.add(Place::Face(f), nodes, &mut pieces, &mut lone_tips);
+                self.add(&mut trace, Place::Face(f), nodes);
             }
             for h in f.half_edges() {
                 let ends = [self.mesh.origin(h), self.mesh.target(h)];
@@ -350,34 +349,21 @@ impl Tracer<'_> {
         }
         on_plane.sort_unstable();
         on_plane.dedup();
-        self.along_edges(&on_plane, &mut pieces, &mut lone_tips);
-        let nodes = pieces.iter().flat_map(|piece| piece.nodes);
-        let mut crossings: Vec<Crossing> = nodes
-            .filter_map(|site| match site {
-                Site::Edge(h) => Some(self.crossing(h)),
-                Site::Vertex(_) => None,
-            })
-            .collect();
-        crossings.sort_by_key(|crossing| crossing.half_edge);
-        crossings.dedup_by_key(|crossing| crossing.half_edge);
-        let mut trace = Trace {
-            pieces,
-            crossings,
-            lone_tips,
-            snapped: self.snapped.clone(),
-            near: self.near,
-        };
+        self.along_edges(&mut trace, &on_plane);
+        let nodes = trace.pieces.iter().flat_map(|piece| piece.nodes);
+        let crossings = nodes.filter_map(|site| match site {
+            Site::Edge(h) => Some(self.crossing(h)),
+            Site::Vertex(_) => None,
+        });
+        trace.crossings = crossings.collect();
+        trace.crossings.sort_by_key(|crossing| crossing.half_edge);
+        trace.crossings.dedup_by_key(|crossing| crossing.half_edge);
         trace.finish(self.mesh);
         trace
     }
 
     /// Adds the edges on the plane whose faces lie on different sides of it.
-    fn along_edges(
-        &self,
-        edges: &[HalfEdgeId],
-        pieces: &mut Vec<Piece>,
-        lone_tips: &mut Vec<(usize, Site)>,
-    ) {
+    fn along_edges(&self, trace: &mut Trace, edges: &[HalfEdgeId]) {
         let sign = |v: VertexId| self.sign(v);
         let offset = |v: VertexId| self.way.offsets.of(v);
         let faces = edges.iter().flat_map(|&h| {
@@ -399,28 +385,14 @@ impl Tracer<'_> {
             let forward = is_before(self.positions.at(a), self.positions.at(b));
             let ends = if forward { [a, b] } else { [b, a] };
             let nodes = ends.map(|v| self.vertex_node(v));
-            self.add(Place::Edge { h, forward }, nodes, pieces, lone_tips);
+            self.add(trace, Place::Edge { h, forward }, nodes);
         }
     }
 
-    fn add(
-        &self,
-        place: Place,
-        nodes: [Node; 2],
-        pieces: &mut Vec<Piece>,
-        lone_tips: &mut Vec<(usize, Site)>,
-    ) {
-        match self.span(nodes) {
-            Ok(Span { from, to, sides }) => pieces.push(Piece {
-                place,
-                nodes: nodes.map(|node| node.site),
-                from,
-                to,
-                tips: sides,
-                middle: false,
-                inset: 0.0,
-            }),
-            Err(tip) => lone_tips.extend(tip),
+    fn add(&self, trace: &mut Trace, place: Place, nodes: [Node; 2]) {
+        match self.piece(place, nodes) {
+            Ok(piece) => trace.pieces.push(piece),
+            Err(tip) => trace.lone_tips.extend(tip),
         }
     }
 }
