@@ -115,22 +115,20 @@ struct OnEdge {
 pub(crate) struct Work {
     placed: Vec<InsertedPoint>,
     children: Vec<ChildFace>,
-    touched: Vec<Touched>,
-    /// The half-edges along the edges of touched faces, after the insertion: edge by
-    /// edge, each in the direction of the face.
-    segments: Vec<HalfEdgeId>,
+    segments: Vec<Segment>,
     /// Half-edges of children of one parent that become pairs.
     inner: Vec<[HalfEdgeId; 2]>,
 }
 
-/// A face that is divided.
-#[derive(Clone, Copy)]
-struct Touched {
-    face: FaceId,
-    /// What each of its half-edges was linked to, and whether the link is torn.
-    links: [Option<(HalfEdgeId, bool)>; 3],
-    /// Where the segments of each edge begin, and the end of the last.
-    segments: [usize; 4],
+/// A half-edge along the edge of a divided face that is not on the boundary.
+struct Segment {
+    /// The smaller half-edge of the whole edge, and which part of it, counted along that.
+    edge: HalfEdgeId,
+    part: usize,
+    half_edge: HalfEdgeId,
+    /// What the whole edge was linked to here, and whether the link is torn.
+    opposite: HalfEdgeId,
+    torn: bool,
 }
 
 impl Work {
@@ -138,7 +136,6 @@ impl Work {
         let mut work = Work {
             placed: Vec::with_capacity(plan.points.len()),
             children: Vec::new(),
-            touched: Vec::new(),
             segments: Vec::new(),
             inner: Vec::new(),
         };
@@ -265,9 +262,7 @@ impl Work {
     /// Notes the children of a face, the half-edges that they have in common, and those along
     /// its edges.
     fn divide(&mut self, mesh: &Mesh, f: FaceId, face: &Retriangulation, next_face: &mut usize) {
-        let first = self.segments.len();
         let ring = face.ring().len();
-        self.segments.resize(first + ring, HalfEdgeId::from_u32(0));
         let mut open: Vec<([usize; 2], HalfEdgeId)> =
             Vec::with_capacity(3 * face.triangles().len());
         for (i, &triangle) in face.triangles().iter().enumerate() {
@@ -288,7 +283,7 @@ impl Work {
             for (corner, h) in id.half_edges().into_iter().enumerate() {
                 let (from, to) = (triangle[corner], triangle[(corner + 1) % 3]);
                 if from < ring && to == (from + 1) % ring {
-                    self.segments[first + from] = h;
+                    self.segments.extend(segment(mesh, f, face, from, h));
                 } else if let Some(i) = open.iter().position(|&(ends, _)| ends == [to, from]) {
                     self.inner.push([open.swap_remove(i).1, h]);
                 } else {
@@ -300,16 +295,6 @@ impl Work {
             open.is_empty(),
             "the children of a face cover it without a gap"
         );
-        let [a, b, c] = face.corners();
-        debug_assert_eq!(a, 0);
-        self.touched.push(Touched {
-            face: f,
-            links: f.half_edges().map(|h| {
-                let g = mesh.pair_or_ghost(h)?;
-                Some((g, mesh.ghost_pair(h).is_some()))
-            }),
-            segments: [first, first + b, first + c, first + ring],
-        });
     }
 
     /// The children of the faces that are to be divided.
@@ -318,8 +303,9 @@ impl Work {
     }
 
     /// Inserts the points.
-    pub(crate) fn carry_out<'e>(self, mesh: &mut Mesh, edits: &'e mut Edits) -> Insert<'e> {
+    pub(crate) fn carry_out<'e>(mut self, mesh: &mut Mesh, edits: &'e mut Edits) -> Insert<'e> {
         let size = mesh.size();
+        self.segments.sort_unstable_by_key(Segment::key);
         self.change(mesh);
         edits.note_insertion(self.placed, self.children);
         let insert = Insert {
@@ -348,38 +334,13 @@ impl Work {
         for &[h, g] in &self.inner {
             mesh.link(h, g, false);
         }
-        for touched in &self.touched {
-            for corner in 0..3 {
-                self.link_edge(mesh, touched, corner);
-            }
+        for of_part in self.segments.chunk_by(|a, b| a.key() == b.key()) {
+            let one = &of_part[0];
+            // A face across that is not divided has the half-edge that it had.
+            let across = of_part.get(1).map_or(one.opposite, |two| two.half_edge);
+            mesh.link(one.half_edge, across, one.torn);
         }
         self.find_half_edges(mesh);
-    }
-
-    /// Links what became of an edge of a divided face to what became of its other side.
-    fn link_edge(&self, mesh: &mut Mesh, touched: &Touched, corner: usize) {
-        let Some((opposite, torn)) = touched.links[corner] else {
-            return;
-        };
-        let segments = &self.segments[touched.segments[corner]..touched.segments[corner + 1]];
-        let across = self
-            .touched
-            .binary_search_by_key(&opposite.face(), |other| other.face);
-        match across {
-            Ok(other) => {
-                let other = &self.touched[other];
-                let at = opposite.corner();
-                let others = &self.segments[other.segments[at]..other.segments[at + 1]];
-                debug_assert_eq!(segments.len(), others.len(), "both sides have all points");
-                for (&h, &g) in segments.iter().zip(others.iter().rev()) {
-                    mesh.link(h, g, torn);
-                }
-            }
-            Err(_) => {
-                debug_assert_eq!(segments.len(), 1, "a point divides both faces of its edge");
-                mesh.link(segments[0], opposite, torn);
-            }
-        }
     }
 
     /// Gives every vertex of a divided face, and every new one, its smallest half-edge (I9).
@@ -419,6 +380,39 @@ impl Work {
             }
         }
     }
+}
+
+impl Segment {
+    fn key(&self) -> (HalfEdgeId, usize) {
+        (self.edge, self.part)
+    }
+}
+
+/// The half-edge that a child has along the outline of its parent, from this node on; none on the
+/// boundary.
+fn segment(
+    mesh: &Mesh,
+    f: FaceId,
+    face: &Retriangulation,
+    from: usize,
+    half_edge: HalfEdgeId,
+) -> Option<Segment> {
+    let [a, b, c] = face.corners();
+    let ends = [b, c, face.ring().len()];
+    let corner = ends.iter().position(|&end| from < end)?;
+    let whole = f.half_edges()[corner];
+    let opposite = mesh.pair_or_ghost(whole)?;
+    Some(Segment {
+        edge: whole.min(opposite),
+        part: if whole < opposite {
+            from - [a, b, c][corner]
+        } else {
+            ends[corner] - 1 - from
+        },
+        half_edge,
+        opposite,
+        torn: mesh.ghost_pair(whole).is_some(),
+    })
 }
 
 /// The corners of a face, and between them the points on its edges.

@@ -33,6 +33,7 @@ pub use defect::{BuildError, Defect, Faces, Fans, Listed};
 pub use pieces::DerivedMesh;
 pub use torn::TornError;
 pub use walk::Components;
+pub(crate) use walk::UNSEEN;
 
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 

@@ -170,29 +170,35 @@ impl Mesh {
     /// Allocates one number per face; linear.
     #[must_use]
     pub fn components(&self) -> Components {
-        let mut of_face = vec![u32::MAX; self.face_count()];
+        let mut of_face = vec![UNSEEN; self.face_count()];
+        let count = self.flood(&mut of_face) as usize;
+        Components { of_face, count }
+    }
+
+    /// Numbers the parts that hang together of the faces that are [`UNSEEN`], and returns how many there
+    /// are.
+    pub(crate) fn flood(&self, of_face: &mut [u32]) -> u32 {
         let mut count = 0;
         let mut stack = Vec::new();
         for seed in self.faces() {
-            if of_face[seed.index()] != u32::MAX {
+            if of_face[seed.index()] != UNSEEN {
                 continue;
             }
             of_face[seed.index()] = count;
             stack.push(seed);
             while let Some(face) = stack.pop() {
-                for neighbour in self.neighbours(face) {
-                    if of_face[neighbour.index()] == u32::MAX {
-                        of_face[neighbour.index()] = count;
-                        stack.push(neighbour);
+                for h in face.half_edges() {
+                    let Some(pair) = self.pair(h) else { continue };
+                    let of_neighbour = &mut of_face[pair.face().index()];
+                    if *of_neighbour == UNSEEN {
+                        *of_neighbour = count;
+                        stack.push(pair.face());
                     }
                 }
             }
             count += 1;
         }
-        Components {
-            of_face,
-            count: count as usize,
-        }
+        count
     }
 
     /// Returns the faces that share an untorn edge with a face: at most three.
@@ -258,6 +264,9 @@ impl<const GHOSTS: bool> Iterator for Orbit<'_, GHOSTS> {
 }
 
 impl<const GHOSTS: bool> FusedIterator for Orbit<'_, GHOSTS> {}
+
+/// Stands for a face that no part was found for yet: see [`Mesh::flood`].
+pub(crate) const UNSEEN: u32 = u32::MAX;
 
 /// The components of a mesh: see [`Mesh::components`].
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@
 
 use crate::geometry::Side;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, UNSEEN};
 use crate::sets::DisjointSets;
 
 /// The faces near the plane, and the parts of the rest that hang together.
@@ -35,8 +35,7 @@ pub(super) struct Pinch {
     pub(super) at: Vec<VertexId>,
 }
 
-const NEAR: u32 = u32::MAX;
-const UNSEEN: u32 = u32::MAX - 1;
+const NEAR: u32 = u32::MAX - 1;
 
 impl Census {
     /// Looks at a mesh that is to be cut where `touched` faces are. Linear.
@@ -55,26 +54,7 @@ impl Census {
         let near: Vec<FaceId> = mesh.faces().filter(|f| is_near[f.index()]).collect();
         let mark = |&is_near: &bool| if is_near { NEAR } else { UNSEEN };
         let mut part: Vec<u32> = is_near.iter().map(mark).collect();
-        let mut parts = 0;
-        let mut stack = Vec::new();
-        for seed in mesh.faces() {
-            if part[seed.index()] != UNSEEN {
-                continue;
-            }
-            part[seed.index()] = parts;
-            stack.push(seed);
-            while let Some(f) = stack.pop() {
-                for h in f.half_edges() {
-                    let Some(pair) = mesh.pair(h) else { continue };
-                    let of_neighbour = &mut part[pair.face().index()];
-                    if *of_neighbour == UNSEEN {
-                        *of_neighbour = parts;
-                        stack.push(pair.face());
-                    }
-                }
-            }
-            parts += 1;
-        }
+        let parts = mesh.flood(&mut part);
         for (f, node) in near.iter().zip(parts..) {
             part[f.index()] = node;
         }
