@@ -158,19 +158,9 @@ pub enum PlaneError {
 impl fmt::Display for PlaneError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            PlaneError::Point { given } => {
-                write!(
-                    f,
-                    "the point ({}) of a plane is not usable",
-                    list(given.coords)
-                )
-            }
+            PlaneError::Point { given } => refused(f, "point", given.coords, "plane is not usable"),
             PlaneError::Normal { given } => {
-                write!(
-                    f,
-                    "the normal ({}) of a plane is zero or not finite",
-                    list(*given)
-                )
+                refused(f, "normal", *given, "plane is zero or not finite")
             }
         }
     }
@@ -229,19 +219,9 @@ pub enum RayError {
 impl fmt::Display for RayError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            RayError::Origin { given } => {
-                write!(
-                    f,
-                    "the origin ({}) of a ray is not usable",
-                    list(given.coords)
-                )
-            }
+            RayError::Origin { given } => refused(f, "origin", given.coords, "ray is not usable"),
             RayError::Direction { given } => {
-                write!(
-                    f,
-                    "the direction ({}) of a ray is zero or not finite",
-                    list(*given)
-                )
+                refused(f, "direction", *given, "ray is zero or not finite")
             }
         }
     }
@@ -249,8 +229,8 @@ impl fmt::Display for RayError {
 
 impl std::error::Error for RayError {}
 
-fn list(v: Vector) -> String {
-    format!("{}, {}, {}", v.x, v.y, v.z)
+fn refused(f: &mut fmt::Formatter<'_>, part: &str, v: Vector, of: &str) -> fmt::Result {
+    write!(f, "the {part} ({}, {}, {}) of a {of}", v.x, v.y, v.z)
 }
 
 /// Checks that every coordinate of a point is finite and at most [`COORDINATE_MAX`] in absolute

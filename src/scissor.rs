@@ -41,7 +41,6 @@ use exact::layers;
 use measure::Survey;
 use offsets::Offsets;
 use outcome::Outcome;
-use paper::Form;
 use strip::Strip;
 use way::Way;
 
@@ -420,11 +419,9 @@ impl Scissor {
             survey.map_or_else(Vec::new, |survey| survey.judged(mesh, edits, first))
         };
         let outcome: Outcome = match (method, trace) {
-            (CutMethod::Uniform, _) => {
-                paper::cut(&way, Form::Uniform, mesh, positions, &judged, edits)
-            }
-            (CutMethod::Alternating, _) => {
-                paper::cut(&way, Form::Alternating, mesh, positions, &judged, edits)
+            (CutMethod::Uniform | CutMethod::Alternating, _) => {
+                let is_alternating = method == CutMethod::Alternating;
+                paper::cut(&way, is_alternating, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact, Some(trace)) => {
                 let snap_move = self.snap_move;

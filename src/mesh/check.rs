@@ -126,28 +126,20 @@ impl Report<'_> {
         if vertices > VertexId::LIMIT {
             self.broken(Invariant::Sizes, format!("{vertices} vertices"));
         }
+        let mut beyond = |found: String| self.broken(Invariant::Range, found);
         for (h, &v) in origin.iter().enumerate() {
             if v as usize >= vertices {
-                self.broken(
-                    Invariant::Range,
-                    format!("h{h} starts at v{v} of {vertices}"),
-                );
+                beyond(format!("h{h} starts at v{v} of {vertices}"));
             }
         }
         for (h, link) in link.iter().enumerate() {
             if let Some(g) = link.opposite().filter(|g| g.index() >= corners) {
-                self.broken(
-                    Invariant::Range,
-                    format!("h{h} is linked to {g} of {corners}"),
-                );
+                beyond(format!("h{h} is linked to {g} of {corners}"));
             }
         }
         for (v, &h) in outgoing.iter().enumerate() {
             if h != NO_HALF_EDGE && h as usize >= corners {
-                self.broken(
-                    Invariant::Range,
-                    format!("v{v} has the half-edge h{h} of {corners}"),
-                );
+                beyond(format!("v{v} has the half-edge h{h} of {corners}"));
             }
         }
     }
@@ -185,11 +177,8 @@ impl Report<'_> {
                 continue;
             };
             if mesh.pair_or_ghost(g) != Some(h) || g.face() == h.face() {
-                let back = mesh.pair_or_ghost(g);
-                self.broken(
-                    Invariant::Involution,
-                    format!("{h} leads to {g}, {g} to {back:?}"),
-                );
+                let found = format!("{h} leads to {g}, {g} to {:?}", mesh.pair_or_ghost(g));
+                self.broken(Invariant::Involution, found);
                 continue;
             }
             let torn = mesh.ghost_pair(h).is_some();

@@ -283,32 +283,22 @@ impl fmt::Display for Defect {
                 vertices: [a, b, c],
                 faces,
             } => {
-                write!(
-                    f,
-                    "the vertices {a}, {b}, {c} have several faces: {}",
-                    list(faces.len(), faces.iter())
-                )
+                let faces = list(faces.len(), faces.iter());
+                write!(f, "the vertices {a}, {b}, {c} have several faces: {faces}")
             }
             Defect::Pillow {
                 vertices: [a, b, c],
                 faces,
             } => {
-                write!(
-                    f,
-                    "two faces lie back to back on {a}, {b}, {c}: {}",
-                    list(2, faces.iter().copied())
-                )
+                let faces = list(2, faces.iter().copied());
+                write!(f, "two faces lie back to back on {a}, {b}, {c}: {faces}")
             }
             Defect::CrowdedEdge {
                 ends: [a, b],
                 faces,
             } => {
-                write!(
-                    f,
-                    "the edge {a}-{b} has {} faces: {}",
-                    faces.len(),
-                    list(faces.len(), faces.iter())
-                )
+                let (count, faces) = (faces.len(), list(faces.len(), faces.iter()));
+                write!(f, "the edge {a}-{b} has {count} faces: {faces}")
             }
             Defect::FlippedFace {
                 from,
@@ -322,19 +312,12 @@ impl fmt::Display for Defect {
             }
             Defect::BowTie { vertex, fans } => {
                 write!(f, "{vertex} joins {} fans that share no edge:", fans.len())?;
-                for (i, fan) in fans.iter().take(SHOWN).enumerate() {
-                    write!(
-                        f,
-                        "{}{}",
-                        if i == 0 { " " } else { " | " },
-                        list(fan.len(), fan.iter())
-                    )?;
-                }
+                let shown = fans.iter().take(SHOWN);
+                let mut shown: Vec<String> = shown.map(|fan| list(fan.len(), fan.iter())).collect();
                 if fans.len() > SHOWN {
-                    write!(f, " | …")
-                } else {
-                    Ok(())
+                    shown.push("…".to_owned());
                 }
+                write!(f, " {}", shown.join(" | "))
             }
         }
     }

@@ -27,16 +27,9 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
-/// Which of the two.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
-    Uniform,
-    Alternating,
-}
-
 pub(super) fn cut(
     way: &Way<'_>,
-    form: Form,
+    is_alternating: bool,
     mesh: &mut Mesh,
     positions: &mut Positions,
     judged: Judged<'_>,
@@ -75,13 +68,11 @@ pub(super) fn cut(
     let mut hubs = Hubs::default();
     for f in crossed {
         let corners = f.half_edges();
-        let along_edge = match form {
-            Form::Alternating if positive(mesh, positions, f) == 2 => {
-                let negative = corners
-                    .into_iter()
-                    .find(|&h| !is_positive(mesh, positions, h));
-                negative.map(|h| beyond_edge(mesh, positions, h.next()))
-            }
+        let mut negative = corners
+            .into_iter()
+            .filter(|&h| !is_positive(mesh, positions, h));
+        let along_edge = match (negative.next(), negative.next()) {
+            (Some(h), None) if is_alternating => Some(beyond_edge(mesh, positions, h.next())),
             _ => None,
         };
         for h in corners {

@@ -140,7 +140,8 @@ impl<'t> Trial<'t> {
                 let piece = Piece { inset, ..*piece };
                 let weights = self.trace.weights(self.mesh, f, &piece, at);
                 let sum = weights[0] + weights[1] + weights[2];
-                self.weighted(f, weights.map(|weight| weight / sum))
+                let corners = self.corners(f);
+                Point::weighted(corners.each_ref(), weights.map(|weight| weight / sum))
             }
             Place::Edge { h, forward } => {
                 let [a, b] =
@@ -149,12 +150,6 @@ impl<'t> Trial<'t> {
                 between(from, to, at)
             }
         }
-    }
-
-    fn weighted(&self, f: FaceId, weights: [f64; 3]) -> Point {
-        let corners = f.half_edges().map(|h| self.corner(h).coords);
-        let terms = [0, 1, 2].map(|i| corners[i] * weights[i]);
-        Point::from(terms[0] + terms[1] + terms[2])
     }
 
     /// Whether the slit goes on from where a piece came, and farther than to another tip.
@@ -251,19 +246,16 @@ impl<'t> Trial<'t> {
         };
         let least = self.snap * (1.0 - self.snap);
         let mut children = insertion.children().iter().filter(divided);
-        children.all(|child| self.altitude_of(child) >= least * self.altitude(child.parent))
+        children
+            .all(|child| self.altitude_of(child) >= least * altitude(self.corners(child.parent)))
     }
 
-    fn corner(&self, h: HalfEdgeId) -> Point {
-        self.positions.at(self.mesh.origin(h))
-    }
-
-    fn altitude(&self, f: FaceId) -> f64 {
-        altitude(f.half_edges().map(|h| self.corner(h)))
+    fn corners(&self, f: FaceId) -> [Point; 3] {
+        self.mesh.face_vertices(f).map(|v| self.positions.at(v))
     }
 
     fn altitude_of(&self, child: &ChildFace) -> f64 {
-        let corners = child.parent.half_edges().map(|h| self.corner(h));
+        let corners = self.corners(child.parent);
         let place = |source: Mix<HalfEdgeId>| Point::blend(source.map(|h| &corners[h.corner()]));
         altitude(child.sources.map(place))
     }
