@@ -140,6 +140,17 @@ impl HalfEdgeId {
         })
     }
 
+    /// The corners of its face at which this half-edge starts and ends, or if not `forward`, ends and
+    /// starts.
+    #[inline]
+    pub(crate) const fn ends(self, forward: bool) -> [HalfEdgeId; 2] {
+        if forward {
+            [self, self.next()]
+        } else {
+            [self.next(), self]
+        }
+    }
+
     /// Returns the previous half-edge of the same face, which ends where this one starts.
     #[inline]
     #[must_use]

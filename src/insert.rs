@@ -201,19 +201,18 @@ impl Work {
                     if !(t > 0.0 && t < 1.0) {
                         return Err(InsertRefusal::Parameter { half_edge: h, t });
                     }
-                    let at = |from: VertexId, to: VertexId| InsertLocation::Edge {
-                        ends: if forward { [from, to] } else { [to, from] },
-                        t,
+                    let place = |vertex: VertexId, ends: [HalfEdgeId; 2]| {
+                        let ends = ends.map(|h| mesh.origin(h));
+                        let at = InsertLocation::Edge { ends, t };
+                        InsertedPoint { vertex, at }
                     };
                     let vertex = new_vertex();
-                    let here = at(mesh.origin(h), mesh.target(h));
-                    self.placed.push(InsertedPoint { vertex, at: here });
+                    self.placed.push(place(vertex, h.ends(forward)));
                     let mut vertices = [vertex; 2];
                     if let Some(ghost) = mesh.ghost_pair(h) {
                         let vertex = new_vertex();
                         vertices[1] = vertex;
-                        let there = at(mesh.target(ghost), mesh.origin(ghost));
-                        self.placed.push(InsertedPoint { vertex, at: there });
+                        self.placed.push(place(vertex, ghost.ends(!forward)));
                     }
                     let edge = mesh.pair_or_ghost(h).map_or(h, |g| g.min(h));
                     on_edges.push(OnEdge {

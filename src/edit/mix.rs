@@ -1,5 +1,7 @@
 //! What a new value is made of.
 
+use crate::id::HalfEdgeId;
+
 /// The one, two or three values that a new value derives from.
 ///
 /// A copy has its own case because it must be exact to the bit, and interpolation because a value
@@ -77,5 +79,21 @@ impl<I> Mix<I> {
                 }
             }
         }
+    }
+}
+
+impl Mix<HalfEdgeId> {
+    /// The weights of the corners of the face that these corners belong to, in its order.
+    pub(crate) fn weights(self) -> [f64; 3] {
+        let mut all = [0.0; 3];
+        match self {
+            Mix::Copy(h) => all[h.corner()] = 1.0,
+            Mix::Between { ends: [a, b], t } => {
+                all[a.corner()] = 1.0 - t;
+                all[b.corner()] = t;
+            }
+            Mix::Weighted { weights, .. } => all = weights,
+        }
+        all
     }
 }

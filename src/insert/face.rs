@@ -64,10 +64,9 @@ impl Retriangulation {
 
     /// Adds the next corner to the outline.
     pub(super) fn corner(&mut self, vertex: VertexId, h: HalfEdgeId) {
-        let mut at = [0.0; 3];
-        at[h.corner()] = 1.0;
         self.corners[h.corner()] = self.nodes.len();
-        self.outline(vertex, Mix::Copy(h), None, at);
+        self.push(vertex, Mix::Copy(h), None);
+        self.ring = self.nodes.len();
     }
 
     /// Adds the next point on the edge `h` to the outline, at `t` from the origin of `h`
@@ -80,43 +79,23 @@ impl Retriangulation {
         t: f64,
         forward: bool,
     ) {
-        let ends = if forward {
-            [h, h.next()]
-        } else {
-            [h.next(), h]
-        };
-        let mut at = [0.0; 3];
-        at[ends[0].corner()] = 1.0 - t;
-        at[ends[1].corner()] = t;
-        self.outline(vertex, Mix::Between { ends, t }, Some(point), at);
-    }
-
-    fn outline(
-        &mut self,
-        vertex: VertexId,
-        source: Mix<HalfEdgeId>,
-        point: Option<PointId>,
-        at: [f64; 3],
-    ) {
-        self.nodes.push(Node {
-            vertex,
-            source,
-            point,
-            at,
-        });
+        let ends = h.ends(forward);
+        self.push(vertex, Mix::Between { ends, t }, Some(point));
         self.ring = self.nodes.len();
     }
 
     /// Adds a point inside the face, once the outline is complete.
     pub(super) fn inside(&mut self, f: FaceId, vertex: VertexId, weights: [f64; 3]) {
+        let of = f.half_edges();
+        self.push(vertex, Mix::Weighted { of, weights }, None);
+    }
+
+    fn push(&mut self, vertex: VertexId, source: Mix<HalfEdgeId>, point: Option<PointId>) {
         self.nodes.push(Node {
             vertex,
-            source: Mix::Weighted {
-                of: f.half_edges(),
-                weights,
-            },
-            point: None,
-            at: weights,
+            source,
+            point,
+            at: source.weights(),
         });
     }
 

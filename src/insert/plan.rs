@@ -48,22 +48,14 @@ impl Plan {
     /// Adds a point on an edge, at the fraction `t` of the way from the origin of `h` to its target. It
     /// must be strictly between 0 and 1. On a torn edge, the same point is also added on the other side.
     pub fn on_edge(&mut self, h: HalfEdgeId, t: f64) -> PointId {
-        self.push(Point::Edge {
-            h,
-            t,
-            forward: true,
-        })
+        self.edge(h, t, true)
     }
 
     /// Adds a point on an edge, at the fraction `t` of the way from the target of `h` to its
     /// origin. On a torn edge, the same point is also added on the other side. The result may
     /// differ in the last bit from [`Plan::on_edge`] with `1 − t`.
     pub fn on_edge_backward(&mut self, h: HalfEdgeId, t: f64) -> PointId {
-        self.push(Point::Edge {
-            h,
-            t,
-            forward: false,
-        })
+        self.edge(h, t, false)
     }
 
     /// Adds a point in a face, at the weighted mean of its corners. The weights are given in the
@@ -73,6 +65,10 @@ impl Plan {
     /// edges. Each further point is joined to the corners of the triangle that then contains it.
     pub fn in_face(&mut self, f: FaceId, weights: [f64; 3]) -> PointId {
         self.push(Point::Face { f, weights })
+    }
+
+    pub(crate) fn edge(&mut self, h: HalfEdgeId, t: f64, forward: bool) -> PointId {
+        self.push(Point::Edge { h, t, forward })
     }
 
     fn push(&mut self, point: Point) -> PointId {

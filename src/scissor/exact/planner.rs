@@ -53,14 +53,9 @@ impl Planner {
                     vertex: VertexId::new(twin.vertex.index() + 1).expect(COUNTED),
                 }
             } else {
-                let point = if forward {
-                    self.plan.on_edge(h, t)
-                } else {
-                    self.plan.on_edge_backward(h, t)
-                };
                 Planned {
                     half_edge: h,
-                    point,
+                    point: self.plan.edge(h, t, forward),
                     vertex: self.new_vertices(if ghost.is_some() { 2 } else { 1 }),
                 }
             };
@@ -114,16 +109,9 @@ impl Planner {
     /// Plans a point at a parameter of a piece, and returns the vertex that it will have.
     fn point(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece, at: f64) -> VertexId {
         match piece.place {
-            Place::Face(f) => {
-                self.plan.in_face(f, trace.weights(mesh, f, piece, at));
-            }
-            Place::Edge { h, forward: true } => {
-                self.plan.on_edge(h, at);
-            }
-            Place::Edge { h, forward: false } => {
-                self.plan.on_edge_backward(h, at);
-            }
-        }
+            Place::Face(f) => self.plan.in_face(f, trace.weights(mesh, f, piece, at)),
+            Place::Edge { h, forward } => self.plan.edge(h, at, forward),
+        };
         self.new_vertices(1)
     }
 }

@@ -144,9 +144,8 @@ impl<'t> Trial<'t> {
                 Point::weighted(corners.each_ref(), weights.map(|weight| weight / sum))
             }
             Place::Edge { h, forward } => {
-                let [a, b] =
-                    [self.mesh.origin(h), self.mesh.target(h)].map(|v| self.positions.at(v));
-                let [from, to] = if forward { [a, b] } else { [b, a] };
+                let ends = h.ends(forward);
+                let [from, to] = ends.map(|h| self.positions.at(self.mesh.origin(h)));
                 between(from, to, at)
             }
         }

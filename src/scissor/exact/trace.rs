@@ -7,6 +7,7 @@
 //!
 //! Everything here is worked out from the mesh as it was before the cut.
 
+use crate::edit::Mix;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 
@@ -129,39 +130,26 @@ impl Trace {
 
     /// The weights of the corners of a face at a parameter of a piece in it.
     pub(super) fn weights(&self, mesh: &Mesh, f: FaceId, piece: &Piece, at: f64) -> [f64; 3] {
-        let [one, other] = piece.nodes.map(|site| match site {
-            Site::Vertex(v) => {
-                let mut weights = [0.0; 3];
-                weights[corner_of(mesh, f, v).corner()] = 1.0;
-                weights
-            }
-            Site::Edge(h) => {
-                let crossing = self.crossing_of_face(mesh, f, h);
-                let [from, to] = if crossing.forward {
-                    [crossing.half_edge, crossing.half_edge.next()]
-                } else {
-                    [crossing.half_edge.next(), crossing.half_edge]
-                };
-                let mut weights = [0.0; 3];
-                weights[from.corner()] = 1.0 - crossing.t;
-                weights[to.corner()] = crossing.t;
-                weights
-            }
+        let [one, other] = piece.nodes.map(|site| {
+            let place = match site {
+                Site::Vertex(v) => Mix::Copy(corner_of(mesh, f, v)),
+                Site::Edge(h) => self.crossing_in(mesh, f, h),
+            };
+            place.weights()
         });
         std::array::from_fn(|i| (one[i] + at * (other[i] - one[i])).max(piece.inset))
     }
 
-    /// A crossing, by the half-edge of this face.
-    fn crossing_of_face(&self, mesh: &Mesh, f: FaceId, h: HalfEdgeId) -> Crossing {
-        let crossing = *self.crossing(h).expect("the nodes of pieces are known");
-        if h.face() == f {
-            return crossing;
-        }
-        Crossing {
-            half_edge: mesh.pair(h).expect("a crossing has one half-edge a side"),
-            forward: !crossing.forward,
-            ..crossing
-        }
+    /// A crossing between two corners of this face.
+    fn crossing_in(&self, mesh: &Mesh, f: FaceId, h: HalfEdgeId) -> Mix<HalfEdgeId> {
+        let &Crossing { t, forward, .. } = self.crossing(h).expect("the nodes of pieces are known");
+        let ends = if h.face() == f {
+            h.ends(forward)
+        } else {
+            let pair = mesh.pair(h).expect("a crossing has one half-edge a side");
+            pair.ends(!forward)
+        };
+        Mix::Between { ends, t }
     }
 
     /// Gives up the piece in a face whose points cannot be told apart.

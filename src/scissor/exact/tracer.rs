@@ -153,12 +153,19 @@ impl Tracer<'_> {
         Node { site, depths }
     }
 
+    /// Whether places along an edge are counted from its origin: the end with the smaller position, so that
+    /// both sides agree.
+    fn is_forward(&self, h: HalfEdgeId) -> bool {
+        let [p, q] = h.ends(true).map(|h| self.positions.at(self.mesh.origin(h)));
+        let first = (0..3).find(|&axis| p[axis] != q[axis]);
+        first.is_some_and(|axis| p[axis] < q[axis])
+    }
+
     fn crossing(&self, h: HalfEdgeId) -> Crossing {
         let half_edge = self.mesh.pair(h).map_or(h, |pair| pair.min(h));
-        let [a, b] = [self.mesh.origin(half_edge), self.mesh.target(half_edge)];
-        let forward = is_before(self.positions.at(a), self.positions.at(b));
-        let [from, to] = if forward { [a, b] } else { [b, a] };
-        let [near, far] = [from, to].map(|v| self.way.offsets.of(v).abs());
+        let forward = self.is_forward(half_edge);
+        let ends = half_edge.ends(forward).map(|h| self.mesh.origin(h));
+        let [near, far] = ends.map(|v| self.way.offsets.of(v).abs());
         Crossing {
             half_edge,
             t: near / (near + far),
@@ -169,9 +176,8 @@ impl Tracer<'_> {
 
     /// The vertices between which a crossing is, in the order in which it is counted.
     fn ends(&self, crossing: &Crossing) -> [VertexId; 2] {
-        let h = crossing.half_edge;
-        let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
-        if crossing.forward { [a, b] } else { [b, a] }
+        let ends = crossing.half_edge.ends(crossing.forward);
+        ends.map(|h| self.mesh.origin(h))
     }
 
     fn crossing_node(&self, h: HalfEdgeId) -> Node {
@@ -381,9 +387,8 @@ impl Tracer<'_> {
             if one == other && !comes_to_joint {
                 continue;
             }
-            let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
-            let forward = is_before(self.positions.at(a), self.positions.at(b));
-            let ends = if forward { [a, b] } else { [b, a] };
+            let forward = self.is_forward(h);
+            let ends = h.ends(forward).map(|h| self.mesh.origin(h));
             let nodes = ends.map(|v| self.vertex_node(v));
             self.add(trace, Place::Edge { h, forward }, nodes);
         }
@@ -395,10 +400,4 @@ impl Tracer<'_> {
             Err(tip) => trace.lone_tips.extend(tip),
         }
     }
-}
-
-/// Whether a point comes before another, coordinate by coordinate.
-fn is_before(p: Point, q: Point) -> bool {
-    let first = (0..3).find(|&axis| p[axis] != q[axis]);
-    first.is_some_and(|axis| p[axis] < q[axis])
 }
