@@ -66,16 +66,10 @@ impl Positions {
         points: impl IntoIterator<Item = impl Into<Point>>,
     ) -> Result<Positions, PositionError> {
         let points: Vec<Point> = points.into_iter().map(Into::into).collect();
-        let bad = |(i, &point): (usize, &Point)| {
-            check_point(point)
-                .is_err()
-                .then(|| (VertexId::new(i), point))
-        };
-        let unusable: Vec<_> = points
-            .iter()
-            .enumerate()
-            .filter_map(bad)
-            .filter_map(|(v, point)| Some((v?, point)))
+        let vertices = (0..).map(VertexId::from_u32);
+        let all = vertices.zip(points.iter().copied());
+        let unusable: Vec<_> = all
+            .filter(|&(_, point)| check_point(point).is_err())
             .collect();
         if unusable.is_empty() {
             let seen = Cursor::START;
@@ -212,11 +206,13 @@ impl fmt::Display for PositionError {
         } else {
             ("vertices", "have")
         };
-        write!(f, "{count} {noun} {verb} a coordinate that is not usable:")?;
-        for (i, (v, p)) in self.unusable.iter().take(SHOWN).enumerate() {
-            let comma = if i == 0 { "" } else { "," };
-            write!(f, "{comma} {v} ({}, {}, {})", p.x, p.y, p.z)?;
-        }
+        let shown = self.unusable.iter().take(SHOWN);
+        let shown = shown.map(|(v, p)| format!("{v} ({}, {}, {})", p.x, p.y, p.z));
+        let shown = shown.collect::<Vec<String>>().join(", ");
+        write!(
+            f,
+            "{count} {noun} {verb} a coordinate that is not usable: {shown}"
+        )?;
         if count > SHOWN {
             write!(f, " and {} more", count - SHOWN)?;
         }

@@ -36,9 +36,12 @@ impl Mesh {
         let wrong = |&(v, &root): &(usize, &u32)| {
             root as usize > v || roots.get(root as usize).is_none_or(|&of| of != root)
         };
-        if let Some((v, &root)) = roots.iter().enumerate().find(wrong) {
-            let vertex = VertexId::from_u32(v as u32);
-            return Err(TornError::Root { vertex, root });
+        let refusal = |(v, &root): (usize, &u32)| TornError::Root {
+            vertex: VertexId::from_u32(v as u32),
+            root,
+        };
+        if let Some(wrong) = roots.iter().enumerate().find(wrong) {
+            return Err(refusal(wrong));
         }
         let whole: Vec<[u32; 3]> = triangles
             .iter()
@@ -57,13 +60,8 @@ impl Mesh {
             let has_corner = |v: usize| mesh.outgoing[v] != NO_HALF_EDGE;
             v != root as usize && !(has_corner(v) && has_corner(root as usize))
         };
-        match roots.iter().enumerate().find(lost) {
-            None => Ok(mesh),
-            Some((v, &root)) => Err(TornError::Root {
-                vertex: VertexId::from_u32(v as u32),
-                root,
-            }),
-        }
+        let lost = roots.iter().enumerate().find(lost).map(refusal);
+        lost.map_or(Ok(mesh), Err)
     }
 
     fn tear_if_apart(&mut self, h: HalfEdgeId) {

@@ -225,13 +225,12 @@ struct Slit {
 impl Slit {
     /// What the trace needs inserted, and the slit that there will be then.
     fn plan(trace: &Trace, mesh: &Mesh) -> (Plan, Slit) {
-        let mut planner = Planner::new(mesh);
-        planner.crossings(trace, mesh);
+        let mut planner = Planner::new(trace, mesh);
         let mut edges: Vec<[VertexId; 2]> = Vec::new();
         let mut tips: [Vec<VertexId>; 2] = Default::default();
         let mut off_plane = Vec::new();
         for piece in &trace.pieces {
-            let chain = planner.piece(trace, mesh, piece);
+            let chain = planner.piece(piece);
             if piece.inset > 0.0 {
                 off_plane.extend(&chain);
             }

@@ -6,7 +6,9 @@ use crate::insert::{ChordEnd, Plan, PointId};
 use crate::mesh::Mesh;
 
 /// Collects the points to insert, and foresees their vertices.
-pub(super) struct Planner {
+pub(super) struct Planner<'t> {
+    trace: &'t Trace,
+    mesh: &'t Mesh,
     pub(super) plan: Plan,
     /// By half-edge.
     crossings: Vec<Planned>,
@@ -20,12 +22,43 @@ struct Planned {
     vertex: VertexId,
 }
 
-impl Planner {
-    pub(super) fn new(mesh: &Mesh) -> Planner {
-        Planner {
+impl<'t> Planner<'t> {
+    /// Plans the points where the slit crosses edges.
+    pub(super) fn new(trace: &'t Trace, mesh: &'t Mesh) -> Planner<'t> {
+        let mut planner = Planner {
+            trace,
+            mesh,
             plan: Plan::new(),
             crossings: Vec::new(),
             next: mesh.vertex_count(),
+        };
+        for crossing in trace.crossings.iter().filter(|crossing| crossing.used) {
+            let planned = planner.crossing(crossing);
+            planner.crossings.push(planned);
+        }
+        planner
+    }
+
+    fn crossing(&mut self, crossing: &Crossing) -> Planned {
+        let &Crossing {
+            half_edge,
+            t,
+            forward,
+            ..
+        } = crossing;
+        let ghost = self.mesh.ghost_pair(half_edge);
+        let twin = ghost.and_then(|g| self.planned(g));
+        match twin.filter(|twin| self.trace.is_one_place(half_edge, twin.half_edge)) {
+            Some(twin) => Planned {
+                half_edge,
+                point: twin.point,
+                vertex: VertexId::new(twin.vertex.index() + 1).expect(COUNTED),
+            },
+            None => Planned {
+                half_edge,
+                point: self.plan.edge(half_edge, t, forward),
+                vertex: self.new_vertices(if ghost.is_some() { 2 } else { 1 }),
+            },
         }
     }
 
@@ -33,34 +66,6 @@ impl Planner {
         let first = VertexId::new(self.next).expect(COUNTED);
         self.next += count;
         first
-    }
-
-    /// Plans the points where the slit crosses edges.
-    pub(super) fn crossings(&mut self, trace: &Trace, mesh: &Mesh) {
-        for &Crossing {
-            half_edge: h,
-            t,
-            forward,
-            ..
-        } in trace.crossings.iter().filter(|crossing| crossing.used)
-        {
-            let ghost = mesh.ghost_pair(h);
-            let twin = ghost.and_then(|g| self.planned(g).filter(|_| trace.is_one_place(h, g)));
-            let planned = if let Some(twin) = twin {
-                Planned {
-                    half_edge: h,
-                    point: twin.point,
-                    vertex: VertexId::new(twin.vertex.index() + 1).expect(COUNTED),
-                }
-            } else {
-                Planned {
-                    half_edge: h,
-                    point: self.plan.edge(h, t, forward),
-                    vertex: self.new_vertices(if ghost.is_some() { 2 } else { 1 }),
-                }
-            };
-            self.crossings.push(planned);
-        }
     }
 
     fn planned(&self, h: HalfEdgeId) -> Option<&Planned> {
@@ -77,39 +82,41 @@ impl Planner {
     }
 
     /// Plans the tips and the middle of a piece, and returns the two or three vertices along it.
-    pub(super) fn piece(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece) -> Vec<VertexId> {
+    pub(super) fn piece(&mut self, piece: &Piece) -> Vec<VertexId> {
         // The middle comes first: the first point in a face is joined to all of its outline.
-        let middle = piece
-            .middle
-            .then(|| self.point(trace, mesh, piece, (piece.from + piece.to) / 2.0));
-        let from = self.end(trace, mesh, piece, 0);
-        let to = self.end(trace, mesh, piece, 1);
+        let middle = (piece.from + piece.to) / 2.0;
+        let middle = piece.middle.then(|| self.point(piece, middle));
+        let ends = [0, 1].map(|end| self.end(piece, end));
         if let (Place::Face(f), None, [true, true]) = (piece.place, middle, piece.ends_at_nodes()) {
             let end = |site| match site {
-                Site::Vertex(v) => ChordEnd::Corner(corner_of(mesh, f, v)),
+                Site::Vertex(v) => ChordEnd::Corner(corner_of(self.mesh, f, v)),
                 Site::Edge(h) => ChordEnd::Point(self.planned(h).expect(PLANNED).point),
             };
             let chord = piece.nodes.map(end);
             self.plan.chord(f, chord);
         }
-        [Some(from), middle, Some(to)]
-            .into_iter()
-            .flatten()
-            .collect()
+        let mut chain = ends.to_vec();
+        if let Some(middle) = middle {
+            chain.insert(1, middle);
+        }
+        chain
     }
 
-    fn end(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece, end: usize) -> VertexId {
+    fn end(&mut self, piece: &Piece, end: usize) -> VertexId {
         if piece.ends_at_nodes()[end] {
             self.vertex(piece.nodes[end]).expect(PLANNED)
         } else {
-            self.point(trace, mesh, piece, [piece.from, piece.to][end])
+            self.point(piece, [piece.from, piece.to][end])
         }
     }
 
     /// Plans a point at a parameter of a piece, and returns the vertex that it will have.
-    fn point(&mut self, trace: &Trace, mesh: &Mesh, piece: &Piece, at: f64) -> VertexId {
+    fn point(&mut self, piece: &Piece, at: f64) -> VertexId {
         match piece.place {
-            Place::Face(f) => self.plan.in_face(f, trace.weights(mesh, f, piece, at)),
+            Place::Face(f) => {
+                let weights = self.trace.weights(self.mesh, f, piece, at);
+                self.plan.in_face(f, weights)
+            }
             Place::Edge { h, forward } => self.plan.edge(h, at, forward),
         };
         self.new_vertices(1)

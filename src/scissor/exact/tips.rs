@@ -230,9 +230,8 @@ impl<'t> Trial<'t> {
             snapped: Vec::new(),
             near: self.trace.near,
         };
-        let mut planner = Planner::new(self.mesh);
-        planner.crossings(&alone, self.mesh);
-        planner.piece(&alone, self.mesh, piece);
+        let mut planner = Planner::new(&alone, self.mesh);
+        planner.piece(piece);
         let Ok(insertion) = planner.plan.prepare(self.mesh) else {
             return false; // Crowded.
         };
