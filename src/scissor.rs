@@ -393,7 +393,6 @@ impl Scissor {
         let mut way = Way {
             strip: &self.strip,
             among: offsets.touched(),
-            is_choice: false,
             joints: &joints,
             offsets,
         };
@@ -407,7 +406,6 @@ impl Scissor {
             }
             way = Way {
                 among: &choice.faces,
-                is_choice: true,
                 joints: &choice.joints,
                 ..way
             };

@@ -42,18 +42,6 @@ impl DisjointSets {
         next
     }
 
-    /// Returns how many numbers are in the forest.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.above.len()
-    }
-
-    /// Returns whether the forest is empty.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.above.is_empty()
-    }
-
     /// Returns the leader of a number: the smallest number in its set.
     ///
     /// # Panics

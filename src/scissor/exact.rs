@@ -182,7 +182,7 @@ fn sides(
         let mut ends = slit.tips.iter().chain([&slit.off_plane]);
         ends.any(|of_side| corners.iter().any(|v| of_side.contains(v)))
             || !meets(way, corners.map(|v| positions.at(v)))
-            || (way.is_choice && f.index() < faces_before && way.among.binary_search(&f).is_err())
+            || (f.index() < faces_before && way.among.binary_search(&f).is_err())
     };
     let lies_on_both = |f: FaceId| {
         let signs = mesh.face_vertices(f).map(sign);

@@ -52,7 +52,7 @@ pub(super) fn cut(
     smooth(mesh, offsets, &mut labels);
     // Decided before the first split: positions know no vertex that is made on the way.
     let inside = |p: Point| way.strip.depth(p, offsets.bound()) >= 0.0;
-    let may_cut = |h: HalfEdgeId| !way.is_choice || way.among.binary_search(&h.face()).is_ok();
+    let may_cut = |h: HalfEdgeId| way.among.binary_search(&h.face()).is_ok();
     let is_at_midpoint = tips == CutTips::Midpoint;
     let is_cut = |h: HalfEdgeId| {
         let Some(pair) = mesh.pair(h) else {

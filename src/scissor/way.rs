@@ -9,8 +9,6 @@ pub(super) struct Way<'w> {
     pub(super) strip: &'w Strip,
     /// The faces that it may cross, ascending.
     pub(super) among: &'w [FaceId],
-    /// Whether these are not all that the plane meets there.
-    pub(super) is_choice: bool,
     /// Where this cut goes on from another, and where it comes back to one: vertices on the plane and
     /// on the first side plane, and on the second.
     pub(super) joints: &'w [Vec<VertexId>; 2],
