@@ -209,14 +209,10 @@ impl Edits {
         values: &mut Vec<T>,
         mut mix: impl FnMut(Mix<&T>) -> T,
     ) {
-        self.replay_list(
-            seen,
-            values,
-            |size| size.vertices,
-            |edit, values| {
-                edit.vertex_ops().for_each(|op| op.apply(values, &mut mix));
-            },
-        );
+        for edit in self.unseen(seen, values.len(), |size| size.vertices) {
+            edit.vertex_ops().for_each(|op| op.apply(values, &mut mix));
+        }
+        *seen = self.end;
     }
 
     /// Replays the log on a list of corner values, three per face, and advances `seen` to the end
@@ -234,14 +230,10 @@ impl Edits {
         values: &mut Vec<T>,
         mut mix: impl FnMut(Mix<&T>) -> T,
     ) {
-        self.replay_list(
-            seen,
-            values,
-            |size| 3 * size.faces,
-            |edit, values| {
-                edit.corner_ops().for_each(|op| op.apply(values, &mut mix));
-            },
-        );
+        for edit in self.unseen(seen, values.len(), |size| 3 * size.faces) {
+            edit.corner_ops().for_each(|op| op.apply(values, &mut mix));
+        }
+        *seen = self.end;
     }
 
     /// Replays the log on an index buffer, and advances `seen` to the end of the log. The buffer holds
@@ -251,15 +243,11 @@ impl Edits {
     ///
     /// For the same reasons as [`Edits::replay`], or if `indices` does not have three entries for each face.
     pub fn replay_indices(&self, seen: &mut Cursor, indices: &mut Vec<u32>) {
-        self.replay_list(
-            seen,
-            indices,
-            |size| 3 * size.faces,
-            |edit, indices| {
-                edit.corner_ops()
-                    .for_each(|op| op.apply_to_indices(indices));
-            },
-        );
+        for edit in self.unseen(seen, indices.len(), |size| 3 * size.faces) {
+            edit.corner_ops()
+                .for_each(|op| op.apply_to_indices(indices));
+        }
+        *seen = self.end;
     }
 
     /// Replays the log on a list of face values, and advances `seen` to the end of the log. Each
@@ -269,36 +257,30 @@ impl Edits {
     ///
     /// For the same reasons as [`Edits::replay`], or if `values` does not have one value for each face.
     pub fn replay_faces<T: Clone>(&self, seen: &mut Cursor, values: &mut Vec<T>) {
-        self.replay_list(
-            seen,
-            values,
-            |size| size.faces,
-            |edit, values| {
-                edit.families()
-                    .for_each(|family| family.apply_to_faces(values));
-            },
-        );
+        for edit in self.unseen(seen, values.len(), |size| size.faces) {
+            edit.families()
+                .for_each(|family| family.apply_to_faces(values));
+        }
+        *seen = self.end;
     }
 
-    /// Replays the log on a list that has as many values as `length` says of the mesh.
-    fn replay_list<T>(
+    /// The records that a list has not seen, which has as many values as `expected` says of the mesh. Until
+    /// `seen` is the end of the log it is half way.
+    fn unseen(
         &self,
         seen: &mut Cursor,
-        values: &mut Vec<T>,
-        length: impl Fn(MeshSize) -> u32,
-        mut follow: impl FnMut(&Edit<'_>, &mut Vec<T>),
-    ) {
+        length: usize,
+        expected: fn(MeshSize) -> u32,
+    ) -> impl Iterator<Item = Edit<'_>> {
         let edits = self.since(*seen);
         let first = self.records.len() - edits.len();
-        let length = self.records.get(first).map(|next| length(next.size));
+        let expected = self.records.get(first).map(|next| expected(next.size));
         assert!(
-            length.is_none_or(|length| values.len() == length as usize),
-            "values are in step with the mesh: there are {}, not {length:?}",
-            values.len()
+            expected.is_none_or(|expected| length == expected as usize),
+            "values are in step with the mesh: there are {length}, not {expected:?}"
         );
         *seen = Cursor::HALF_WAY;
-        edits.for_each(|edit| follow(&edit, values));
-        *seen = self.cursor();
+        edits
     }
 
     /// Removes all records, and keeps the allocated memory. Later records are numbered from where

@@ -353,7 +353,7 @@ impl Scissor {
     }
 
     /// Cuts a mesh like [`Scissor::cut`], and also measures the result. Measuring visits the whole
-    /// mesh, and takes at most as long as another cut plus a walk over all components.
+    /// mesh a few times.
     ///
     /// # Errors
     ///

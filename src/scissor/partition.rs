@@ -110,10 +110,9 @@ fn smooth(mesh: &Mesh, offsets: &Offsets, labels: &mut [Side]) {
         if !moves {
             continue;
         }
-        labels[f.index()] = if label == Side::Front {
-            Side::Back
-        } else {
-            Side::Front
+        labels[f.index()] = match label {
+            Side::Front => Side::Back,
+            Side::Back => Side::Front,
         };
         for g in mesh.neighbours(f) {
             if crossed(g) && !queued[g.index()] {
