@@ -92,7 +92,7 @@ fn in_hand(method: Method, fabric: Fabric) -> (Simulation, tearmesh_cloth::HandI
         fabric,
         ..SimulationDef::default()
     };
-    let mut sim = Simulation::new(mesh, positions, def).expect("a simulation");
+    let mut sim = Simulation::new(mesh, &positions, def).expect("a simulation");
     sim.hold((156..169).filter_map(VertexId::new))
         .expect("held");
     let middle = v(84);

@@ -210,7 +210,7 @@ fn methods_that_project_springs_are_refused_where_bends_buckle() {
     for solver in [&mut Pbd::default() as &mut dyn Solver, &mut Xpbd::default()] {
         let before = cloth.positions().to_vec();
         let error = cloth.step(solver, 1e-3).expect_err("springs alone");
-        assert_eq!(error, StepError::Buckling { count });
+        assert!(matches!(error, StepError::NotSprings { count: of, .. } if of == count));
         assert_eq!(cloth.positions(), before);
         assert!(error.to_string().contains("bends buckle"), "{error}");
     }

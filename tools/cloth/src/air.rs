@@ -50,8 +50,8 @@ pub fn wind_rate(system: &mut System) -> Option<AirRate> {
     let areas = &mut system.scratch.areas;
     areas.clear();
     areas.resize(system.positions.len(), 0.0);
-    for face in faces.chunks_exact(3) {
-        let [a, b, c] = [face[0] as usize, face[1] as usize, face[2] as usize];
+    for face in faces.as_chunks::<3>().0 {
+        let [a, b, c] = face.map(|corner| corner as usize);
         let x = &system.positions;
         let normal = cross(x[b] - x[a], x[c] - x[a]);
         let area = dot(normal, normal).sqrt() / 2.0;

@@ -98,20 +98,20 @@ impl Buckling {
         if gap >= 0.0 || c <= 0.0 {
             return Axial::default();
         }
-        if distance >= self.below * l {
-            return Axial {
-                energy: 0.5 * c * (gap * gap),
-                force: c * gap,
-                slope: c,
-            };
-        }
-        let k = c * (l * l * l) / self.number;
-        let u = inverse_sinc_squared(distance / l);
-        let Series { p, r, .. } = series(u);
+        let [energy, force, slope] = if distance >= self.below * l {
+            [0.5 * c * (gap * gap), c * gap, c]
+        } else {
+            let k = c * (l * l * l) / self.number;
+            let u = inverse_sinc_squared(distance / l);
+            let Series { p, r, .. } = series(u);
+            let energy = 2.0 * k * u / l + self.shift * (c * (l * l));
+            let slope = 4.0 * k / (l * l * l) * (r / (p * p * p));
+            [energy, -4.0 * k / (l * l * p), slope]
+        };
         Axial {
-            energy: 2.0 * k * u / l + self.shift * (c * (l * l)),
-            force: -4.0 * k / (l * l * p),
-            slope: 4.0 * k / (l * l * l) * (r / (p * p * p)),
+            energy,
+            force,
+            slope,
         }
     }
 }

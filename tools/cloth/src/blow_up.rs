@@ -14,27 +14,14 @@ pub enum BlowUpSite {
     /// The index of a particle that is farther than [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX)
     /// metres from the origin, or faster than that many metres per second.
     Beyond(usize),
-    /// A stretch constraint that became too long.
-    Constraint {
-        /// The indices of the particles of the constraint.
-        ends: [usize; 2],
-        /// The length of the constraint as a multiple of its rest length.
-        stretch_ratio: f64,
-    },
-    /// A bend constraint that became too long.
-    Bend {
-        /// The indices of the particles of the constraint.
-        ends: [usize; 2],
-        /// The length of the constraint as a multiple of its rest length.
-        stretch_ratio: f64,
-    },
-    /// A triangle that was stretched too far.
-    Triangle {
-        /// The indices of the particles of the triangle.
-        corners: [usize; 3],
-        /// The larger of the ratios of length to rest length along warp and along weft.
-        stretch_ratio: f64,
-    },
+    /// A stretch constraint that became too long: its particles, and its length as a multiple of its rest
+    /// length.
+    Constraint([usize; 2], f64),
+    /// A bend constraint that became too long: its particles, and its length as a multiple of its rest length.
+    Bend([usize; 2], f64),
+    /// A triangle that was stretched too far: its particles, and the larger of the ratios of length to rest
+    /// length along warp and along weft.
+    Triangle([usize; 3], f64),
     /// No place was found: the method failed in a system without constraints in which all numbers
     /// are finite.
     Unknown,
@@ -44,9 +31,9 @@ impl BlowUpSite {
     /// The length of what became too long, as a multiple of its rest length.
     pub(crate) fn stretch_ratio(&self) -> Option<f64> {
         match *self {
-            BlowUpSite::Constraint { stretch_ratio, .. }
-            | BlowUpSite::Bend { stretch_ratio, .. }
-            | BlowUpSite::Triangle { stretch_ratio, .. } => Some(stretch_ratio),
+            BlowUpSite::Constraint(_, ratio)
+            | BlowUpSite::Bend(_, ratio)
+            | BlowUpSite::Triangle(_, ratio) => Some(ratio),
             BlowUpSite::Particle(_) | BlowUpSite::Beyond(_) | BlowUpSite::Unknown => None,
         }
     }
@@ -54,26 +41,23 @@ impl BlowUpSite {
 
 impl fmt::Display for BlowUpSite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let what = match *self {
-            BlowUpSite::Particle(particle) => {
-                return write!(f, "particle {particle} is not finite");
-            }
-            BlowUpSite::Beyond(particle) => {
-                return write!(f, "particle {particle} is too far away or too fast");
-            }
-            BlowUpSite::Constraint { ends: [a, b], .. } => format!("edge {a}-{b}"),
-            BlowUpSite::Bend { ends: [a, b], .. } => format!("the bend {a}-{b}"),
-            BlowUpSite::Triangle {
-                corners: [a, b, c], ..
-            } => format!("triangle {a}-{b}-{c}"),
-            BlowUpSite::Unknown => return f.write_str("the method gave up"),
-        };
-        let at_rest = match self {
-            BlowUpSite::Triangle { .. } => "size at rest",
-            _ => "rest length",
-        };
         let ratio = Digits(self.stretch_ratio().unwrap_or(f64::NAN));
-        write!(f, "{what} is {ratio} times its {at_rest}")
+        match *self {
+            BlowUpSite::Particle(particle) => write!(f, "particle {particle} is not finite"),
+            BlowUpSite::Beyond(particle) => {
+                write!(f, "particle {particle} is too far away or too fast")
+            }
+            BlowUpSite::Constraint([a, b], _) => {
+                write!(f, "edge {a}-{b} is {ratio} times its rest length")
+            }
+            BlowUpSite::Bend([a, b], _) => {
+                write!(f, "the bend {a}-{b} is {ratio} times its rest length")
+            }
+            BlowUpSite::Triangle([a, b, c], _) => {
+                write!(f, "triangle {a}-{b}-{c} is {ratio} times its size at rest")
+            }
+            BlowUpSite::Unknown => f.write_str("the method gave up"),
+        }
     }
 }
 

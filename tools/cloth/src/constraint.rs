@@ -51,7 +51,8 @@ const NONE: u32 = u32::MAX;
 /// A family of distance constraints: the stretch constraints of a system, or its bend constraints.
 #[derive(Clone, Debug, Default)]
 pub struct Constraints {
-    colours: Vec<Colour>,
+    /// In the order of every sweep.
+    pub(crate) colours: Vec<Colour>,
     /// By id: the colour and the index in it; [`NONE`] for a free id.
     slots: Vec<[u32; 2]>,
     free: Vec<u32>,
@@ -88,13 +89,6 @@ pub(crate) struct Memory {
 }
 
 impl Constraints {
-    pub(crate) fn new(particles: usize) -> Constraints {
-        Constraints {
-            lists: Incidence::new(particles),
-            ..Constraints::default()
-        }
-    }
-
     /// Makes room for so many particles and constraints in all. A colour that is first free has k others
     /// before it that are taken at either end, so that of C constraints few can have a late one: at a
     /// time no more than 2 C/(k + 2).
@@ -162,16 +156,6 @@ impl Constraints {
     #[must_use]
     pub fn between(&self, a: usize, b: usize) -> Option<ConstraintId> {
         self.of(a).find(|&id| self.get(id).ends.contains(&b))
-    }
-
-    /// The colours, in the order of every sweep.
-    pub(crate) fn colours(&self) -> &[Colour] {
-        &self.colours
-    }
-
-    /// The colours, for what a step leaves behind in them.
-    pub(crate) fn colours_mut(&mut self) -> &mut [Colour] {
-        &mut self.colours
     }
 
     pub(crate) fn memory(&self, id: ConstraintId) -> Memory {
@@ -380,7 +364,7 @@ mod tests {
             .sum();
         assert_eq!(listed, 2 * expected.len());
         assert_eq!(constraints.iter().count(), expected.len());
-        for colour in constraints.colours() {
+        for colour in &constraints.colours {
             let inverse = colour.stiffness.iter().map(|k| 1.0 / k);
             assert_eq!(colour.compliance, inverse.collect::<Vec<_>>());
         }
@@ -388,7 +372,8 @@ mod tests {
 
     #[test]
     fn constraints_come_and_go_and_colours_stay_right() {
-        let mut constraints = Constraints::new(6);
+        let mut constraints = Constraints::default();
+        (0..6).for_each(|_| constraints.push_particle());
         let mut expected = Vec::new();
         for a in 0..6 {
             for b in a + 1..6 {

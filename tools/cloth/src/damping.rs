@@ -21,33 +21,22 @@
 //! Thresholds of force do not see this force; a hand that holds or leads a particle does.
 
 use crate::crush::Crush;
-use crate::fabric::Fabric;
+
+/// ζ.
+pub(crate) const RATIO_MAX: f64 = 0.1;
 
 /// Returns c for a spring of stiffness `k`, in N s/m, by the sum of the inverse masses of its ends. Zero
 /// between two that are held.
 pub(crate) fn coefficient(time_s: f64, stiffness: f64, inverse_masses: f64) -> f64 {
     if inverse_masses > 0.0 {
-        (time_s * stiffness).min(cap(stiffness, inverse_masses))
+        let cap = 2.0 * RATIO_MAX * (stiffness / inverse_masses).sqrt();
+        (time_s * stiffness).min(cap)
     } else {
         0.0
     }
 }
 
-/// The largest c of such a spring.
-pub(crate) fn cap(stiffness: f64, inverse_masses: f64) -> f64 {
-    2.0 * Fabric::DAMPING_RATIO_MAX * (stiffness / inverse_masses).sqrt()
-}
-
 /// The stiffness that a damper of 1 N s/m counts as in a step of this length.
 pub(crate) fn stiffness_in(dt_s: f64) -> f64 {
     2.0 / (dt_s * (1.0 + 2.0 * Crush::SHARE))
-}
-
-/// The damping of the springs of a system: the result of [`System::damping`](crate::System::damping).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Damping {
-    /// The time τ, in seconds.
-    pub time_s: f64,
-    /// The share of the springs whose damping ratio is capped.
-    pub capped: f64,
 }

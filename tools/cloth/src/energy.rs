@@ -2,7 +2,6 @@
 
 use tearmesh::geometry::dot;
 
-use crate::constraint::Constraints;
 use crate::system::{Recorded, System};
 
 /// Returns the elastic energy of all constraints and triangles, in joules.
@@ -19,7 +18,7 @@ pub(crate) fn stored_j(system: &System) -> f64 {
         Recorded::Nothing | Recorded::Limiter => elastic_j(system),
         Recorded::RigidForces => 0.0,
         Recorded::SpringForces => {
-            let colours = families.into_iter().flat_map(Constraints::colours);
+            let colours = families.into_iter().flat_map(|family| &family.colours);
             0.5 * colours.fold(0.0, |sum, colour| {
                 let forces = colour.multipliers.iter().zip(&colour.compliance);
                 forces.fold(sum, |sum, (f, compliance)| sum + f * f * compliance)

@@ -8,7 +8,7 @@ use tearmesh::{
 };
 
 use crate::constraint::{Constraint, ConstraintId, Constraints};
-use crate::fabric::{Copies, Stretch, Unbend};
+use crate::fabric::{Stretch, Unbend};
 use crate::sheet::{Cloth, NO_BEND, Piece, weight};
 use crate::system::System;
 
@@ -39,7 +39,7 @@ impl Cloth {
             let id = self.stretch(link.stayed);
             let mut copy = self.system.model.stretch.get(id);
             let mut memory = self.system.model.stretch.memory(id);
-            if self.halves_copies() {
+            if self.fabric.halves_copies() {
                 copy.stiffness_n_per_m *= 0.5;
                 memory.multiplier *= 0.5;
                 let half = copy.stiffness_n_per_m;
@@ -49,8 +49,8 @@ impl Cloth {
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
             let copied = self.system.model.stretch.add(copy);
             self.system.model.stretch.remember(copied, memory);
-            self.join([link.stayed; 2], id);
-            self.join([link.moved; 2], copied);
+            self.stretch_of.join([link.stayed; 2], id);
+            self.stretch_of.join([link.moved; 2], copied);
             self.measure_membrane(id);
             self.measure_membrane(copied);
             self.unbend(link.stayed);
@@ -62,9 +62,8 @@ impl Cloth {
                 let stretch = &mut self.system.model.stretch;
                 repoint(stretch, id, old, new);
             }
-            if let Some(&id) = self.bend_of.get(corner.next().index())
-                && id != NO_BEND
-            {
+            let id = self.bend_of.get(corner.next());
+            if id != NO_BEND {
                 repoint(&mut self.system.model.bend, id, old, new);
             }
         }
@@ -73,7 +72,7 @@ impl Cloth {
                 self.scratch.ids.clear();
                 self.scratch.ids.extend(self.system.model.bend.of(particle));
                 for i in 0..self.scratch.ids.len() {
-                    self.unbend(self.bent_edge[self.scratch.ids[i].index()][0]);
+                    self.unbend(self.bend_of.edges[self.scratch.ids[i].index()][0]);
                 }
             }
         }
@@ -91,15 +90,12 @@ impl Cloth {
             let (id, copied) = (self.stretch(link.stayed), self.stretch(link.moved));
             let stretch = &mut self.system.model.stretch;
             let removed = stretch.remove(copied);
-            if let Stretch::Edges { copies, .. } = self.fabric.stretch {
+            if matches!(self.fabric.stretch, Stretch::Edges { .. }) {
                 let sum = stretch.get(id).stiffness_n_per_m + removed.stiffness_n_per_m;
-                let share = match copies {
-                    Copies::Halved => 1.0,
-                    Copies::Whole => 0.5,
-                };
-                stretch.set_stiffness(id, sum * share);
+                let is_halved = self.fabric.halves_copies();
+                stretch.set_stiffness(id, if is_halved { sum } else { 0.5 * sum });
             }
-            self.join([link.stayed, link.moved], id);
+            self.stretch_of.join([link.stayed, link.moved], id);
         }
         let model = &mut self.system.model;
         for family in [&mut model.stretch, &mut model.bend] {
@@ -161,7 +157,7 @@ impl Cloth {
         }
         // The edges of all faces there, those across from it too.
         for id in ids.iter().map(|id| id.index()) {
-            for h in self.edge_of[id]
+            for h in self.stretch_of.edges[id]
                 .map(|h| [h, h.next(), h.prev()])
                 .as_flattened()
             {
@@ -176,17 +172,11 @@ impl Cloth {
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
         let mut room = std::mem::take(&mut self.scratch);
-        room.vertices.clear();
-        let corners = insert.children.iter().flat_map(|child| child.vertices);
-        room.vertices.extend(corners.map(VertexId::index));
-        room.vertices.sort_unstable();
-        room.vertices.dedup();
-
         self.push_particles(edit);
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
-        for &v in &room.vertices {
-            self.reweigh(v);
+        for v in insert.children.iter().flat_map(|child| child.vertices) {
+            self.reweigh(v.index());
         }
 
         room.pieces.clear();
@@ -198,16 +188,16 @@ impl Cloth {
             .sort_unstable_by_key(|piece| (piece.ends, piece.half_edge));
         let children = insert.children.iter();
         let half_edges = children.map(|child| 3 * child.face.index() + 3);
-        let half_edges = half_edges.fold(self.stretch_of.len(), usize::max);
-        self.stretch_of.resize(half_edges, NO_BEND);
+        let half_edges = half_edges.fold(self.stretch_of.ids.len(), usize::max);
+        self.stretch_of.ids.resize(half_edges, NO_BEND);
         self.system.model.faces.resize(half_edges, 0);
-        if !self.bend_of.is_empty() {
-            self.bend_of.resize(half_edges, NO_BEND);
+        if !self.bend_of.ids.is_empty() {
+            self.bend_of.ids.resize(half_edges, NO_BEND);
         }
         for child in insert.children {
             for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {
                 self.system.model.faces[h.index()] = v.index() as u32;
-                if let Some(bend) = self.bend_of.get_mut(h.index()) {
+                if let Some(bend) = self.bend_of.ids.get_mut(h.index()) {
                     *bend = NO_BEND;
                 }
             }
@@ -259,12 +249,12 @@ impl Cloth {
     /// An edge that was there stays; what is across it may be another vertex.
     fn keep(&mut self, edge: &[Piece]) {
         let id = edge[0].stretch;
-        let renamed = self.edge_of[id.index()].map(|h| {
+        let renamed = self.stretch_of.edges[id.index()].map(|h| {
             let mut pieces = edge.iter();
             let piece = pieces.find(|piece| piece.half_edge_before == h);
             piece.map_or(h, |piece| piece.half_edge)
         });
-        self.join(renamed, id);
+        self.stretch_of.join(renamed, id);
         for piece in edge {
             let id = piece.bend;
             if id == NO_BEND {
@@ -274,8 +264,8 @@ impl Cloth {
                 let bend = &mut self.system.model.bend;
                 bend.repoint(id, piece.apex_before, piece.apex);
             }
-            self.bend_of[piece.half_edge.index()] = id;
-            for h in &mut self.bent_edge[id.index()] {
+            self.bend_of.ids[piece.half_edge.index()] = id;
+            for h in &mut self.bend_of.edges[id.index()] {
                 if *h == piece.half_edge_before {
                     *h = piece.half_edge;
                 }
@@ -297,30 +287,19 @@ impl Cloth {
         };
         let id = self.system.model.stretch.add(constraint);
         if let [one, other] = edge {
-            self.join([one.half_edge, other.half_edge], id);
+            self.stretch_of.join([one.half_edge, other.half_edge], id);
             self.bend_across([one.half_edge, other.half_edge]);
         } else {
-            self.join([piece.half_edge; 2], id);
+            self.stretch_of.join([piece.half_edge; 2], id);
         }
-    }
-
-    /// Whether the two constraints of a torn edge have half its stiffness each.
-    fn halves_copies(&self) -> bool {
-        matches!(
-            self.fabric.stretch,
-            Stretch::Edges {
-                copies: Copies::Halved,
-                ..
-            }
-        )
     }
 
     /// Takes away the bend constraint across an edge.
     fn unbend(&mut self, h: HalfEdgeId) {
-        let id = self.bend_of.get(h.index()).copied().unwrap_or(NO_BEND);
+        let id = self.bend_of.get(h);
         if id != NO_BEND {
-            for h in self.bent_edge[id.index()] {
-                self.bend_of[h.index()] = NO_BEND;
+            for h in self.bend_of.edges[id.index()] {
+                self.bend_of.ids[h.index()] = NO_BEND;
             }
             self.system.model.bend.remove(id);
         }
@@ -355,7 +334,7 @@ impl Cloth {
             divided: on.is_some() && !is_kept,
             stretch: self.stretch(h),
             bend: match on {
-                Some(h) => self.bend_of.get(h.index()).copied().unwrap_or(NO_BEND),
+                Some(h) => self.bend_of.get(h),
                 None => NO_BEND,
             },
             stiffness_by_length,
@@ -399,7 +378,7 @@ fn push_particle(system: &mut System, from: Mix<VertexId>) {
     system.positions.push(x);
     system.velocities.push(v);
     let model = &mut system.model;
-    model.push_particle(like.is_some_and(|particle| model.held[particle]));
+    model.push_particle(0.0, like.is_some_and(|particle| model.held[particle]));
     let mut led = model.grabbed.iter();
     let path = led.find(|(particle, _)| Some(*particle as usize) == like);
     if let Some((_, path)) = path.cloned() {

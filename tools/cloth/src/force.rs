@@ -13,13 +13,8 @@
 use tearmesh::geometry::Vector;
 
 use crate::constraint::ConstraintId;
+use crate::motion;
 use crate::system::System;
-
-/// The force in a stretch constraint, computed from its length as k (l − L), in newtons.
-fn tension_n(system: &System, id: ConstraintId) -> f64 {
-    let [stretch, _] = system.model.families();
-    stretch.force_of(&stretch.constraints.get(id), &system.positions)
-}
 
 /// Returns the force in a stretch constraint as the method of the last step exerted it, in newtons.
 /// Tension is positive. For methods with physical stiffness, and before any step, it is computed
@@ -31,11 +26,11 @@ fn tension_n(system: &System, id: ConstraintId) -> f64 {
 /// If there is no such constraint.
 #[must_use]
 pub fn force_n(system: &System, id: ConstraintId) -> f64 {
-    let stretch = &system.model.stretch;
-    let (ends, multiplier) = (stretch.get(id).ends, stretch.memory(id).multiplier);
-    system
-        .model
-        .exerted_n(ends, tension_n(system, id), multiplier)
+    let [stretch, _] = system.model.families();
+    let (one, memory) = (stretch.constraints.get(id), stretch.constraints.memory(id));
+    let by_length = stretch.axial_of(&one, &system.positions).force;
+    let model = &system.model;
+    model.exerted_n(one.ends, by_length, memory.multiplier)
 }
 
 /// Returns the force, in newtons, that a hand must exert to hold or lead a particle: minus the sum
@@ -77,12 +72,9 @@ pub fn reaction_n(system: &System, particle: usize) -> Vector {
 /// zero. Counts as a force evaluation. Returns false if a constraint is stretched beyond
 /// [`System::set_stretch_ratio_max`].
 pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bool {
-    accelerations.clear();
-    accelerations.resize(system.positions.len(), Vector::zeros());
-    let (x, v, model) = (&system.positions, &system.velocities, &system.model);
-    let pull = model.pull(x, v, None, accelerations, &mut system.counters);
-    model.weigh(None, accelerations);
-    pull.is_sane
+    let is_sane = motion::accelerate(system, false, None);
+    system.scratch.accelerations.clone_into(accelerations);
+    is_sane
 }
 
 /// The force of constraints, their damping, triangles and gravity on a particle, in newtons.

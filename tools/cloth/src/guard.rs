@@ -56,6 +56,9 @@ use crate::system::model::Model;
 /// μ: a quarter of the largest Δt² λ.
 const SHARE: f64 = 0.65;
 
+/// At rest a triangle takes up 2 of the reach, at 1.4 times its size 4.
+const REACH: f64 = 4.0;
+
 /// Δt₀ is chosen for this part of the particles.
 const PERCENTILE: f64 = 0.9;
 
@@ -79,18 +82,19 @@ pub struct Frequency {
 }
 
 /// What is known of the masses and steps of a system.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Guard {
-    carry: MassScaling,
-    /// How far triangles may be stretched for the sums to hold.
+    /// The weights of particles in steps that they were weighed for.
+    pub(crate) carry: MassScaling,
+    /// How far triangles may be stretched for the sums to hold, if that is more than [`REACH`].
     reach: f64,
-    /// Whether the sums, and what follows from them, are those of the present constraints.
-    is_known: bool,
+    /// Whether the sums, and what follows from them, are those of the present constraints. Where a mesh was
+    /// edited particles are weighed anew, and the step that suits gets no shorter for it: slivers along a cut
+    /// are to be carried.
+    pub(crate) is_known: bool,
     /// The sums of the stiffness and of the damping at each particle.
     sums: Vec<f64>,
     dampers: Vec<f64>,
-    /// The sum of the stiffness that both count as in a step.
-    stiffness: Vec<f64>,
     frequency: Frequency,
     /// `None` where it is not known.
     suited_s: Option<f64>,
@@ -106,28 +110,6 @@ pub(crate) struct Guard {
     rates: Vec<f64>,
 }
 
-impl Default for Guard {
-    /// At rest a triangle takes up 2 of the reach, at 1.4 times its size 4.
-    fn default() -> Guard {
-        Guard {
-            carry: MassScaling::default(),
-            reach: 4.0,
-            is_known: false,
-            sums: Vec::new(),
-            dampers: Vec::new(),
-            stiffness: Vec::new(),
-            frequency: Frequency::default(),
-            suited_s: None,
-            weighed: None,
-            is_sound: false,
-            unsound_s: f64::INFINITY,
-            vector: Vec::new(),
-            product: Vec::new(),
-            rates: Vec::new(),
-        }
-    }
-}
-
 impl Guard {
     /// How many times the suited step is admitted whole.
     pub(crate) const WHOLE: f64 = 2.0;
@@ -135,9 +117,11 @@ impl Guard {
     /// Makes room for so many particles, and springs between them.
     pub(crate) fn reserve(&mut self, particles: usize, springs: usize) {
         self.carry.reserve(particles, springs);
-        let sums = [&mut self.sums, &mut self.dampers, &mut self.stiffness];
-        let others = [&mut self.rates, &mut self.vector, &mut self.product];
-        for list in sums.into_iter().chain(others) {
+        let sums = [&mut self.sums, &mut self.dampers, &mut self.rates];
+        for list in sums
+            .into_iter()
+            .chain([&mut self.vector, &mut self.product])
+        {
             room_for(list, particles);
         }
     }
@@ -148,30 +132,14 @@ impl Guard {
         self.suited_s = None;
     }
 
-    /// Masses or stiffness have changed where a mesh was edited. Particles are weighed anew, and the
-    /// step that suits gets no shorter for it: slivers along a cut are to be carried.
-    pub(crate) fn edited(&mut self) {
-        self.is_known = false;
-    }
-
-    /// Whether nothing has changed since masses and stiffness were looked at.
-    pub(crate) fn is_known(&self) -> bool {
-        self.is_known
-    }
-
     /// Takes in how far triangles are stretched now.
     pub(crate) fn reach_out(&mut self, model: &Model, x: &[Point]) {
         let growth = model.triangles.shear_growth(x);
         // A state that is not finite is for the step to find.
-        if growth > self.reach && growth.is_finite() {
+        if growth > self.reach.max(REACH) && growth.is_finite() {
             self.reach = 2.0 * growth;
             self.is_known = false;
         }
-    }
-
-    /// The weights of particles in steps that they were weighed for.
-    pub(crate) fn carry(&self) -> &MassScaling {
-        &self.carry
     }
 
     /// The step that suits a model, in seconds; infinite without springs.
@@ -194,17 +162,18 @@ impl Guard {
         self.is_known = true;
         self.weighed = None;
         self.unsound_s = f64::INFINITY;
+        let reach = self.reach.max(REACH);
         let (sums, dampers) = (&mut self.sums, &mut self.dampers);
         for list in [&mut *sums, &mut *dampers] {
             list.clear();
             list.resize(model.masses.len(), 0.0);
         }
-        model.each_spring(self.reach, 0.0, |[a, b], stiffness| {
+        model.each_spring(reach, 0.0, |[a, b], stiffness| {
             sums[a] += stiffness;
             sums[b] += stiffness;
         });
         if model.damping_s > 0.0 {
-            for colour in model.stretch.colours() {
+            for colour in &model.stretch.colours {
                 for (ends, damping) in colour.ends.iter().zip(&colour.damping) {
                     ends.iter()
                         .for_each(|&end| dampers[end as usize] += damping);
@@ -213,7 +182,7 @@ impl Guard {
         }
         let (sums, w) = (&self.sums, &model.inverse_masses);
         let mut most = (0.0, None);
-        model.each_spring(self.reach, 0.0, |[a, b], _| {
+        model.each_spring(reach, 0.0, |[a, b], _| {
             let row = w[a] * sums[a] + w[b] * sums[b];
             if row > most.0 {
                 most = (row, Some([a, b]));
@@ -249,20 +218,18 @@ impl Guard {
         }
         let had = self.carry.len();
         let damper = damping::stiffness_in(dt_s);
-        let sums = self.sums.iter().zip(&self.dampers);
-        self.stiffness.clear();
-        self.stiffness
-            .extend(sums.map(|(sum, damping)| sum + damper * damping));
+        let stiffness = |particle: usize| self.sums[particle] + damper * self.dampers[particle];
         let masses = [&model.masses[..], &model.inverse_masses[..]];
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
             let [stretch, bend] = model.families();
             stretch.springs_at(particle, damper, &mut *visit);
             bend.springs_at(particle, damper, &mut *visit);
-            model.triangles.springs_at(particle, self.reach, visit);
+            model
+                .triangles
+                .springs_at(particle, self.reach.max(REACH), visit);
         };
         let share = SHARE * (1.0 - air);
-        self.carry
-            .weigh(masses, &self.stiffness, neighbours, share, dt_s);
+        self.carry.weigh(masses, stiffness, neighbours, share, dt_s);
         self.weighed = Some([dt_s, air]);
         self.is_sound = self.carry.is_proven();
         had + self.carry.len() > 0
@@ -303,7 +270,7 @@ impl Guard {
             }
             product.clear();
             product.resize(count, 0.0);
-            model.each_spring(self.reach, damper, |[a, b], stiffness| {
+            model.each_spring(self.reach.max(REACH), damper, |[a, b], stiffness| {
                 let force = stiffness * (u[a] - u[b]);
                 product[a] += force;
                 product[b] -= force;

@@ -64,9 +64,9 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 pub use self::settings::{Method, Settings, Stats, StepError};
 use crate::blow_up::{first, is_beyond};
 use crate::constraint::Colour;
-use crate::matrix::{Hessian, Layout, Pcg, Solution, Weights};
-use crate::solver::{Abilities, Failure, Quality, SettingError, Solver};
-use crate::system::{Counters, Model, System};
+use crate::matrix::{Hessian, Pcg, Solution, Weights};
+use crate::solver::{Abilities, Failure, Quality, Solver};
+use crate::system::{Model, SettingError, System};
 
 /// Linearised implicit steps of a system: backward Euler or BDF2. They are stable at any step for
 /// springs, triangles, bends and drag. Backward Euler evaluates wind where a step begins, and is
@@ -112,7 +112,6 @@ pub struct Implicit {
     pub settings: Settings,
     stats: Stats,
     history: History,
-    layout: Layout,
     hessian: Hessian,
     pcg: Pcg,
     /// The accelerations by gravity and wind, which do not change in a step; and all forces at its
@@ -154,24 +153,16 @@ impl Implicit {
     }
 
     /// Takes a step, or its halves where it overshoots.
-    fn divide(
-        &mut self,
-        system: &mut System,
-        dt_s: f64,
-        parts: u32,
-        stats: &mut Stats,
-    ) -> Result<(), Failure> {
+    fn divide(&mut self, system: &mut System, dt_s: f64, parts: u32) -> Result<(), Failure> {
         let is_last = parts >= StepError::PARTS_MAX;
-        if self.part(system, dt_s, is_last, stats)? {
+        if self.part(system, dt_s, is_last)? {
             return Ok(());
         }
         if is_last {
             return Err(Failure::Implicit(StepError::Overshot));
         }
-        for _ in 0..2 {
-            self.divide(system, 0.5 * dt_s, 2 * parts, stats)?;
-        }
-        Ok(())
+        self.divide(system, 0.5 * dt_s, 2 * parts)?;
+        self.divide(system, 0.5 * dt_s, 2 * parts)
     }
 
     /// Takes a step, in place; false if it overshot and was not taken. The last that is tried may make
@@ -179,26 +170,15 @@ impl Implicit {
     ///
     /// Cost: an evaluation of forces and second derivatives, and a product with the matrix an
     /// iteration of conjugate gradients.
-    fn part(
-        &mut self,
-        system: &mut System,
-        dt_s: f64,
-        is_last: bool,
-        stats: &mut Stats,
-    ) -> Result<bool, Failure> {
-        let (x, v) = (&mut system.positions, &mut system.velocities);
-        let (model, counters) = (&system.model, &mut system.counters);
-        let weights = Weights {
-            masses: &model.masses,
-            inverse_masses: &model.inverse_masses,
-        };
-        let known = (self.settings.method == Method::Bdf2)
-            .then(|| self.history.ratio(x, dt_s))
-            .flatten();
-        self.blow(model, (x, v), known, counters);
-        self.layout.follow(x.len(), &|visit| model.each_pair(visit));
-        let stage = self.begin(model, x, v, known, dt_s);
-        let solution = self.solve(model, weights, (x, v), stage, stats, counters);
+    fn part(&mut self, system: &mut System, dt_s: f64, is_last: bool) -> Result<bool, Failure> {
+        let is_bdf2 = self.settings.method == Method::Bdf2;
+        let known = Some(&self.history).filter(|_| is_bdf2);
+        let known = known.and_then(|history| history.ratio(&system.positions, dt_s));
+        self.blow(system, known);
+        let (count, model) = (system.positions.len(), &system.model);
+        self.hessian.follow(count, &|visit| model.each_pair(visit));
+        let stage = self.begin(system, known, dt_s);
+        let solution = self.solve(system, stage);
         let velocity = |acceleration: f64| acceleration * stage.h / stage.dragged;
         let residual = velocity(solution.residual);
         let is_solved = solution.residual <= solution.limit;
@@ -209,53 +189,43 @@ impl Implicit {
                 solver_iterations: solution.iterations,
             }));
         }
-        self.keep_momentum(weights, stage);
+        self.keep_momentum(system.model.weights(), stage);
         let ends = self.start.iter().zip(&self.velocities);
         refill(&mut self.reached, ends.map(|(x, v)| x + v * stage.h));
         if let Some(particle) = first(is_beyond, &self.reached, &self.velocities) {
             return Err(Failure::Implicit(StepError::NotFinite { particle }));
         }
-        if overstretches(model, x, &self.reached) {
+        if overstretches(&system.model, &system.positions, &self.reached) {
             return Ok(false);
         }
-        let elastic_j = |x: &[Point], counters: &mut Counters| {
-            model.count_visits(1, counters);
-            model.elastic_j(x)
-        };
-        let to_j = elastic_j(&self.reached, counters);
         // The shortest part is taken also if it makes energy: what is left then is the solver's error, which
         // no shorter one would lower.
-        if !is_last {
-            let known_j = self.history.elastic_j(x, system.changes);
-            let from_j = known_j.unwrap_or_else(|| elastic_j(x, counters));
-            if self.makes_energy(model, weights, (x, v), [from_j, to_j], counters) {
-                return Ok(false);
-            }
+        system.model.count_visits(1, &mut system.counters);
+        let to_j = system.model.elastic_j(&self.reached);
+        if !is_last && self.makes_energy(system, to_j) {
+            return Ok(false);
         }
-        let reached = (&self.reached[..], &self.velocities[..]);
-        self.history.note((x, v), reached, dt_s);
+        self.history.note(system, &self.reached, &self.velocities);
+        self.history.time_step_s = dt_s;
         self.history.stored_j = (system.changes, to_j);
-        x.copy_from_slice(reached.0);
-        v.copy_from_slice(reached.1);
-        stats.parts += 1;
-        stats.first_order_parts += u64::from(known.is_none());
-        stats.residual_max_m_per_s = stats.residual_max_m_per_s.max(residual);
+        system.positions.copy_from_slice(&self.reached);
+        system.velocities.copy_from_slice(&self.velocities);
+        self.stats.parts += 1;
+        self.stats.first_order_parts += u64::from(known.is_none());
+        self.stats.residual_max_m_per_s = self.stats.residual_max_m_per_s.max(residual);
         Ok(true)
     }
 
     /// The accelerations by gravity and wind: where the step begins, or where going on as in the last
     /// step leads.
-    fn blow(
-        &mut self,
-        model: &Model,
-        (x, v): (&[Point], &[Vector]),
-        ratio: Option<f64>,
-        counters: &mut Counters,
-    ) {
+    fn blow(&mut self, system: &mut System, ratio: Option<f64>) {
+        let (x, v) = (&system.positions, &system.velocities);
+        let (model, counters) = (&system.model, &mut system.counters);
         self.outside.clear();
         self.outside.resize(x.len(), Vector::zeros());
         let Some(ratio) = ratio.filter(|_| model.loads.wind.is_some()) else {
-            return model.external(x, v, &mut self.outside, counters);
+            model.blow(x, v, &mut self.outside, counters);
+            return model.weigh(None, &mut self.outside);
         };
         self.reached.clear();
         self.velocities.clear();
@@ -268,19 +238,14 @@ impl Implicit {
             self.reached.push(x + moved * ratio);
             self.velocities.push(v + sped * ratio);
         }
-        let (later, speeds) = (&self.reached, &self.velocities);
-        model.external(later, speeds, &mut self.outside, counters);
+        model.blow(&self.reached, &self.velocities, &mut self.outside, counters);
+        model.weigh(None, &mut self.outside);
     }
 
     /// x*, v* and the forces at `x`; with the velocities now as the first guess.
-    fn begin(
-        &mut self,
-        model: &Model,
-        x: &[Point],
-        v: &[Vector],
-        ratio: Option<f64>,
-        dt_s: f64,
-    ) -> Stage {
+    fn begin(&mut self, system: &System, ratio: Option<f64>, dt_s: f64) -> Stage {
+        let (x, v) = (&system.positions, &system.velocities);
+        let model = &system.model;
         x.clone_into(&mut self.start);
         v.clone_into(&mut self.start_velocities);
         v.clone_into(&mut self.velocities);
@@ -314,53 +279,46 @@ impl Implicit {
     }
 
     /// The velocities that solve the linearised equation.
-    fn solve(
-        &mut self,
-        model: &Model,
-        weights: Weights<'_>,
-        (x, v): (&[Point], &[Vector]),
-        stage: Stage,
-        stats: &mut Stats,
-        counters: &mut Counters,
-    ) -> Solution {
+    fn solve(&mut self, system: &mut System, stage: Stage) -> Solution {
+        let (x, v) = (&system.positions, &system.velocities);
+        let (model, weights) = (&system.model, system.model.weights());
         let loads = self.outside.iter().zip(weights.masses);
         refill(&mut self.forces, loads.map(|(g, m)| g * *m));
         // What is far too long is found in the state in which a step ends.
-        let _unlimited = model.add_forces(x, f64::INFINITY, None, &mut self.forces);
+        let _unlimited = model.add_forces(x, None, &mut self.forces);
         let drag_per_s = model.drag_per_s();
         let acting = weights.rms(|i| self.forces[i] - v[i] * (drag_per_s * weights.masses[i]));
         let residual_max = stage.residual_max.min(UNANSWERED * acting);
         let (mut sums, mut is_clamped) = (1, false);
         let solution = loop {
-            self.hessian.clear(&self.layout);
-            let slots = |kind: usize| &self.layout.slots[kind][..];
-            let clamped = model.add_hessian(x, is_clamped, slots, &mut self.hessian);
+            self.hessian.clear();
+            let clamped = model.add_hessian(x, is_clamped, &mut self.hessian);
             let pcg = &mut self.pcg;
-            self.hessian.product(&self.layout, &self.shift, &mut pcg.b);
+            self.hessian.product(&self.shift, &mut pcg.b);
             for (i, b) in pcg.b.iter_mut().enumerate() {
                 let change = v[i] * stage.dragged - self.start_velocities[i];
                 *b = self.forces[i] - *b - change * (weights.masses[i] / stage.h);
             }
             let solution = pcg.solve(
-                (&self.hessian, &self.layout),
+                &self.hessian,
                 weights,
                 stage.dragged / (stage.h * stage.h),
                 (residual_max, self.settings.solver_iterations_max),
                 |i| x[i].coords.amax(),
             );
             sums += 2 + u64::from(solution.iterations);
-            stats.solver_iterations += u64::from(solution.iterations);
-            counters.matrix_products += 1 + u64::from(solution.iterations);
+            self.stats.solver_iterations += u64::from(solution.iterations);
+            system.counters.matrix_products += 1 + u64::from(solution.iterations);
             if !solution.is_indefinite || is_clamped {
-                stats.clamped += clamped;
+                self.stats.clamped += clamped;
                 break solution;
             }
-            stats.indefinite += 1;
+            self.stats.indefinite += 1;
             is_clamped = true;
         };
-        counters.force_evaluations += 1;
+        system.counters.force_evaluations += 1;
         // And two for lengths at the end.
-        model.count_visits(sums + 2, counters);
+        model.count_visits(sums + 2, &mut system.counters);
         for (v, d) in self.velocities.iter_mut().zip(&self.pcg.delta) {
             *v += d / stage.h;
         }
@@ -369,24 +327,24 @@ impl Implicit {
 
     /// Whether the step ends with more energy than there was and was put in, by gravity, by wind and by
     /// those that are held; by more than a part of what moves and changes hands, and than what rounding of
-    /// positions makes. `from_j` and `to_j` are the elastic energies at its ends.
-    fn makes_energy(
-        &mut self,
-        model: &Model,
-        weights: Weights<'_>,
-        (x, v): (&[Point], &[Vector]),
-        [from_j, to_j]: [f64; 2],
-        counters: &mut Counters,
-    ) -> bool {
+    /// positions makes. `to_j` is the elastic energy at its end.
+    fn makes_energy(&mut self, system: &mut System, to_j: f64) -> bool {
+        let (x, v) = (&system.positions, &system.velocities);
+        let (model, weights) = (&system.model, system.model.weights());
+        let known_j = self.history.elastic_j(x, system.changes);
+        let from_j = known_j.unwrap_or_else(|| {
+            model.count_visits(1, &mut system.counters);
+            model.elastic_j(x)
+        });
         let moved = &mut self.shift;
         refill(moved, self.reached.iter().zip(x).map(|(to, x)| to - x));
         let pulls = &mut self.pcg.b;
         // The forces that hold still do no work.
         let is_led = |i: usize| !weights.is_free(i) && moved[i] != Vector::zeros();
         if (0..moved.len()).any(is_led) {
-            self.hessian.product(&self.layout, moved, pulls);
-            counters.matrix_products += 1;
-            model.count_visits(1, counters);
+            self.hessian.product(moved, pulls);
+            system.counters.matrix_products += 1;
+            model.count_visits(1, &mut system.counters);
         }
         let (mut moving_j, mut gained_j, mut work_j) = (0.0, 0.0, 0.0);
         for (i, &m) in weights.masses.iter().enumerate() {
@@ -412,7 +370,7 @@ impl Implicit {
 
     /// Gives each piece that nothing holds the momentum that the exact answer has.
     fn keep_momentum(&mut self, weights: Weights<'_>, stage: Stage) {
-        let pieces = &self.layout.pieces;
+        let pieces = &self.hessian.pieces;
         // By lowest particle: the momentum that is missing; the mass, or NaN where something is
         // held.
         let missing = &mut self.shift;
@@ -446,9 +404,7 @@ impl Solver for Implicit {
     }
 
     fn check(&self) -> Result<(), SettingError> {
-        let given = self.settings.tolerance;
-        let holds = given > 0.0 && given.is_finite();
-        SettingError::unless(holds, "tolerance", given, "any above 0")
+        SettingError::unless_above_0("tolerance", self.settings.tolerance)
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
@@ -456,14 +412,17 @@ impl Solver for Implicit {
         system.scratch.is_fresh = false;
         // A state that is too far away or too fast already is no matter of the method.
         Failure::unless(first(is_beyond, &system.positions, &system.velocities).is_none())?;
-        let mut stats = self.stats;
-        self.divide(system, dt_s, 1, &mut stats)?;
-        let ratio_max = system.model.stretch_ratio_max;
-        let too_long = system.model.longest_beyond(&system.positions, ratio_max);
-        Failure::unless(too_long.is_none())?;
-        system.counters.overshoots += u64::from(stats.parts > self.stats.parts + 1);
-        self.stats = stats;
-        Ok(())
+        let before = self.stats;
+        let done = self.divide(system, dt_s, 1).and_then(|()| {
+            let ratio_max = system.model.stretch_ratio_max;
+            let too_long = system.model.longest_beyond(&system.positions, ratio_max);
+            Failure::unless(too_long.is_none())
+        });
+        match done {
+            Ok(()) => system.counters.overshoots += u64::from(self.stats.parts > before.parts + 1),
+            Err(_) => self.stats = before,
+        }
+        done
     }
 
     fn quality(&self, _system: &System) -> Quality {
@@ -514,19 +473,14 @@ impl History {
         (until == changes && self.positions == x).then_some(stored_j)
     }
 
-    fn note(
-        &mut self,
-        (x, v): (&[Point], &[Vector]),
-        reached: (&[Point], &[Vector]),
-        time_step_s: f64,
-    ) {
-        let ends = reached.0.iter().zip(x);
+    /// Notes what a step reaches from where a system is.
+    fn note(&mut self, system: &System, reached: &[Point], velocities: &[Vector]) {
+        let ends = reached.iter().zip(&system.positions);
         refill(&mut self.moved, ends.map(|(to, x)| to - x));
-        let ends = reached.1.iter().zip(v);
+        let ends = velocities.iter().zip(&system.velocities);
         refill(&mut self.sped, ends.map(|(to, v)| to - v));
-        reached.0.clone_into(&mut self.positions);
-        reached.1.clone_into(&mut self.velocities);
-        self.time_step_s = time_step_s;
+        reached.clone_into(&mut self.positions);
+        velocities.clone_into(&mut self.velocities);
     }
 
     /// x₀ − x₋₁ and v₀ − v₋₁ for a particle whose velocity is now `v`. What is remembered is
@@ -546,22 +500,20 @@ fn refill<T>(list: &mut Vec<T>, items: impl Iterator<Item = T>) {
 /// Whether an edge, or a triangle along warp or weft, ends longer than a linearised step knows of, by more than
 /// a part of its rest length.
 fn overstretches(model: &Model, x: &[Point], reached: &[Point]) -> bool {
-    let is_long = |before: Vector, after: Vector, rest: f64| {
+    let springs = model.stretch.colours.iter().flat_map(Colour::springs);
+    let edges = springs.map(|([a, b], rest, _)| (x[b] - x[a], reached[b] - reached[a], rest));
+    let triangles = model.triangles.as_slice().iter().flat_map(|triangle| {
+        let [before, after] = [x, reached].map(|points| triangle.derivatives_at(points));
+        [0, 1].map(|c| (before[c], after[c], 1.0))
+    });
+    edges.chain(triangles).any(|(before, after, rest)| {
         let (from, to) = (length(before), length(after));
-        let along = if from > 0.0 {
+        let is_direction = from > 0.0;
+        let along = if is_direction {
             dot(before, after) / from
         } else {
             0.0
         };
         to - rest.max(from).max(along) > OVERSHOOT * rest
-    };
-    let springs = model.stretch.colours().iter().flat_map(Colour::springs);
-    let mut edges = springs.map(|([a, b], rest, _)| (x[b] - x[a], reached[b] - reached[a], rest));
-    let mut triangles = model.triangles.as_slice().iter();
-    edges.any(|(before, after, rest)| is_long(before, after, rest))
-        || triangles.any(|triangle| {
-            let [before, after] = [x, reached]
-                .map(|points| triangle.derivatives(triangle.vertices.map(|v| points[v as usize])));
-            (0..2).any(|c| is_long(before[c], after[c], 1.0))
-        })
+    })
 }

@@ -16,14 +16,6 @@ pub(crate) struct Incidence<const ENDS: usize> {
 }
 
 impl<const ENDS: usize> Incidence<ENDS> {
-    /// Empty lists for `particles` particles.
-    pub(crate) fn new(particles: usize) -> Incidence<ENDS> {
-        Incidence {
-            first: vec![NONE; particles],
-            next: Vec::new(),
-        }
-    }
-
     /// Makes room for so many particles and constraints in all.
     pub(crate) fn reserve(&mut self, particles: usize, constraints: usize) {
         room_for(&mut self.first, particles);
@@ -94,7 +86,8 @@ mod tests {
 
     #[test]
     fn a_list_has_what_was_attached_and_not_detached() {
-        let mut lists = Incidence::<3>::new(2);
+        let mut lists = Incidence::<3>::default();
+        (0..2).for_each(|_| lists.push_particle());
         for constraint in 0..4 {
             lists.push();
             lists.attach(constraint, constraint % 3, 1);

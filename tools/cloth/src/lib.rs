@@ -77,7 +77,6 @@ pub use balance::{Balance, EnergyBalance};
 pub use bend::Buckling;
 pub use blow_up::BlowUpSite;
 pub use constraint::{Constraint, ConstraintId, Constraints};
-pub use damping::Damping;
 pub use fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};
 pub use guard::Frequency;
 pub use implicit::Implicit;
@@ -89,11 +88,9 @@ pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
     Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
 };
-pub use solver::{
-    Abilities, Failure, LimiterStats, Quality, SettingError, Solver, StepError, StepReport,
-};
+pub use solver::{Abilities, Failure, LimiterStats, Quality, Solver, StepError, StepLimit};
 pub use stability::{frequency_bound, recommended_step_s, stable_step_s};
-pub use system::{Counters, FeatureVisits, System, SystemError, Unstable, Visits};
+pub use system::{Counters, FeatureVisits, SettingError, System, SystemError, Unstable, Visits};
 pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
 pub use triangle::Triangle;
 pub use verlet::Verlet;

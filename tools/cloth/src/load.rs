@@ -7,6 +7,8 @@ use std::sync::Arc;
 
 use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 
+use crate::system::error::SettingError;
+
 /// The external loads on the particles. By default there are none.
 ///
 /// ```
@@ -54,28 +56,29 @@ pub enum Collider {
 }
 
 impl Loads {
-    /// The first number that cannot be used: its field, and the number as given.
-    pub(crate) fn fault(&self) -> Option<(&'static str, f64)> {
-        let finite = |v: Vector| v.iter().copied().find(|x| !x.is_finite());
-        let positive = |x: f64| Some(x).filter(|x| !(*x >= 0.0 && x.is_finite()));
-        let collider = |collider: &Collider| match *collider {
-            Collider::Plane(_) => None,
-            Collider::Sphere { centre, radius_m } => {
-                let centre = finite(centre.coords).map(|x| ("colliders.centre", x));
-                centre.or_else(|| Some(("colliders.radius_m", positive(radius_m)?)))
+    /// Refuses the first number that cannot be used.
+    pub(crate) fn check(&self) -> Result<(), SettingError> {
+        let finite = |setting, v: Vector| {
+            let unusable = v.iter().copied().find(|x| !x.is_finite());
+            let given = unusable.unwrap_or(0.0);
+            SettingError::unless(unusable.is_none(), setting, given, "any finite number")
+        };
+        finite(
+            "gravity_m_per_s2",
+            self.gravity_m_per_s2.unwrap_or_default(),
+        )?;
+        SettingError::unless_positive("drag_per_s", self.drag_per_s.unwrap_or(0.0))?;
+        if let Some(wind) = self.wind {
+            finite("wind.velocity_m_per_s", wind.velocity_m_per_s)?;
+            SettingError::unless_positive("wind.coefficient", wind.coefficient)?;
+        }
+        for collider in &self.colliders {
+            if let Collider::Sphere { centre, radius_m } = *collider {
+                finite("colliders.centre", centre.coords)?;
+                SettingError::unless_positive("colliders.radius_m", radius_m)?;
             }
-        };
-        let wind = |wind: Wind| {
-            let velocity = finite(wind.velocity_m_per_s).map(|x| ("wind.velocity_m_per_s", x));
-            velocity.or_else(|| Some(("wind.coefficient", positive(wind.coefficient)?)))
-        };
-        let gravity = self.gravity_m_per_s2.and_then(finite);
-        let gravity = gravity.map(|x| ("gravity_m_per_s2", x));
-        let drag = || Some(("drag_per_s", self.drag_per_s.and_then(positive)?));
-        gravity
-            .or_else(drag)
-            .or_else(|| self.wind.and_then(wind))
-            .or_else(|| self.colliders.iter().find_map(collider))
+        }
+        Ok(())
     }
 }
 
@@ -109,29 +112,19 @@ impl Wind {
 impl Collider {
     /// Where a particle inside comes out, and its velocity then; `None` for one outside.
     pub(crate) fn pushed(&self, x: Point, v: Vector) -> Option<(Point, Vector)> {
-        let (normal, depth) = self.depth(x)?;
-        let into = dot(normal, v).min(0.0);
-        Some((x + normal * depth, v - normal * into))
-    }
-
-    /// The way out of a point inside: a unit vector, and how far.
-    fn depth(&self, p: Point) -> Option<(Vector, f64)> {
-        match *self {
-            Collider::Plane(plane) => {
-                let distance = plane.distance(p);
-                (distance < 0.0).then(|| (plane.normal(), -distance))
-            }
+        // The way out: a unit vector, and how far.
+        let (normal, depth) = match *self {
+            Collider::Plane(plane) => (plane.normal(), -plane.distance(x)),
             Collider::Sphere { centre, radius_m } => {
-                let d = p - centre;
+                let d = x - centre;
                 let distance = length(d);
-                let normal = if distance > 0.0 {
-                    d / distance
-                } else {
-                    Vector::z()
-                };
-                (distance < radius_m).then_some((normal, radius_m - distance))
+                let is_centre = distance <= 0.0;
+                let normal = if is_centre { Vector::z() } else { d / distance };
+                (normal, radius_m - distance)
             }
-        }
+        };
+        let into = dot(normal, v).min(0.0);
+        (depth > 0.0).then(|| (x + normal * depth, v - normal * into))
     }
 }
 

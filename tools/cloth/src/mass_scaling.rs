@@ -53,13 +53,13 @@ struct OneRing {
 }
 
 impl MassScaling {
-    /// Weighs particles of these masses for a net with the sums `stiffness` at each of them, so that
+    /// Weighs particles of these masses for a net with the sum `stiffness` at each of them, so that
     /// Δt² λ is at most 4 `share`. An inverse mass of zero says that a particle is held. `neighbours` visits
     /// those of a particle with the stiffness between, in N/m.
     pub(crate) fn weigh(
         &mut self,
         masses: [&[f64]; 2],
-        stiffness: &[f64],
+        stiffness: impl Fn(usize) -> f64,
         neighbours: impl Fn(usize, &mut dyn FnMut(usize, f64)),
         share: f64,
         dt_s: f64,
@@ -69,7 +69,7 @@ impl MassScaling {
         self.legs.clear();
         self.light.clear();
         self.is_proven = true;
-        let need = |particle: usize| dt_s * dt_s * stiffness[particle] / (2.0 * share);
+        let need = |particle: usize| dt_s * dt_s * stiffness(particle) / (2.0 * share);
         for (particle, (&m, &w)) in masses.iter().zip(inverse_masses).enumerate() {
             if w > 0.0 && need(particle) > m {
                 self.light.push((need(particle) / m, particle as u32));
@@ -220,7 +220,7 @@ mod tests {
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
             springs.neighbours(particle, visit);
         };
-        carry.weigh(masses, &sums, neighbours, 0.65, dt_s);
+        carry.weigh(masses, |particle| sums[particle], neighbours, 0.65, dt_s);
         carry
     }
 

@@ -3,8 +3,7 @@
 //!
 //! A [`Hessian`] holds the second derivatives of an energy: one block on the diagonal for each
 //! particle, one off it for each *slot*, which is a pair of particles (i, j), i < j, that
-//! something acts between. The block (j, i) is the transpose and is not stored. A [`Layout`] says
-//! which pairs have a slot, and [`Pcg`] solves.
+//! something acts between. The block (j, i) is the transpose and is not stored. [`Pcg`] solves.
 //!
 //! Slots are in ascending order of their pairs, so a sum depends on the present constraints alone,
 //! and not on what was torn before.
@@ -96,43 +95,62 @@ impl Block {
     }
 }
 
+const NO_SLOT: u32 = u32::MAX;
+
+/// Visits the pairs of all constraints: kind, number and particles.
+pub(crate) type EachPair<'a> = &'a dyn Fn(&mut dyn FnMut(usize, usize, [u32; 2]));
+
 /// The symmetric matrix of second derivatives of an energy, in 3 × 3 blocks by particle.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Hessian {
     diagonal: Vec<Block>,
     off: Vec<Block>,
+    /// The pair (i, j), i < j, of each slot, in ascending order.
+    pairs: Vec<[u32; 2]>,
+    /// For each particle, the lowest among those that constraints connect with it, itself included.
+    pub(crate) pieces: Vec<u32>,
+    /// By kind of constraint and by the number of a constraint's pair; [`NO_SLOT`] without a pair.
+    slots: [Vec<u32>; 3],
+    /// How many pairs the constraints have, where those of several coincide counted for each.
+    count: usize,
+    sets: DisjointSets,
 }
 
 impl Hessian {
-    /// Sets the matrix to zero, with the slots of `layout`. Keeps the allocated memory.
-    pub(crate) fn clear(&mut self, layout: &Layout) {
+    /// Sets the matrix to zero. Keeps the allocated memory.
+    pub(crate) fn clear(&mut self) {
         self.diagonal.clear();
-        self.diagonal.resize(layout.pieces.len(), Block::ZERO);
+        self.diagonal.resize(self.pieces.len(), Block::ZERO);
         self.off.clear();
-        self.off.resize(layout.pairs.len(), Block::ZERO);
+        self.off.resize(self.pairs.len(), Block::ZERO);
     }
 
     /// Adds the second derivative of a force along the line between two particles: `k` to both
     /// diagonal blocks, and −`k` off the diagonal. `k` must be symmetric.
     #[inline]
-    pub(crate) fn add_pair(&mut self, slot: u32, ends: [u32; 2], k: &Block) {
+    pub(crate) fn add_pair(&mut self, pair: (usize, usize), ends: [u32; 2], k: &Block) {
         for end in ends {
             let sum = &mut self.diagonal[end as usize];
             *sum = sum.plus(1.0, k);
         }
-        let sum = &mut self.off[slot as usize];
+        let sum = self.slot_mut(pair);
         *sum = sum.plus(-1.0, k);
     }
 
+    /// The block of a constraint's pair, given by its kind and number.
+    fn slot_mut(&mut self, (kind, number): (usize, usize)) -> &mut Block {
+        &mut self.off[self.slots[kind][number] as usize]
+    }
+
     /// Adds a block at row `i`, column `j`. If both are equal, it is added to the diagonal, and
-    /// `slot` is ignored.
+    /// `pair` is ignored.
     #[inline]
-    pub(crate) fn add(&mut self, slot: u32, [i, j]: [u32; 2], block: &Block) {
+    pub(crate) fn add(&mut self, pair: (usize, usize), [i, j]: [u32; 2], block: &Block) {
         if i == j {
             let sum = &mut self.diagonal[i as usize];
             *sum = sum.plus(1.0, block);
         } else {
-            let sum = &mut self.off[slot as usize];
+            let sum = self.slot_mut(pair);
             *sum = if i < j {
                 sum.plus(1.0, block)
             } else {
@@ -147,40 +165,19 @@ impl Hessian {
     }
 
     /// Computes the product with a vector for each particle, into `out`.
-    pub(crate) fn product(&self, layout: &Layout, x: &[Vector], out: &mut Vec<Vector>) {
+    pub(crate) fn product(&self, x: &[Vector], out: &mut Vec<Vector>) {
         assert!(x.len() == self.diagonal.len(), "one vector a particle");
-        assert!(layout.pairs.len() == self.off.len(), "one block a slot");
+        assert!(self.pairs.len() == self.off.len(), "one block a slot");
         out.clear();
         out.extend(self.diagonal.iter().zip(x).map(|(b, &x)| b.times(x)));
-        for (block, &[i, j]) in self.off.iter().zip(&layout.pairs) {
+        for (block, &[i, j]) in self.off.iter().zip(&self.pairs) {
             let (i, j) = (i as usize, j as usize);
             let (xi, xj) = (x[i], x[j]);
             out[i] += block.times(xj);
             out[j] += block.transposed_times(xi);
         }
     }
-}
 
-/// The particles of each slot of a [`Hessian`], and the slot to which each constraint adds.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Layout {
-    /// The pair (i, j), i < j, of each slot, in ascending order.
-    pairs: Vec<[u32; 2]>,
-    /// For each particle, the lowest among those that constraints connect with it, itself included.
-    pub(crate) pieces: Vec<u32>,
-    /// By kind of constraint and by the number of a constraint's pair; [`NO_SLOT`] without a pair.
-    pub(crate) slots: [Vec<u32>; 3],
-    /// How many pairs the constraints have, where those of several coincide counted for each.
-    count: usize,
-    sets: DisjointSets,
-}
-
-const NO_SLOT: u32 = u32::MAX;
-
-/// Visits the pairs of all constraints: kind, number and particles.
-pub(crate) type EachPair<'a> = &'a dyn Fn(&mut dyn FnMut(usize, usize, [u32; 2]));
-
-impl Layout {
     /// Takes the pairs of the present constraints. Costs a comparison for each, and O(n log n) if
     /// one has come, gone or got other ends.
     pub(crate) fn follow(&mut self, particles: usize, each_pair: EachPair<'_>) {
@@ -288,7 +285,7 @@ impl Pcg {
     /// or as much as rounding makes at coordinates of the size `size`.
     pub(crate) fn solve(
         &mut self,
-        (hessian, layout): (&Hessian, &Layout),
+        hessian: &Hessian,
         weights: Weights<'_>,
         inertia: f64,
         (residual_max, iterations_max): (f64, u32),
@@ -326,7 +323,7 @@ impl Pcg {
         self.direction.clone_from(&self.preconditioned);
         while solution.iterations < iterations_max {
             solution.iterations += 1;
-            hessian.product(layout, &self.direction, &mut self.product);
+            hessian.product(&self.direction, &mut self.product);
             let mut curvature = 0.0;
             for (i, (q, &p)) in self.product.iter_mut().zip(&self.direction).enumerate() {
                 *q = if weights.is_free(i) {

@@ -21,6 +21,7 @@ use crate::xpbd::{Pbd, Xpbd};
 /// stone.step(&mut *Method::implicit().solver(), 0.01)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[must_use]
 #[derive(Clone, Debug)]
 pub enum Method {
     /// Provot's mass-spring model with its limiter ([`Provot`]). The tearing rule
@@ -65,27 +66,23 @@ impl Method {
     }
 
     /// Returns Provot's model with the settings that scenes use by default.
-    #[must_use]
     pub fn provot() -> Method {
         Method::Provot(Limiter::default())
     }
 
     /// Returns [`Pbd`] with the settings that scenes use by default.
-    #[must_use]
     pub fn pbd() -> Method {
         Method::Pbd(Pbd::default())
     }
 
     /// Returns [`Xpbd`] with the settings that scenes use by default. A step is one sweep, so that
     /// the cloth can tear after each sweep.
-    #[must_use]
     pub fn xpbd() -> Method {
         Method::Xpbd(Xpbd::new(1, 1))
     }
 
     /// Returns [`Implicit`] with the settings that scenes use by default: an error
     /// of at most 0.2 mm/s in a step of 1/240 s.
-    #[must_use]
     pub fn implicit() -> Method {
         Method::Implicit(Settings {
             tolerance: 10.0,
@@ -152,13 +149,15 @@ impl Method {
         };
         let drag_per_s = system.model.drag_per_s();
         let stretches = system.stretches();
-        let rates = stretches.iter().map(|id| {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for id in stretches.iter() {
             let spring = stretches.get(id);
             let [a, b] = spring.ends.map(|end| system.inverse_masses()[end]);
-            spring.stiffness_n_per_m * (a + b)
-        });
-        let rates = rates.filter(|rate| *rate > 0.0);
-        let (sum, count) = rates.fold((0.0, 0.0), |(sum, count), rate| (sum + rate, count + 1.0));
+            let rate = spring.stiffness_n_per_m * (a + b);
+            if rate > 0.0 {
+                (sum, count) = (sum + rate, count + 1.0);
+            }
+        }
         if count == 0.0 {
             return None;
         }

@@ -23,8 +23,12 @@ pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Opt
         true => &scratch.predicted,
         false => velocities,
     };
-    let pull = model.pull(positions, winds, crush, accelerations, &mut system.counters);
-    model.weigh(guarded_s.map(|_| system.guard.carry()), accelerations);
+    system.counters.force_evaluations += 1;
+    model.count_visits(1, &mut system.counters);
+    accelerations.fill(Vector::zeros());
+    let pull = model.add_forces(positions, crush, accelerations);
+    model.blow(positions, winds, accelerations, &mut system.counters);
+    model.weigh(guarded_s.map(|_| &system.guard.carry), accelerations);
     scratch.guarded_s = guarded_s.unwrap_or(0.0);
     scratch.damped_w = pull.damped_w;
     pull.is_sane
@@ -93,7 +97,8 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
     if model.loads.wind.is_some() {
         accelerations.clear();
         accelerations.resize(positions.len(), Vector::zeros());
-        model.external(positions, velocities, accelerations, &mut system.counters);
+        model.blow(positions, velocities, accelerations, &mut system.counters);
+        model.weigh(None, accelerations);
     }
     let (moved, gravity) = (free_step(model, dt_s), model.gravity());
     let particles = positions.iter_mut().zip(&mut scratch.before);

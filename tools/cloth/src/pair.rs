@@ -7,7 +7,7 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
-use crate::bend::Buckling;
+use crate::bend::{Axial, Buckling};
 use crate::constraint::{Colour, Constraint, Constraints};
 use crate::crush::Crush;
 use crate::matrix::{Block, Hessian};
@@ -31,39 +31,34 @@ pub(crate) struct Pull {
 }
 
 impl Pairs<'_> {
-    /// Twice the energy of one, in joules (a sum is halved once), and its pull in newtons: the derivative of
-    /// the energy, negative where it pushes apart.
+    /// Energy, force and slope of one with the ends so far apart.
     #[inline]
-    fn axial(self, rest: f64, stiffness: f64, length: f64) -> [f64; 2] {
-        match self.buckling {
-            None => [
-                stiffness * (length - rest) * (length - rest),
-                stiffness * (length - rest),
-            ],
-            Some(law) => {
-                let axial = law.axial(rest, stiffness, length);
-                [2.0 * axial.energy, axial.force]
-            }
+    fn axial(self, rest: f64, stiffness: f64, length: f64) -> Axial {
+        if let Some(law) = self.buckling {
+            return law.axial(rest, stiffness, length);
+        }
+        let force = stiffness * (length - rest);
+        Axial {
+            energy: 0.5 * (force * (length - rest)),
+            force,
+            slope: stiffness,
         }
     }
 
-    /// The energy in joules and the pull in newtons of one constraint, whether it is one of them or was.
-    fn axial_of(self, one: &Constraint, x: &[Point]) -> [f64; 2] {
-        let length = span(x, one.ends);
-        let [twice_j, force] = self.axial(one.rest_length_m, one.stiffness_n_per_m, length);
-        [0.5 * twice_j, force]
+    /// That of one constraint, whether it is one of them or was.
+    pub(crate) fn axial_of(self, one: &Constraint, x: &[Point]) -> Axial {
+        self.axial(one.rest_length_m, one.stiffness_n_per_m, span(x, one.ends))
     }
 
-    /// The derivative of that along the line, and that of the force across it for a turn, force over
+    /// The derivative of the force along the line, and that of the force across it for a turn, force over
     /// length, in newtons per metre.
     fn stiffness(self, rest: f64, stiffness: f64, length: f64) -> [f64; 2] {
-        match self.buckling {
-            None => [stiffness, stiffness * ((length - rest) / length)],
-            Some(law) => {
-                let axial = law.axial(rest, stiffness, length);
-                [axial.slope, axial.force / length]
-            }
-        }
+        let axial = self.axial(rest, stiffness, length);
+        let across = match self.buckling {
+            None => stiffness * ((length - rest) / length),
+            Some(_) => axial.force / length,
+        };
+        [axial.slope, across]
     }
 
     /// The largest stiffness at any length of one of this stiffness.
@@ -73,29 +68,19 @@ impl Pairs<'_> {
 
     /// The elastic energy in joules, added to a sum one colour after the other.
     pub(crate) fn energy(self, x: &[Point], sum: f64) -> f64 {
-        let colours = self.constraints.colours().iter();
+        let colours = self.constraints.colours.iter();
         colours.fold(sum, |sum, colour| {
-            let twice = colour
+            let energies = colour
                 .springs()
-                .map(|(ends, rest, stiffness)| self.axial(rest, stiffness, span(x, ends))[0]);
-            sum + 0.5 * twice.fold(0.0, |sum, twice_j| sum + twice_j)
+                .map(|(ends, rest, stiffness)| self.axial(rest, stiffness, span(x, ends)).energy);
+            sum + energies.fold(0.0, |sum, energy_j| sum + energy_j)
         })
-    }
-
-    /// The elastic energy of one constraint, whether it is one of them or was.
-    pub(crate) fn energy_of(self, one: &Constraint, x: &[Point]) -> f64 {
-        self.axial_of(one, x)[0]
-    }
-
-    /// The pull of one constraint by its length, in newtons.
-    pub(crate) fn force_of(self, one: &Constraint, x: &[Point]) -> f64 {
-        self.axial_of(one, x)[1]
     }
 
     /// The elastic energy of the constraints of a particle.
     pub(crate) fn energy_at(self, x: &[Point], particle: usize) -> f64 {
         let ids = self.constraints.of(particle);
-        ids.map(|id| self.energy_of(&self.constraints.get(id), x))
+        ids.map(|id| self.axial_of(&self.constraints.get(id), x).energy)
             .sum()
     }
 
@@ -132,7 +117,7 @@ impl Pairs<'_> {
         forces: &mut [Vector],
     ) -> Pull {
         let (mut is_sane, mut damped_w) = (true, 0.0);
-        for colour in self.constraints.colours() {
+        for colour in &self.constraints.colours {
             for (([a, b], rest, stiffness), &damping) in colour.springs().zip(&colour.damping) {
                 let d = x[b] - x[a];
                 let length = length(d);
@@ -182,7 +167,7 @@ impl Pairs<'_> {
                 let damped_n = velocities.map_or(0.0, |v| {
                     self.constraints.damping(id) * dot(d, v[other] - v[particle]) / length
                 });
-                let pull = exerted([a, b], self.force_of(&one, x), multiplier) + damped_n;
+                let pull = exerted([a, b], self.axial_of(&one, x).force, multiplier) + damped_n;
                 *sum += d * (pull / length);
             }
         }
@@ -191,7 +176,7 @@ impl Pairs<'_> {
     /// The one that is longest for its rest length: its ends, and the ratio of the two. The length of a bend
     /// without stiffness does not matter, which is what an edit leaves where rounding left none at rest.
     pub(crate) fn longest(self, x: &[Point]) -> Option<([usize; 2], f64)> {
-        let all = self.constraints.colours().iter().flat_map(Colour::springs);
+        let all = self.constraints.colours.iter().flat_map(Colour::springs);
         let measured = all.filter(|one| self.buckling.is_none() || one.2 > 0.0);
         let ratios = measured.map(|(ends, rest, _)| (ends, span(x, ends) / rest));
         ratios.reduce(|most, one| if one.1 > most.1 { one } else { most })
@@ -200,7 +185,7 @@ impl Pairs<'_> {
     /// Visits springs that together are as stiff as these constraints or stiffer, in every direction and in
     /// any state: their particles, and their stiffness in N/m. A damper of 1 N s/m counts as `damper`.
     pub(crate) fn each_spring(self, damper: f64, mut visit: impl FnMut([usize; 2], f64)) {
-        for colour in self.constraints.colours() {
+        for colour in &self.constraints.colours {
             for ((ends, _, stiffness), &damping) in colour.springs().zip(&colour.damping) {
                 if stiffness > 0.0 {
                     visit(ends, self.stiffest(stiffness) + damper * damping);
@@ -229,24 +214,24 @@ impl Pairs<'_> {
 
     /// The particles of each, with its id.
     pub(crate) fn each_pair(self, mut visit: impl FnMut(usize, [u32; 2])) {
-        for colour in self.constraints.colours() {
+        for colour in &self.constraints.colours {
             for (&id, &ends) in colour.ids.iter().zip(&colour.ends) {
                 visit(id as usize, ends);
             }
         }
     }
 
-    /// Adds the second derivatives of the energy, each to its slot by its id. With `clamp` every term is
-    /// positive semidefinite; returns how many had a part dropped for it.
+    /// Adds the second derivatives of the energy, each by its id in this kind. With `clamp` every term is positive
+    /// semidefinite; returns how many had a part dropped for it.
     pub(crate) fn add_hessian(
         self,
+        kind: usize,
         x: &[Point],
         clamp: bool,
-        slots: &[u32],
-        hessian: &mut Hessian,
+        to: &mut Hessian,
     ) -> u64 {
         let mut clamped = 0;
-        for colour in self.constraints.colours() {
+        for colour in &self.constraints.colours {
             for (&id, (ends, rest, stiffness)) in colour.ids.iter().zip(colour.springs()) {
                 // Edges of a cloth of triangles alone are measured, and pull at nothing.
                 if stiffness > 0.0 {
@@ -254,7 +239,7 @@ impl Pairs<'_> {
                     let (block, dropped) =
                         block(d, self.stiffness(rest, stiffness, length(d)), clamp);
                     clamped += u64::from(dropped);
-                    hessian.add_pair(slots[id as usize], ends.map(|end| end as u32), &block);
+                    to.add_pair((kind, id as usize), ends.map(|end| end as u32), &block);
                 }
             }
         }

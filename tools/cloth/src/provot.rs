@@ -11,16 +11,18 @@
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
 use crate::motion::{accelerate, force_scale, kick_and_drift};
-use crate::solver::{Abilities, Failure, LimiterStats, Quality, SettingError, Solver};
+use crate::solver::{Abilities, Failure, LimiterStats, Quality, Solver};
 use crate::spring;
-use crate::system::{Recorded, System};
+use crate::system::{Recorded, SettingError, System};
 
 /// Provot's mass-spring model: a step of symplectic Euler, and then a limiter of stretch. It is of
 /// first order and takes one force evaluation per step. Springs are stable up to ω Δt = 2, and wind
 /// alone up to λ Δt = 2.
+#[must_use]
 #[derive(Clone, Copy, Debug)]
 pub struct Provot {
-    limiter: Option<Limiter>,
+    /// Infinite without a limiter.
+    limiter: Limiter,
     stats: LimiterStats,
 }
 
@@ -51,32 +53,29 @@ impl Default for Provot {
 
 impl Provot {
     /// Creates the model with this limiter.
-    #[must_use]
     pub fn new(limiter: Limiter) -> Provot {
-        Provot {
-            limiter: Some(limiter),
-            stats: LimiterStats::default(),
-        }
+        let stats = LimiterStats::default();
+        Provot { limiter, stats }
     }
 
     /// Creates the model without a limiter.
-    #[must_use]
     pub fn unlimited() -> Provot {
-        Provot {
-            limiter: None,
-            stats: LimiterStats::default(),
-        }
+        Provot::new(Limiter {
+            stretch_ratio_max: f64::INFINITY,
+            passes_max: 0,
+        })
     }
 
     fn shorten(&mut self, system: &mut System, dt_s: f64) {
-        let Some(limiter) = self.limiter else {
+        let limiter = self.limiter;
+        if limiter.stretch_ratio_max == f64::INFINITY {
             return;
-        };
+        }
         let (model, scratch) = (&mut system.model, &mut system.scratch);
         let (positions, counters) = (&mut system.positions, &mut system.counters);
         scratch.is_fresh = false;
         scratch.before.clone_from(positions);
-        for colour in model.stretch.colours_mut() {
+        for colour in &mut model.stretch.colours {
             spring::ratios(colour, positions);
         }
         model.multipliers_mut().for_each(|lambda| *lambda = 0.0);
@@ -88,7 +87,7 @@ impl Provot {
             largest = 0.0;
             counters.visits.project += model.stretch.len() as u64;
             counters.features.stretch += model.stretch.len() as u64;
-            for colour in model.stretch.colours_mut() {
+            for colour in &mut model.stretch.colours {
                 let met = spring::limit(colour, &model.inverse_masses, ratio_max, positions);
                 largest = largest.max(met);
             }
@@ -127,16 +126,15 @@ impl Solver for Provot {
     }
 
     fn check(&self) -> Result<(), SettingError> {
-        let Some(limiter) = self.limiter else {
-            return Ok(());
-        };
-        let given = limiter.stretch_ratio_max;
+        let given = self.limiter.stretch_ratio_max;
         SettingError::unless(given >= 1.0, "stretch_ratio_max", given, "1 or more")
     }
 
     fn quality(&self, _system: &System) -> Quality {
-        let limited = self.limiter.map(|_| Quality::Limiter(self.stats));
-        limited.unwrap_or(Quality::Unknown)
+        if self.limiter.stretch_ratio_max == f64::INFINITY {
+            return Quality::Unknown;
+        }
+        Quality::Limiter(self.stats)
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {

@@ -20,13 +20,15 @@ pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
 pub use warning::Warning;
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
-use tearmesh::{Mesh, VertexId};
+use tearmesh::{Mesh, Scissor, ScissorError, VertexId};
 
 use crate::fabric::Fabric;
 use crate::load::{Collider, Wind};
 use crate::method::Method;
+use crate::system::error::SettingError;
 
 /// The plan of a simulation: the fabric, the method, and the timed events.
+#[must_use]
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The duration of the scene, in seconds.
@@ -76,13 +78,10 @@ impl SwayingWind {
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Wind {
         let phase = elapsed_s / self.period_s;
-        let phase = phase - phase.floor();
-        let triangle = if phase < 0.25 {
-            4.0 * phase
-        } else if phase < 0.75 {
-            2.0 - 4.0 * phase
-        } else {
-            4.0 * phase - 4.0
+        let triangle = match phase - phase.floor() {
+            phase if phase < 0.25 => 4.0 * phase,
+            phase if phase < 0.75 => 2.0 - 4.0 * phase,
+            phase => 4.0 * phase - 4.0,
         };
         Wind {
             velocity_m_per_s: self.steady.velocity_m_per_s + self.sway_m_per_s * triangle,
@@ -90,17 +89,16 @@ impl SwayingWind {
         }
     }
 
-    /// The first number that would not give a usable wind at all times, beyond those of the steady
-    /// wind itself: its field, and the number as given.
-    pub(super) fn fault(&self) -> Option<(&'static str, f64)> {
-        if !(self.period_s > 0.0 && self.period_s.is_finite()) {
-            return Some(("wind.period_s", self.period_s));
-        }
+    /// Refuses the first number that would not give a usable wind at all times, beyond those of the steady wind
+    /// itself.
+    pub(super) fn check(&self) -> Result<(), SettingError> {
+        SettingError::unless_above_0("wind.period_s", self.period_s)?;
         let parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
         let beyond =
             |(u, sway): &(&f64, &f64)| u.is_finite() && !(u.abs() + sway.abs()).is_finite();
-        let mut beyond = parts.filter(beyond);
-        Some(("wind.sway_m_per_s", *beyond.next()?.1))
+        let unusable = parts.filter(beyond).map(|(_, sway)| *sway).next();
+        let (field, given) = ("wind.sway_m_per_s", unusable.unwrap_or(0.0));
+        SettingError::unless(unusable.is_none(), field, given, "any that keeps it finite")
     }
 }
 
@@ -181,7 +179,7 @@ impl Region {
         let used = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
         let at = |v: &VertexId| points[v.index()];
         let within = |x: f64, [low, high]: [f64; 2]| low <= x && x <= high;
-        match self {
+        let is_in: Box<dyn Fn(Point) -> bool> = match self {
             Region::Near { at: place, radius } => {
                 let away = |v: &VertexId| {
                     let [across, along] = frame.parts(at(v));
@@ -191,30 +189,23 @@ impl Region {
                 };
                 // Of those that are as near the first one counts.
                 let nearest = used.clone().min_by(|a, b| away(a).total_cmp(&away(b)));
-                let reach = radius * frame.size_m();
-                let is_near = |v: &VertexId| {
-                    nearest.is_some_and(|nearest| length(at(v) - at(&nearest)) <= reach)
-                };
-                used.filter(is_near).collect()
+                let (nearest, reach) = (nearest.map(|v| at(&v)), radius * frame.size_m());
+                Box::new(move |x| nearest.is_some_and(|nearest| length(x - nearest) <= reach))
             }
-            Region::Patch { across, along } => {
-                let parts = |v: &VertexId| frame.parts(at(v));
-                let is_in = |[x, y]: [f64; 2]| within(x, *across) && within(y, *along);
-                used.filter(|v| is_in(parts(v))).collect()
-            }
+            Region::Patch { across, along } => Box::new(move |x| {
+                let [x, y] = frame.parts(x);
+                within(x, *across) && within(y, *along)
+            }),
             Region::Box { from, to } => {
-                let is_in = |x: Point| (0..3).all(|i| within(x[i], [from[i], to[i]]));
-                used.filter(|v| is_in(at(v))).collect()
+                Box::new(move |x| (0..3).all(|i| within(x[i], [from[i], to[i]])))
             }
-            Region::Ball { centre, radius_m } => {
-                let is_in = |x: Point| length(x - centre) <= *radius_m;
-                used.filter(|v| is_in(at(v))).collect()
-            }
+            Region::Ball { centre, radius_m } => Box::new(move |x| length(x - centre) <= *radius_m),
             Region::Vertices(named) => {
                 let exists = |v: &&VertexId| v.index() < mesh.vertex_count();
-                named.iter().filter(exists).copied().collect()
+                return named.iter().filter(exists).copied().collect();
             }
-        }
+        };
+        used.filter(|v| is_in(at(v))).collect()
     }
 }
 
@@ -229,6 +220,18 @@ pub struct TimedCut {
     pub through: bool,
     /// The method by which the mesh is cut.
     pub method: tearmesh::CutMethod,
+}
+
+impl TimedCut {
+    /// Returns the scissor that makes the cut.
+    ///
+    /// # Errors
+    ///
+    /// [`ScissorError`] if the rays span no plane.
+    pub fn scissor(&self) -> Result<Scissor, ScissorError> {
+        let scissor = Scissor::new(self.rays[0], self.rays[1])?;
+        Ok(scissor.through(self.through))
+    }
 }
 
 #[cfg(test)]

@@ -5,13 +5,13 @@ pub(crate) mod error;
 pub use error::ClothError;
 
 use tearmesh::geometry::{Point, cross, length};
-use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Place, Positions, VertexId};
+use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Positions, VertexId};
 
 use crate::constraint::{Constraint, ConstraintId};
-use crate::fabric::{Copies, Fabric, Stretch};
+use crate::fabric::{Fabric, Stretch};
 use crate::incidence::room_for;
-use crate::solver::{Solver, StepError, StepReport};
-use crate::system::System;
+use crate::solver::{Solver, StepError};
+use crate::system::{SettingError, System};
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
 /// with a [`Weave`](crate::Weave) a triangle for each face.
@@ -71,20 +71,42 @@ pub struct Cloth {
     /// Where the vertices are at rest.
     pub(super) rest: Positions,
     pub(super) fabric: Fabric,
-    /// By half-edge: the constraint of its edge.
-    pub(super) stretch_of: Vec<ConstraintId>,
-    /// By constraint: the half-edges of its edge, the lower first; twice the same where there is one.
-    pub(super) edge_of: Vec<[HalfEdgeId; 2]>,
-    /// By half-edge: the constraint across its edge, or [`NO_BEND`]. Empty without bending.
-    pub(super) bend_of: Vec<ConstraintId>,
-    /// By bend constraint: the two half-edges that it is across.
-    pub(super) bent_edge: Vec<[HalfEdgeId; 2]>,
+    /// Of stretch constraints, one for each edge.
+    pub(super) stretch_of: EdgeMap,
+    /// Of bend constraints, each across an edge. Empty without bending.
+    pub(super) bend_of: EdgeMap,
     pub(super) scratch: EditScratch,
     pub(super) seen: Cursor,
 }
 
 /// Across a boundary or a tear.
 pub(super) const NO_BEND: ConstraintId = ConstraintId(u32::MAX);
+
+/// Which constraint of a family each edge has, and which edge each constraint.
+#[derive(Clone, Debug, Default)]
+pub(super) struct EdgeMap {
+    /// By half-edge: the constraint, or [`NO_BEND`].
+    pub(super) ids: Vec<ConstraintId>,
+    /// By constraint: the half-edges of its edge, the lower first; twice the same where there is one.
+    pub(super) edges: Vec<[HalfEdgeId; 2]>,
+}
+
+impl EdgeMap {
+    pub(super) fn get(&self, h: HalfEdgeId) -> ConstraintId {
+        self.ids.get(h.index()).copied().unwrap_or(NO_BEND)
+    }
+
+    /// Notes the constraint of an edge, given by its two half-edges, or twice the same.
+    pub(super) fn join(&mut self, [one, other]: [HalfEdgeId; 2], id: ConstraintId) {
+        let edge = [one.min(other), one.max(other)];
+        let count = self.ids.len().max(edge[1].index() + 1);
+        self.ids.resize(count, NO_BEND);
+        edge.iter().for_each(|h| self.ids[h.index()] = id);
+        let count = self.edges.len().max(id.index() + 1);
+        self.edges.resize(count, edge);
+        self.edges[id.index()] = edge;
+    }
+}
 
 impl Cloth {
     /// Creates a cloth whose rest state is the present mesh. Takes linear time.
@@ -99,39 +121,37 @@ impl Cloth {
     /// # Errors
     ///
     /// [`ClothError`] if a stiffness is not positive and finite, an edge (or, with bending, the
-    /// distance across one) has no length, a face of triangles has no area or no warp, or the
-    /// numbers of masses, positions and vertices differ.
+    /// distance across one) has no length, or a face of triangles has no area or no warp.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one mass and one position for each vertex.
     pub fn new(
         mesh: &Mesh,
         positions: &Positions,
         masses: Masses,
         fabric: Fabric,
     ) -> Result<Cloth, ClothError> {
-        fabric.check()?;
+        fabric.check().map_err(ClothError::Number)?;
         let count = mesh.vertex_count();
-        if masses.len() != count || positions.len() != count {
-            return Err(ClothError::Counts {
-                vertices: count,
-                positions: positions.len(),
-                masses: masses.len(),
-            });
-        }
+        assert_eq!(
+            (masses.len(), positions.len()),
+            (count, count),
+            "masses and positions are those of the mesh"
+        );
         let of_vertex = |v| mesh.half_edge_of(v).map_or(0.0, |_| weight(&masses, v));
         let weights = mesh.vertices().map(of_vertex).collect();
         let points = positions.as_slice().iter().copied();
         let mut system = System::with_massless(points, weights);
         system.model.faces = mesh.indices().to_vec();
         let seen = positions.seen();
-        let half_edges = mesh.half_edge_count();
         let mut cloth = Cloth {
             system,
             masses: masses.starting_at(seen),
             rest: positions.clone(),
             fabric,
-            stretch_of: vec![NO_BEND; half_edges],
-            edge_of: Vec::new(),
-            bend_of: Vec::new(),
-            bent_edge: Vec::new(),
+            stretch_of: EdgeMap::default(),
+            bend_of: EdgeMap::default(),
             scratch: EditScratch::default(),
             seen,
         };
@@ -139,28 +159,23 @@ impl Cloth {
         for h in mesh.edges() {
             let ends = [mesh.origin(h), mesh.target(h)];
             let edge = [h, mesh.pair(h).unwrap_or(h)];
-            let stiffness = match fabric.stretch {
-                Stretch::Edges {
-                    stiffness_n_per_m,
-                    copies: Copies::Halved,
-                } if mesh.ghost_pair(h).is_some() => 0.5 * stiffness_n_per_m,
-                _ => fabric.stretch_n_per_m(),
-            };
+            let stiffness = fabric.stretch_n_per_m() * fabric.share(mesh, h);
             let constraint = cloth.constraint(ends, stiffness)?;
             let id = cloth.system.model.stretch.add(constraint);
-            cloth.join(edge, id);
+            cloth.stretch_of.join(edge, id);
             cloth.measure_membrane(id);
         }
         if let Some(bend) = fabric.bend {
             cloth.system.model.buckling = bend.law();
-            cloth.bend_of = vec![NO_BEND; half_edges];
             for h in mesh.edges() {
                 if let Some(pair) = mesh.pair(h) {
                     let apexes = [h, pair].map(|h| mesh.origin(h.prev()));
                     cloth.constraint(apexes, 0.0)?;
                     let id = cloth.bend_across([h, pair]);
                     let (field, given) = bend.number();
-                    id.ok_or(ClothError::Stiffness { field, given })?;
+                    let made =
+                        SettingError::unless(id.is_some(), field, given, "any number that is less");
+                    made.map_err(ClothError::Number)?;
                 }
             }
         }
@@ -193,12 +208,12 @@ impl Cloth {
     /// [`Implicit`](crate::Implicit). (Only a colour beyond those that the present valence of vertices
     /// needs would take room of its own.) Costs some hundred bytes per face.
     pub(crate) fn reserve(&mut self) {
-        let corners = self.stretch_of.len();
+        let corners = self.stretch_of.ids.len();
         let splits = corners.saturating_sub(self.system.positions.len());
         self.masses.reserve(splits);
         self.rest.reserve(splits);
-        room_for(&mut self.edge_of, corners);
-        room_for(&mut self.scratch.ids, self.bent_edge.len());
+        room_for(&mut self.stretch_of.edges, corners);
+        room_for(&mut self.scratch.ids, self.bend_of.edges.len());
         self.system.reserve(corners, corners);
     }
 
@@ -217,16 +232,12 @@ impl Cloth {
         self.seen
     }
 
-    /// Advances the cloth by `dt_s` seconds.
+    /// Advances the cloth by `dt_s` seconds: see [`System::step`].
     ///
     /// # Errors
     ///
     /// [`StepError`]; positions and velocities are then as they were before.
-    pub fn step(
-        &mut self,
-        solver: &mut (impl Solver + ?Sized),
-        dt_s: f64,
-    ) -> Result<StepReport, StepError> {
+    pub fn step(&mut self, solver: &mut dyn Solver, dt_s: f64) -> Result<u32, StepError> {
         self.system.step(solver, dt_s)
     }
 
@@ -261,17 +272,6 @@ impl Cloth {
         &self.masses
     }
 
-    /// Returns the mass of a vertex in kilograms, or `None` for a held vertex. The choice of the
-    /// vertex to split depends on it (Souza et al. 2014 §III-A).
-    ///
-    /// # Panics
-    ///
-    /// If there is no such vertex.
-    #[must_use]
-    pub fn free_mass(&self, v: VertexId) -> Option<f64> {
-        (!self.system.is_held(v.index())).then(|| self.masses.at(v))
-    }
-
     /// Returns the vertices of all faces, three per face: an index buffer, equal to that of the
     /// mesh.
     #[must_use]
@@ -286,7 +286,7 @@ impl Cloth {
     /// If there is no such half-edge.
     #[must_use]
     pub fn stretch(&self, h: HalfEdgeId) -> ConstraintId {
-        self.stretch_of[h.index()]
+        self.stretch_of.ids[h.index()]
     }
 
     /// Returns the lower half-edge of the edge that a stretch constraint belongs to.
@@ -296,33 +296,12 @@ impl Cloth {
     /// If the constraint does not belong to an edge.
     #[must_use]
     pub fn edge(&self, id: ConstraintId) -> HalfEdgeId {
-        self.edge_of[id.index()][0]
-    }
-
-    /// Returns the edges that are longer than `ratio` times their rest length, in ascending order,
-    /// each as one of its half-edges. Takes linear time, and allocates nothing.
-    pub fn overstretched(&self, ratio: f64) -> impl Iterator<Item = HalfEdgeId> + '_ {
-        let edges = (0..self.stretch_of.len()).filter_map(HalfEdgeId::new);
-        edges.filter(move |&h| {
-            let id = self.stretch(h);
-            self.edge(id) == h && self.system.stretch_ratio(id) > ratio
-        })
+        self.stretch_of.edges[id.index()][0]
     }
 
     pub(super) fn rest_length(&self, [a, b]: [usize; 2]) -> f64 {
         let rest = self.rest.as_slice();
         length(rest[b] - rest[a])
-    }
-
-    /// Notes whose edge a stretch constraint is: by its two half-edges, or twice the same.
-    pub(super) fn join(&mut self, [one, other]: [HalfEdgeId; 2], id: ConstraintId) {
-        self.stretch_of[one.index()] = id;
-        self.stretch_of[other.index()] = id;
-        let edge = [one.min(other), one.max(other)];
-        if self.edge_of.len() <= id.index() {
-            self.edge_of.resize(id.index() + 1, edge);
-        }
-        self.edge_of[id.index()] = edge;
     }
 
     /// Gives an edge of a membrane the stiffness that its faces have at rest now, and the force that it
@@ -331,10 +310,13 @@ impl Cloth {
         let Stretch::Membrane { modulus_n_per_m } = self.fabric.stretch else {
             return;
         };
-        let [one, other] = self.edge_of[id.index()];
-        let mut stiffness = self.membrane_share(one, modulus_n_per_m, id);
+        let length = self.system.model.stretch.get(id).rest_length_m;
+        // The share of a face: E A / l².
+        let share = |h| modulus_n_per_m * (self.rest_area(h) / length / length);
+        let [one, other] = self.stretch_of.edges[id.index()];
+        let mut stiffness = share(one);
         if other != one {
-            stiffness += self.membrane_share(other, modulus_n_per_m, id);
+            stiffness += share(other);
         }
         // Faces without area have no stiffness, but a compliance must be finite.
         let stiffness = stiffness.max(modulus_n_per_m * f64::EPSILON);
@@ -346,13 +328,6 @@ impl Cloth {
             stretch.remember(id, memory);
             stretch.set_stiffness(id, stiffness);
         }
-    }
-
-    /// The share of a half-edge's face in the stiffness of its edge: E A / l².
-    fn membrane_share(&self, h: HalfEdgeId, modulus_n_per_m: f64, id: ConstraintId) -> f64 {
-        let area = self.rest_area(h);
-        let edge = self.system.model.stretch.get(id).rest_length_m;
-        modulus_n_per_m * (area / edge / edge)
     }
 
     /// The area at rest of a half-edge's face.
@@ -374,13 +349,13 @@ impl Cloth {
     /// now, and the stiffness that goes with it: none where rounding left no length for one. Does
     /// nothing without such a constraint.
     pub(super) fn measure_bend(&mut self, h: HalfEdgeId) {
-        let id = self.bend_of.get(h.index()).copied().unwrap_or(NO_BEND);
+        let id = self.bend_of.get(h);
         if id == NO_BEND {
             return;
         }
         let ends = self.system.model.bend.get(id).ends;
         let rest_length_m = self.rest_length(ends).max(f64::MIN_POSITIVE);
-        let stiffness = self.bend_stiffness(self.bent_edge[id.index()], rest_length_m);
+        let stiffness = self.bend_stiffness(self.bend_of.edges[id.index()], rest_length_m);
         let bend = &mut self.system.model.bend;
         bend.set_rest_length(id, rest_length_m);
         bend.set_stiffness(id, stiffness.unwrap_or(0.0));
@@ -400,20 +375,9 @@ impl Cloth {
             rest_length_m,
             stiffness_n_per_m,
         });
-        self.bend_of[edge[0].index()] = id;
-        self.bend_of[edge[1].index()] = id;
-        if self.bent_edge.len() <= id.index() {
-            self.bent_edge.resize(id.index() + 1, edge);
-        }
-        self.bent_edge[id.index()] = edge;
+        self.bend_of.join(edge, id);
         self.system.touched();
         Some(id)
-    }
-}
-
-impl Place for Cloth {
-    fn at(&self, v: VertexId) -> Point {
-        self.positions()[v.index()]
     }
 }
 
@@ -428,7 +392,6 @@ pub(super) fn weight(masses: &Masses, v: VertexId) -> f64 {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct EditScratch {
     pub(crate) ids: Vec<ConstraintId>,
-    pub(crate) vertices: Vec<usize>,
     pub(crate) pieces: Vec<Piece>,
 }
 

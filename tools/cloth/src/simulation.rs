@@ -16,7 +16,6 @@ mod heal;
 mod log;
 mod report;
 mod seams;
-mod sheet;
 
 pub use buffers::{BufferChanges, ClothBuffers};
 pub use definition::SimulationDef;
@@ -30,21 +29,19 @@ use std::fmt;
 
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
-    Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Mesh, Mix, PerVertex, PositionError,
-    Positions, Scissor, VertexId, pick,
+    Cut, CutError, CutMethod, CutReport, Edit, Edits, Masses, Mesh, Mix, PerVertex, PositionError,
+    Positions, Scissor, VertexId, mend, pick,
 };
 
 use self::hand::Hands;
 use self::heal::Healing;
 use self::log::Record;
 use self::seams::Seams;
-use self::sheet::Sheet;
 use crate::balance::Balance;
 use crate::load::{Loads, Wind};
 use crate::method::speed_m_per_s;
-use crate::sheet::Cloth;
-use crate::solver::{Solver, StepError, StepReport};
-use crate::system::SystemError;
+use crate::sheet::{Cloth, ClothError};
+use crate::solver::{Solver, StepError};
 use crate::tearing::{Tear, TearReport};
 
 /// A cloth with its mesh, in motion.
@@ -54,7 +51,7 @@ use crate::tearing::{Tear, TearReport};
 /// use tearmesh::{Point, Ray, Scissor, Vector, VertexId, shapes};
 ///
 /// let (mesh, positions) = shapes::grid(16, 16);
-/// let mut sim = Simulation::new(mesh, positions, SimulationDef::default())?;
+/// let mut sim = Simulation::new(mesh, &positions, SimulationDef::default())?;
 /// sim.hold((272..289).filter_map(VertexId::new))?; // Its upper edge.
 /// sim.advance(0.1, 1000)?;
 ///
@@ -75,7 +72,8 @@ use crate::tearing::{Tear, TearReport};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Simulation {
-    pub(crate) sheet: Sheet,
+    pub(crate) mesh: Mesh,
+    pub(crate) edits: Edits,
     pub(crate) cloth: Cloth,
     pub(crate) tear: Option<Tear>,
     pub(crate) solver: Box<dyn Solver + Send + Sync>,
@@ -89,8 +87,6 @@ pub struct Simulation {
     seams: Seams,
     healing: Healing,
     buffers: ClothBuffers,
-    /// The edit up to which the buffers know pieces.
-    pieces_seen: Cursor,
     pub(crate) events: Vec<Event>,
     log: Option<InputLog>,
 }
@@ -103,17 +99,17 @@ impl Simulation {
     ///
     /// [`SimulationError`] if the definition is not valid, or does not fit the mesh.
     pub fn new(
-        mesh: Mesh,
-        positions: Positions,
+        mut mesh: Mesh,
+        positions: &Positions,
         mut def: SimulationDef,
     ) -> Result<Simulation, SimulationError> {
         let is_recorded = std::mem::take(&mut def.is_recorded);
-        let log = is_recorded.then(|| InputLog::new(log::digest(&mesh, &positions, &def)));
-        let sheet = Sheet::new(mesh, positions, def.density_kg_per_m2);
-        let mut sheet = sheet.map_err(|error| SimulationError::Cloth(error.into()))?;
-        let (mesh, seen) = (&sheet.mesh, sheet.edits.cursor());
-        let masses = sheet.masses.clone();
-        let cloth = Cloth::new(mesh, &sheet.positions, masses, def.fabric);
+        let log = is_recorded.then(|| InputLog::new(log::digest(&mesh, positions, &def)));
+        let seen = positions.seen();
+        let mut edits = Edits::starting_at(seen);
+        let masses = Masses::area(&mesh, positions, def.density_kg_per_m2);
+        let masses = masses.map_err(|error| SimulationError::Cloth(ClothError::Mass(error)))?;
+        let cloth = Cloth::new(&mesh, positions, masses, def.fabric);
         let mut cloth = cloth.map_err(SimulationError::Cloth)?;
         let solver = def.method.solver();
         let mut strengths = def.strengths;
@@ -133,21 +129,28 @@ impl Simulation {
         if !(step_s > 0.0 && step_s.is_finite()) {
             return Err(SimulationError::Step(step_s));
         }
-        let mut buffers = ClothBuffers::new(mesh, cloth.positions());
-        buffers.draw = buffers.draw.starting_at(seen);
-        let seams = Seams::of(mesh, seen);
+        let mut buffers = ClothBuffers::new(&mesh, cloth.positions(), seen);
+        let (mut hands, mut healing, mut seams) =
+            (Hands::default(), Healing::default(), Seams::default());
+        (hands.seen, healing.seen, seams.seen) = (seen, seen, seen);
+        seams.cut_of.resize(mesh.half_edge_count(), 0);
         let mut strengths = PerVertex::new(strengths).starting_at(seen);
         let mut events = Vec::new();
         if let Some(tear) = &mut tear {
-            tear.reserve(mesh);
+            // Each split leaves every vertex a face, so V ≤ 3F.
+            let corners = mesh.half_edge_count();
+            let splits = corners.saturating_sub(mesh.vertex_count());
+            tear.reserve(&mesh);
             cloth.reserve();
-            let splits = sheet.reserve();
+            mesh.reserve(splits);
+            edits.reserve(splits, 2 * corners, corners);
             strengths.reserve(splits);
             buffers.draw.reserve(splits);
             events.reserve(splits);
         }
         Ok(Simulation {
-            sheet,
+            mesh,
+            edits,
             cloth,
             tear,
             solver,
@@ -155,11 +158,10 @@ impl Simulation {
             steps: 0,
             owed_s: 0.0,
             strengths,
-            hands: Hands::starting_at(seen),
+            hands,
             seams,
-            healing: Healing::starting_at(seen),
+            healing,
             buffers,
-            pieces_seen: seen,
             events,
             log,
         })
@@ -178,12 +180,12 @@ impl Simulation {
     ///
     /// let (mesh, positions) = shapes::grid(4, 4);
     /// let def = SimulationDef { is_recorded: true, ..SimulationDef::default() };
-    /// let mut sim = Simulation::new(mesh.clone(), positions.clone(), def.clone())?;
+    /// let mut sim = Simulation::new(mesh.clone(), &positions, def.clone())?;
     /// sim.hold(VertexId::new(24))?;
     /// sim.advance(0.1, 1000)?;
     ///
     /// let log: InputLog = sim.log().ok_or("it is recorded")?.to_string().parse()?;
-    /// let again = Simulation::replayed(mesh, positions, def, &log, |_, _| {})?;
+    /// let again = Simulation::replayed(mesh, &positions, def, &log, |_, _| {})?;
     /// assert_eq!(again.cloth().positions(), sim.cloth().positions());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -193,7 +195,7 @@ impl Simulation {
     /// [`ReplayError`] if the log is that of another mesh or definition, or not of a simulation.
     pub fn replayed(
         mesh: Mesh,
-        positions: Positions,
+        positions: &Positions,
         mut def: SimulationDef,
         log: &InputLog,
         mut follow: impl FnMut(&Edits, bool),
@@ -224,7 +226,7 @@ impl Simulation {
 
     /// Takes the steps of a log up to a number.
     fn reach(&mut self, steps: u64) -> Result<(), ReplayError> {
-        self.sheet.edits.clear();
+        self.edits.clear();
         while self.steps < steps {
             let step = self.step();
             step.map_err(|error| ReplayError::Step(Some(error)))?;
@@ -287,7 +289,7 @@ impl Simulation {
         if !(dt_s >= 0.0 && dt_s.is_finite()) {
             return Err(StepError::Step { given_s: dt_s });
         }
-        self.sheet.edits.clear();
+        self.edits.clear();
         self.owed_s += dt_s;
         let wanted = (self.owed_s / self.step_s).round().max(0.0);
         let steps = steps_max.min(wanted as u64);
@@ -315,20 +317,19 @@ impl Simulation {
     pub(crate) fn step_observed(
         &mut self,
         balance: Option<&mut Balance>,
-    ) -> Result<StepReport, StepError> {
+    ) -> Result<u32, StepError> {
         let system = self.cloth.system_mut();
-        let report = system.step_with(&mut *self.solver, self.step_s, balance)?;
+        let substeps = system.step_observed(&mut *self.solver, self.step_s, balance)?;
         self.steps += 1;
         if let Some(log) = &mut self.log {
             log.steps = self.steps;
         }
-        Ok(report)
+        Ok(substeps)
     }
 
     /// Finds what is overstretched, and changes nothing.
     pub(crate) fn find_overstretched(&mut self) -> TearReport {
-        let (sheet, cloth) = (&self.sheet, &mut self.cloth);
-        let find = |tear: &mut Tear| tear.find(&sheet.mesh, cloth, &sheet.edits);
+        let find = |tear: &mut Tear| tear.find(&self.mesh, &mut self.cloth);
         self.tear.as_mut().map(find).unwrap_or_default()
     }
 
@@ -337,7 +338,7 @@ impl Simulation {
         let Some(tear) = self.tear.as_mut().filter(|_| found.overstretched > 0) else {
             return found;
         };
-        let Sheet { mesh, edits, .. } = &mut self.sheet;
+        let (mesh, edits) = (&mut self.mesh, &mut self.edits);
         let report = tear.tear(mesh, &mut self.cloth, edits, found);
         let time_s = self.cloth.system().elapsed_s();
         let torn = tear.torn().iter().map(|torn| Event::Tore {
@@ -353,16 +354,19 @@ impl Simulation {
 
     /// Draws the open pairs together, leaves those whose time is over, and sews those that met.
     fn heal_step(&mut self) {
-        if self.healing.len() == 0 {
+        if self.healing.open.is_empty() {
             return;
         }
         let tearing = self.tear.as_ref().map(|tear| *tear.tearing());
         let threshold = tearing.unwrap_or_default().threshold;
-        let (mesh, step_s) = (&self.sheet.mesh, self.step_s);
-        self.healing.draw(mesh, &mut self.cloth, threshold, step_s);
+        let cloth = &mut self.cloth;
+        self.healing.draw(&self.mesh, cloth, threshold, self.step_s);
         let mut has_changed = self.healing.leave(self.time_s());
         while let Some(ends) = self.healing.met(self.cloth.system(), &self.hands) {
-            self.sheet.merge(ends);
+            let [one, other] = ends;
+            let weights = ends.map(|v| self.cloth.masses().at(v));
+            let merged = mend::merge(&mut self.mesh, one, other, weights, &mut self.edits);
+            merged.expect("I8: both sides of a torn link have one root, and masses are weights");
             self.healing.sewn += 1;
             self.follow();
             has_changed = true;
@@ -370,7 +374,7 @@ impl Simulation {
         if has_changed {
             self.strengthen();
         }
-        if self.healing.len() == 0 {
+        if self.healing.open.is_empty() {
             let [sewn, left] = [&mut self.healing.sewn, &mut self.healing.left].map(std::mem::take);
             let time_s = self.time_s();
             self.events.push(Event::Healed { sewn, left, time_s });
@@ -379,30 +383,29 @@ impl Simulation {
 
     /// Has everything follow the mesh.
     fn follow(&mut self) {
-        let Simulation { sheet, cloth, .. } = self;
         let of_vertices = (&mut self.strengths, &mut self.hands, &mut self.healing);
         let others = (&mut self.seams, &mut self.buffers.draw);
-        sheet.follow(&mut (cloth, of_vertices, others));
+        self.edits
+            .replay(&mut (&mut self.cloth, of_vertices, others));
         if let Some(tear) = &mut self.tear {
-            self.sheet.edits.replay(tear);
+            self.edits.replay(tear);
         }
     }
 
     /// Gives vertices the strengths that they have by themselves, by grips, and by open wounds
     /// nearby.
     fn strengthen(&mut self) {
-        let Some(tear) = self.tear.take() else {
+        let Some(tear) = &mut self.tear else {
             return;
         };
         let own = self.strengths.as_slice().iter();
         let rest = self.cloth.rest_positions().as_slice();
         let gripped = own.zip(rest).map(|(own, at)| own * self.hands.grip(*at));
         let mut strengths: Vec<f64> = gripped.map(|by| by.min(UNTEARABLE)).collect();
-        for v in self.healing.guarded(&self.sheet.mesh) {
+        for v in self.healing.guarded(&self.mesh) {
             strengths[v.index()] = UNTEARABLE;
         }
-        let tear = tear.with_strengths(strengths);
-        self.tear = Some(tear.expect("grips and guards keep strengths positive and finite"));
+        tear.set_strengths(strengths);
     }
 
     /// Holds vertices where they are, for good or until they are [freed](Simulation::free). Copies
@@ -412,8 +415,7 @@ impl Simulation {
     ///
     /// [`InputError`] if one is no vertex of the mesh, or is in a hand.
     pub fn hold(&mut self, vertices: impl IntoIterator<Item = VertexId>) -> Result<(), InputError> {
-        let vertices: Vec<_> = vertices.into_iter().collect();
-        vertices.iter().try_for_each(|&v| self.not_in_hand(v))?;
+        let vertices = self.not_in_hands(vertices)?;
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.hold(v.index()));
         self.note("hold", vertices.into_iter().map(word));
@@ -426,8 +428,7 @@ impl Simulation {
     ///
     /// [`InputError`] if one is no vertex of the mesh, or is in a hand.
     pub fn free(&mut self, vertices: impl IntoIterator<Item = VertexId>) -> Result<(), InputError> {
-        let vertices: Vec<_> = vertices.into_iter().collect();
-        vertices.iter().try_for_each(|&v| self.not_in_hand(v))?;
+        let vertices = self.not_in_hands(vertices)?;
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.release(v.index()));
         self.note("free", vertices.into_iter().map(word));
@@ -437,9 +438,8 @@ impl Simulation {
     /// Returns what a ray meets first; `None` if it misses the cloth. Linear.
     #[must_use]
     pub fn pick(&self, ray: &Ray) -> Option<Picked> {
-        let mesh = &self.sheet.mesh;
-        let hit = pick::first_hit(mesh, self.cloth.positions(), ray)?;
-        let (of, weights) = (mesh.face_vertices(hit.face), hit.weights);
+        let hit = pick::first_hit(&self.mesh, self.cloth.positions(), ray)?;
+        let (of, weights) = (self.mesh.face_vertices(hit.face), hit.weights);
         let vertex = Mix::Weighted { of, weights }.nearest();
         Some(Picked { vertex, hit })
     }
@@ -454,7 +454,7 @@ impl Simulation {
     /// [`InputError`] if there is no such vertex, it is held or in a hand, or the radius is negative
     /// or not finite.
     pub fn grab(&mut self, vertex: VertexId, radius_m: f64) -> Result<HandId, InputError> {
-        self.not_in_hand(vertex)?;
+        self.not_in_hands([vertex])?;
         if self.cloth.system().is_held(vertex.index()) {
             return Err(InputError::Held(vertex));
         }
@@ -511,11 +511,12 @@ impl Simulation {
     /// [`InputError`] if the scissor continues another cut, or the cloth is too far away.
     pub fn cut(&mut self, scissor: &Scissor) -> Result<CutId, InputError> {
         let words = scissor.to_words().ok_or(InputError::Continued)?;
-        self.sheet.edits.clear();
-        let made = self.cut_by(|sheet| Ok((sheet.cut(scissor)?, ())));
+        self.edits.clear();
+        let made =
+            self.cut_by(|mesh, x, edits| Ok((scissor.cut(CutMethod::Exact, mesh, x, edits)?, ())));
         let (cut, ()) = made.map_err(InputError::Positions)?;
         let is_split = |edit: &Edit<'_>| matches!(edit, Edit::Split(_));
-        let splits = self.sheet.edits.iter().filter(is_split).count();
+        let splits = self.edits.iter().filter(is_split).count();
         let time_s = self.time_s();
         self.note("cut", words);
         self.events.push(Event::Cut {
@@ -532,16 +533,17 @@ impl Simulation {
         scissor: &Scissor,
         method: CutMethod,
     ) -> Result<CutReport, PositionError> {
-        let made = self.cut_by(|sheet| sheet.cut_measured(scissor, method))?;
+        let made = self.cut_by(|mesh, x, edits| scissor.cut_measured(method, mesh, x, edits))?;
         Ok(made.1)
     }
 
     fn cut_by<R>(
         &mut self,
-        make: impl FnOnce(&mut Sheet) -> Result<(Cut, R), CutError>,
+        make: impl FnOnce(&mut Mesh, &mut Positions, &mut Edits) -> Result<(Cut, R), CutError>,
     ) -> Result<(CutId, R), PositionError> {
-        self.sheet.move_to(self.cloth.positions())?;
-        let made = make(&mut self.sheet);
+        let positions = Positions::new(self.cloth.positions().iter().copied())?;
+        let mut positions = positions.starting_at(self.edits.cursor());
+        let made = make(&mut self.mesh, &mut positions, &mut self.edits);
         let (cut, report) = made.expect("positions that follow every edit are in step");
         self.follow();
         Ok((self.seams.add(&cut), report))
@@ -559,15 +561,12 @@ impl Simulation {
     ///
     /// [`InputError::NoCut`] if there was no such cut.
     pub fn heal(&mut self, wounds: Wounds) -> Result<usize, InputError> {
-        let (sheet, system) = (&self.sheet, self.cloth.system());
+        let (mesh, system) = (&self.mesh, self.cloth.system());
         let (opened, number) = match wounds {
-            Wounds::All => {
-                let torn = sheet.mesh.half_edges();
-                (self.healing.begin(torn, sheet, system), None)
-            }
+            Wounds::All => (self.healing.begin(mesh.half_edges(), mesh, system), None),
             Wounds::Cut(cut) => {
                 let torn = self.seams.torn_by(cut).ok_or(InputError::NoCut(cut))?;
-                (self.healing.begin(torn, sheet, system), Some(cut.0.into()))
+                (self.healing.begin(torn, mesh, system), Some(cut.0.into()))
             }
         };
         if opened > 0 {
@@ -588,9 +587,8 @@ impl Simulation {
             wind,
             ..system.loads().clone()
         };
-        if let Err(SystemError::Loads { field, given }) = system.set_loads(loads) {
-            return Err(InputError::Number(field, given));
-        }
+        let set = system.set_loads(loads);
+        set.map_err(|error| InputError::Number(error.setting, error.given))?;
         let numbers = wind.map(|wind| {
             let velocity: [f64; 3] = wind.velocity_m_per_s.into();
             velocity.into_iter().chain([wind.coefficient])
@@ -599,12 +597,18 @@ impl Simulation {
         Ok(())
     }
 
-    fn not_in_hand(&self, vertex: VertexId) -> Result<(), InputError> {
-        if vertex.index() >= self.sheet.mesh.vertex_count() {
-            return Err(InputError::NoVertex(vertex));
-        }
-        let hand = self.hands.of(vertex);
-        hand.map_or(Ok(()), |hand| Err(InputError::InHand(vertex, hand)))
+    /// Vertices that hands do not have.
+    fn not_in_hands(
+        &self,
+        vertices: impl IntoIterator<Item = VertexId>,
+    ) -> Result<Vec<VertexId>, InputError> {
+        let count = self.mesh.vertex_count();
+        let free = |v: VertexId| match self.hands.of(v) {
+            _ if v.index() >= count => Err(InputError::NoVertex(v)),
+            Some(hand) => Err(InputError::InHand(v, hand)),
+            None => Ok(v),
+        };
+        vertices.into_iter().map(free).collect()
     }
 
     /// Returns what happened since the previous call, and forgets it.
@@ -614,17 +618,14 @@ impl Simulation {
 
     /// Returns the draw buffers, up to date with the cloth. Linear.
     pub fn draw_buffers(&mut self) -> &mut ClothBuffers {
-        let (mesh, now) = (&self.sheet.mesh, self.sheet.edits.cursor());
-        let is_edited = std::mem::replace(&mut self.pieces_seen, now) != now;
-        let positions = self.cloth.positions();
-        self.buffers.update(positions, is_edited.then_some(mesh));
+        self.buffers.update(&self.mesh, self.cloth.positions());
         &mut self.buffers
     }
 
     /// Returns the mesh.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
-        &self.sheet.mesh
+        &self.mesh
     }
 
     /// Returns the cloth: positions, velocities, masses, and which vertices are held.
@@ -637,7 +638,7 @@ impl Simulation {
     /// [`cut`](Simulation::cut) made. A follower of the caller's replays them after each.
     #[must_use]
     pub fn edits(&self) -> &Edits {
-        &self.sheet.edits
+        &self.edits
     }
 
     /// Returns the vertices in a hand: the one that it grabbed, and its copies since.
@@ -653,7 +654,7 @@ impl Simulation {
     /// Returns the number of pairs of copies that are still drawn together.
     #[must_use]
     pub fn open_pairs(&self) -> usize {
-        self.healing.len()
+        self.healing.open.len()
     }
 
     /// Returns the log of the inputs so far; `None` unless the definition
@@ -693,7 +694,7 @@ fn word(v: VertexId) -> u64 {
 impl fmt::Debug for Simulation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Simulation")
-            .field("sheet", &self.sheet)
+            .field("mesh", &self.mesh)
             .finish_non_exhaustive()
     }
 }

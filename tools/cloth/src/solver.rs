@@ -8,6 +8,7 @@ use crate::blow_up::{BlowUpSite, Digits};
 use crate::guard::Frequency;
 use crate::implicit::settings as implicit;
 use crate::system::System;
+use crate::system::error::SettingError;
 
 /// A method that advances a system.
 ///
@@ -162,42 +163,6 @@ pub struct LimiterStats {
     pub steps_limited: u64,
 }
 
-/// A setting with a value that a method cannot use.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SettingError {
-    /// The name of the setting.
-    pub setting: &'static str,
-    /// The value that was given.
-    pub given: f64,
-    /// The values that are allowed, in words.
-    pub allowed: &'static str,
-}
-
-impl SettingError {
-    pub(crate) fn unless(
-        holds: bool,
-        setting: &'static str,
-        given: f64,
-        allowed: &'static str,
-    ) -> Result<(), SettingError> {
-        let error = SettingError {
-            setting,
-            given,
-            allowed,
-        };
-        if holds { Ok(()) } else { Err(error) }
-    }
-}
-
-impl fmt::Display for SettingError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (given, allowed) = (self.given, self.allowed);
-        write!(f, "{} is {given}, and may be {allowed}", self.setting)
-    }
-}
-
-impl std::error::Error for SettingError {}
-
 /// The reason why a method did not advance a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -215,18 +180,6 @@ impl Failure {
     }
 }
 
-/// The report of a step that was taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepReport {
-    /// The number of substeps into which the stability check divided the step: 1 unless
-    /// [`Unstable::Substep`](crate::Unstable::Substep) is set.
-    pub substeps: u32,
-    /// The largest step that would have been taken whole, in seconds. `None` if the system allows
-    /// unstable steps ([`Unstable::Allow`](crate::Unstable::Allow)), or if neither springs nor air
-    /// limit the method.
-    pub limit_s: Option<f64>,
-}
-
 /// The reason why a step was not taken. Positions and velocities are as they were before, and so is
 /// the balance of energy; [`Counters`](crate::Counters) count the attempt. If the step failed after
 /// it began, the forces and ratios that the last step recorded in constraints are discarded.
@@ -240,34 +193,22 @@ pub enum StepError {
     },
     /// The method or the system has a setting with an unusable value.
     Setting(SettingError),
-    /// The method supports springs only, and would ignore the triangles of the system.
-    Triangles {
-        /// The number of triangles.
+    /// The method supports springs only, and would ignore other forces of the system.
+    NotSprings {
+        /// The number of triangles, or of bend constraints that buckle.
         count: usize,
+        /// A description of what they do.
+        what: &'static str,
     },
-    /// The method supports springs only, and would treat bends that buckle as springs.
-    Buckling {
-        /// The number of bend constraints that buckle.
-        count: usize,
-    },
-    /// An explicit method would be unstable, because of springs more than of air.
+    /// An explicit method, or one that evaluates drag or wind at the velocities before the step, would be
+    /// unstable.
     Unstable {
         /// The step that was given, in seconds.
         given_s: f64,
         /// The largest step that is admitted, in seconds.
         limit_s: f64,
-        /// The frequency that sets the limit.
-        frequency: Frequency,
-    },
-    /// A method that evaluates drag or wind at the velocities before the step would be unstable,
-    /// because of air more than of springs.
-    Air {
-        /// The step that was given, in seconds.
-        given_s: f64,
-        /// The largest step that is admitted, in seconds.
-        limit_s: f64,
-        /// The rate that sets the limit.
-        rate: AirRate,
+        /// What sets the limit: springs or the air, whichever more.
+        by: StepLimit,
     },
     /// The step would need more than 10 000 substeps.
     Substeps {
@@ -297,6 +238,15 @@ pub enum StepError {
     },
 }
 
+/// What sets the stability limit of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StepLimit {
+    /// The frequency of springs.
+    Springs(Frequency),
+    /// The rate at which the air slows a particle.
+    Air(AirRate),
+}
+
 impl StepError {
     /// The largest number of substeps into which a step is divided.
     pub(crate) const SUBSTEPS_MAX: u32 = 10_000;
@@ -305,9 +255,7 @@ impl StepError {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
-            StepError::Unstable { .. } | StepError::Air { .. } | StepError::Substeps { .. } => {
-                "E-SIM-UNSTABLE"
-            }
+            StepError::Unstable { .. } | StepError::Substeps { .. } => "E-SIM-UNSTABLE",
             StepError::Implicit { .. } => "E-SIM-UNSOLVED",
             StepError::Setting(_) => "E-SCENE-RANGE",
             _ => "E-SIM-BLOWUP",
@@ -320,36 +268,33 @@ impl fmt::Display for StepError {
         let text = match self {
             StepError::Step { given_s } => format!("dt {given_s} s is not a positive finite step"),
             StepError::Setting(error) => error.to_string(),
-            StepError::Triangles { count } => {
-                format!("the method supports springs only, and {count} triangles resist stretch")
-            }
-            StepError::Buckling { count } => {
-                format!("the method supports springs only, and {count} bends buckle")
+            StepError::NotSprings { count, what } => {
+                format!("the method supports springs only, and {count} {what}")
             }
             StepError::Unstable {
                 given_s,
                 limit_s,
-                frequency,
+                by,
             } => {
-                let (limit, omega) = (Digits(*limit_s), Digits(frequency.omega_rad_per_s));
-                let at = frequency.ends.map(|[a, b]| format!(" at edge {a}-{b}"));
-                let at = at.unwrap_or_default();
-                format!(
-                    "dt {given_s} s exceeds the stability limit {limit} s \
-                     (bound of frequencies {omega} rad/s{at})"
-                )
-            }
-            StepError::Air {
-                given_s,
-                limit_s,
-                rate,
-            } => {
-                let (limit, per_s) = (Digits(*limit_s), Digits(rate.rate_per_s));
-                let particle = rate.particle;
-                format!(
-                    "dt {given_s} s exceeds the stability limit {limit} s \
-                     (the air slows particle {particle} at a rate of {per_s} /s)"
-                )
+                let limit = Digits(*limit_s);
+                let why = match by {
+                    StepLimit::Springs(frequency) => {
+                        let at = frequency.ends.map(|[a, b]| format!(" at edge {a}-{b}"));
+                        let omega = Digits(frequency.omega_rad_per_s);
+                        format!(
+                            "bound of frequencies {omega} rad/s{}",
+                            at.unwrap_or_default()
+                        )
+                    }
+                    StepLimit::Air(AirRate {
+                        rate_per_s,
+                        particle,
+                    }) => {
+                        let per_s = Digits(*rate_per_s);
+                        format!("the air slows particle {particle} at a rate of {per_s} /s")
+                    }
+                };
+                format!("dt {given_s} s exceeds the stability limit {limit} s ({why})")
             }
             StepError::Substeps { given_s, limit_s } => {
                 let (most, limit) = (StepError::SUBSTEPS_MAX, Digits(*limit_s));

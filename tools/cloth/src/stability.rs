@@ -2,17 +2,13 @@
 
 use crate::air::{self, AirRate};
 use crate::guard::{Frequency, Guard};
-use crate::solver::{Solver, StepError, StepReport};
+use crate::solver::{Solver, StepError, StepLimit};
 use crate::system::{System, Unstable};
 
 /// How many substeps a step takes, by the springs of an explicit method, and by air that a method takes in by
 /// the velocities before. With light particles carried there are none up to twice the step that suits, and
 /// beyond that as many as make each substep suit, or more if those would not be stable.
-pub(crate) fn admit(
-    system: &mut System,
-    solver: &(impl Solver + ?Sized),
-    dt_s: f64,
-) -> Result<StepReport, StepError> {
+pub(crate) fn admit(system: &mut System, solver: &dyn Solver, dt_s: f64) -> Result<u32, StepError> {
     if solver.abilities().damps {
         damp(system);
     }
@@ -21,10 +17,7 @@ pub(crate) fn admit(
         Unstable::Refuse | Unstable::Substep => limit(system, solver),
     };
     let Some((springs_s, air)) = limit else {
-        return Ok(StepReport {
-            substeps: 1,
-            limit_s: None,
-        });
+        return Ok(1);
     };
     let mut limit_s = with_air(springs_s, air);
     let is_whole = dt_s <= limit_s;
@@ -35,28 +28,25 @@ pub(crate) fn admit(
         return divided(dt_s, limit_s);
     }
     let suited_s = with_air(springs_s / Guard::WHOLE, air);
-    let mut report = divided(dt_s, if is_whole { limit_s } else { suited_s })?;
+    let mut substeps = divided(dt_s, if is_whole { limit_s } else { suited_s })?;
     system.scratch.air_per_s = air.map_or(0.0, |air| air.per_s);
     loop {
-        weigh_for(system, dt_s / f64::from(report.substeps));
+        weigh_for(system, dt_s / f64::from(substeps));
         if system.guard.is_sound(&system.model, &mut system.counters) {
             break;
         }
-        limit_s = dt_s / f64::from(2 * report.substeps);
-        report = divided(dt_s, limit_s)?;
+        limit_s = dt_s / f64::from(2 * substeps);
+        substeps = divided(dt_s, limit_s)?;
     }
-    if report.substeps > 1 && system.unstable == Unstable::Refuse {
+    if substeps > 1 && system.unstable == Unstable::Refuse {
         return Err(refused(system, [dt_s, limit_s], limit_s, air));
     }
-    Ok(StepReport {
-        limit_s: Some(limit_s),
-        ..report
-    })
+    Ok(substeps)
 }
 
 /// The longest step in seconds that springs admit whole by this method, and what the air takes of it; `None`
 /// if nothing limits it.
-fn limit(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<(f64, Option<AirShare>)> {
+fn limit(system: &mut System, solver: &dyn Solver) -> Option<(f64, Option<AirShare>)> {
     let abilities = solver.abilities();
     let springs_s = if abilities.carries_light {
         Some(Guard::WHOLE * recommended_step_s(system))
@@ -75,17 +65,14 @@ fn refused(
     springs_s: f64,
     air: Option<AirShare>,
 ) -> StepError {
-    match air.filter(|air| air.per_s * springs_s > 1.0) {
-        Some(AirShare { rate, .. }) => StepError::Air {
-            given_s,
-            limit_s,
-            rate,
-        },
-        None => StepError::Unstable {
-            given_s,
-            limit_s,
-            frequency: frequency_bound(system),
-        },
+    let by = match air.filter(|air| air.per_s * springs_s > 1.0) {
+        Some(air) => StepLimit::Air(air.rate),
+        None => StepLimit::Springs(frequency_bound(system)),
+    };
+    StepError::Unstable {
+        given_s,
+        limit_s,
+        by,
     }
 }
 
@@ -133,7 +120,7 @@ fn reach_out(system: &mut System) {
 /// Computes the damping of springs, if masses or stiffness have changed.
 fn damp(system: &mut System) {
     let model = &mut system.model;
-    if !system.guard.is_known() {
+    if !system.guard.is_known {
         model.stretch.damp(model.damping_s, &model.inverse_masses);
     }
 }
@@ -142,14 +129,14 @@ fn damp(system: &mut System) {
 /// springs alone only a part is to be taken; `None` if nothing limits it.
 pub(crate) fn whole_step_s(
     system: &mut System,
-    solver: &(impl Solver + ?Sized),
+    solver: &dyn Solver,
     springs_part: f64,
 ) -> Option<f64> {
     limit(system, solver).map(|(springs_s, air)| with_air(springs_part * springs_s, air))
 }
 
 /// What the air takes of a step by this method.
-fn air_share(system: &mut System, solver: &(impl Solver + ?Sized)) -> Option<AirShare> {
+fn air_share(system: &mut System, solver: &dyn Solver) -> Option<AirShare> {
     let abilities = solver.abilities();
     let limit = abilities.air_limit?;
     let drag = match abilities.takes_drag_explicitly {
@@ -181,7 +168,7 @@ fn with_air(springs_s: f64, air: Option<AirShare>) -> f64 {
 }
 
 /// A step in as many parts as are admitted.
-fn divided(dt_s: f64, limit_s: f64) -> Result<StepReport, StepError> {
+fn divided(dt_s: f64, limit_s: f64) -> Result<u32, StepError> {
     let substeps = (dt_s / limit_s).ceil();
     if substeps > f64::from(StepError::SUBSTEPS_MAX) {
         return Err(StepError::Substeps {
@@ -189,8 +176,5 @@ fn divided(dt_s: f64, limit_s: f64) -> Result<StepReport, StepError> {
             limit_s,
         });
     }
-    Ok(StepReport {
-        substeps: (substeps as u32).max(1),
-        limit_s: Some(limit_s),
-    })
+    Ok((substeps as u32).max(1))
 }

@@ -11,23 +11,20 @@ use tearmesh::geometry::{Point, Vector};
 use crate::balance::Balance;
 use crate::blow_up::{BlowUpSite, first, is_beyond};
 use crate::motion;
-use crate::solver::{Failure, SettingError, Solver, StepError, StepReport};
+use crate::solver::{Failure, Solver, StepError};
 use crate::stability::admit;
-use crate::system::{Model, Recorded, System};
+use crate::system::{Model, Recorded, SettingError, System};
 
 impl System {
-    /// Advances the system by `dt_s` seconds.
+    /// Advances the system by `dt_s` seconds, and returns the number of substeps into which the stability check
+    /// divided the step: 1 unless [`Unstable::Substep`](crate::Unstable::Substep) is set.
     ///
     /// # Errors
     ///
     /// [`StepError`]; positions and velocities are then as they were before. If the step failed
     /// after it began, nothing is left behind in constraints.
-    pub fn step(
-        &mut self,
-        solver: &mut (impl Solver + ?Sized),
-        dt_s: f64,
-    ) -> Result<StepReport, StepError> {
-        self.step_with(solver, dt_s, None)
+    pub fn step(&mut self, solver: &mut dyn Solver, dt_s: f64) -> Result<u32, StepError> {
+        self.step_observed(solver, dt_s, None)
     }
 
     /// Advances the system by `dt_s` seconds, with a balance of its energy that sees each substep.
@@ -37,30 +34,20 @@ impl System {
     /// The errors of [`System::step`].
     pub fn step_observed(
         &mut self,
-        solver: &mut (impl Solver + ?Sized),
-        dt_s: f64,
-        balance: &mut Balance,
-    ) -> Result<StepReport, StepError> {
-        self.step_with(solver, dt_s, Some(balance))
-    }
-
-    /// Advances the system as [`System::step`] does, with or without a balance.
-    pub(crate) fn step_with(
-        &mut self,
-        solver: &mut (impl Solver + ?Sized),
+        solver: &mut dyn Solver,
         dt_s: f64,
         mut balance: Option<&mut Balance>,
-    ) -> Result<StepReport, StepError> {
+    ) -> Result<u32, StepError> {
         check(self, solver, dt_s)?;
         let admitted = admit(self, solver, dt_s);
-        let report = admitted.map_err(|error| unless_broken(self, error))?;
+        let substeps = admitted.map_err(|error| unless_broken(self, error))?;
         begin(self);
         let (began_s, contact_j, damped_j) = (self.elapsed_s, self.contact_j, self.damped_j);
         let work = balance.as_ref().map(|balance| balance.work);
         self.model.recorded = Recorded::Nothing;
         self.model.is_damped = solver.abilities().damps;
-        let substep_s = dt_s / f64::from(report.substeps);
-        for _ in 0..report.substeps {
+        let substep_s = dt_s / f64::from(substeps);
+        for _ in 0..substeps {
             if let Err(failure) = advance(self, solver, substep_s, balance.as_deref_mut()) {
                 (self.elapsed_s, self.contact_j) = (began_s, contact_j);
                 self.damped_j = damped_j;
@@ -71,7 +58,7 @@ impl System {
             }
         }
         self.elapsed_s = began_s + dt_s;
-        Ok(report)
+        Ok(substeps)
     }
 }
 
@@ -87,7 +74,7 @@ fn begin(system: &mut System) {
 }
 
 /// Whether a method can take such a step of such a system at all.
-fn check(system: &System, solver: &(impl Solver + ?Sized), dt_s: f64) -> Result<(), StepError> {
+fn check(system: &System, solver: &dyn Solver, dt_s: f64) -> Result<(), StepError> {
     if !(dt_s > 0.0 && dt_s.is_finite()) {
         return Err(StepError::Step { given_s: dt_s });
     }
@@ -98,19 +85,18 @@ fn check(system: &System, solver: &(impl Solver + ?Sized), dt_s: f64) -> Result<
     if solver.abilities().takes_all_forces {
         return Ok(());
     }
-    let (triangles, bends) = (system.triangles().len(), system.model.bend.len());
-    if triangles > 0 {
-        return Err(StepError::Triangles { count: triangles });
-    }
-    if bends > 0 && system.model.buckling.is_some() {
-        return Err(StepError::Buckling { count: bends });
+    let bends = system.model.buckling.map_or(0, |_| system.model.bend.len());
+    let triangles = (system.triangles().len(), "triangles resist stretch");
+    let mut others = [triangles, (bends, "bends buckle")].into_iter();
+    if let Some((count, what)) = others.find(|(count, _)| *count > 0) {
+        return Err(StepError::NotSprings { count, what });
     }
     Ok(())
 }
 
 fn advance(
     system: &mut System,
-    solver: &mut (impl Solver + ?Sized),
+    solver: &mut dyn Solver,
     substep_s: f64,
     mut balance: Option<&mut Balance>,
 ) -> Result<(), Failure> {

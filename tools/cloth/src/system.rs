@@ -6,23 +6,22 @@
 //! are SI throughout: metres, kilograms, seconds, newtons.
 
 pub(crate) mod counters;
-mod error;
+pub(crate) mod error;
 pub(crate) mod model;
 
 pub use counters::{Counters, FeatureVisits, Visits};
-pub use error::SystemError;
+pub use error::{SettingError, SystemError};
 pub(crate) use model::{Model, Recorded};
 
 use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::bend::Buckling;
-use crate::constraint::{Colour, Constraint, ConstraintId, Constraints};
-use crate::damping::{self, Damping};
+use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::guard::Guard;
 use crate::incidence::room_for;
 use crate::load::{Loads, Path};
 use crate::pair;
-use crate::triangle::{Triangle, Triangles};
+use crate::triangle::Triangle;
 
 /// A mass-spring system: particles, constraints, triangles and loads.
 ///
@@ -116,8 +115,11 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`SystemError`] if a coordinate is not finite or too large, a mass is not positive and
-    /// finite, or the numbers of points and masses differ.
+    /// [`SystemError`] if a coordinate is not finite or too large, or a mass is not positive and finite.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one mass for each point.
     pub fn new(
         points: impl IntoIterator<Item = Point>,
         masses_kg: Vec<f64>,
@@ -125,12 +127,6 @@ impl System {
         let system = System::with_massless(points, masses_kg);
         let usable = |&mass: &f64| mass > 0.0 && mass.is_finite() && (1.0 / mass).is_finite();
         let model = &system.model;
-        if model.masses.len() != system.positions.len() {
-            return Err(SystemError::Counts {
-                points: system.positions.len(),
-                masses: model.masses.len(),
-            });
-        }
         if let Some(particle) = model.masses.iter().position(|mass| !usable(mass)) {
             let given = model.masses[particle];
             return Err(SystemError::Mass { particle, given });
@@ -150,25 +146,18 @@ impl System {
     ) -> System {
         let positions: Vec<Point> = points.into_iter().collect();
         let count = positions.len();
+        assert_eq!(masses.len(), count, "there is one mass for each point");
+        let mut model = Model {
+            stretch_ratio_max: 100.0,
+            ..Model::default()
+        };
+        for mass in masses {
+            model.push_particle(mass, false);
+        }
         System {
-            velocities: vec![Vector::zeros(); count],
+            velocities: vec![Vector::zeros(); positions.len()],
             positions,
-            model: Model {
-                inverse_masses: masses.iter().map(|&mass| inverse(mass, false)).collect(),
-                masses,
-                held: vec![false; count],
-                stretch: Constraints::new(count),
-                bend: Constraints::new(count),
-                buckling: None,
-                triangles: Triangles::new(count),
-                damping_s: 0.0,
-                is_damped: false,
-                faces: Vec::new(),
-                loads: Loads::default(),
-                grabbed: Vec::new(),
-                stretch_ratio_max: 100.0,
-                recorded: Recorded::default(),
-            },
+            model,
             counters: Counters::default(),
             guard: Guard::default(),
             scratch: Scratch::default(),
@@ -226,12 +215,12 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        let given = Constraint {
+        self.connect(
+            |model| &mut model.stretch,
             ends,
             rest_length_m,
             stiffness_n_per_m,
-        };
-        self.connect(|model| &mut model.stretch, given)
+        )
     }
 
     /// Adds a bend constraint and returns its id. It is a spring between two particles that are
@@ -251,12 +240,12 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        let given = Constraint {
+        self.connect(
+            |model| &mut model.bend,
             ends,
             rest_length_m,
             stiffness_n_per_m,
-        };
-        self.connect(|model| &mut model.bend, given)
+        )
     }
 
     /// Sets the law by which all bend constraints buckle, present and future ones; `None` makes
@@ -323,7 +312,7 @@ impl System {
 
     pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
         let index = self.model.triangles.as_slice().len();
-        self.model.triangles.push(triangle);
+        self.model.triangles.put(index, triangle);
         self.rebuilt();
         index
     }
@@ -331,9 +320,16 @@ impl System {
     fn connect(
         &mut self,
         family: fn(&mut Model) -> &mut Constraints,
-        given: Constraint,
+        ends: [usize; 2],
+        rest_length_m: f64,
+        stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
         self.is_no_cloth();
+        let given = Constraint {
+            ends,
+            rest_length_m,
+            stiffness_n_per_m,
+        };
         check_constraint(given, self.positions.len())?;
         let id = family(&mut self.model).add(given);
         self.rebuilt();
@@ -356,7 +352,7 @@ impl System {
     /// Notes that masses or constraints have changed.
     pub(crate) fn touched(&mut self) {
         self.scratch.is_fresh = false;
-        self.guard.edited();
+        self.guard.is_known = false;
         self.changes += 1;
     }
 
@@ -439,7 +435,8 @@ impl System {
     /// Brings the inverse mass up to date with the mass and with who is held.
     pub(crate) fn weigh(&mut self, particle: usize) {
         let model = &mut self.model;
-        model.inverse_masses[particle] = inverse(model.masses[particle], model.held[particle]);
+        model.inverse_masses[particle] =
+            model::inverse(model.masses[particle], model.held[particle]);
         self.touched();
     }
 
@@ -447,11 +444,9 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`SystemError::Loads`] if a number is not finite, or is negative where it must not be.
-    pub fn set_loads(&mut self, loads: Loads) -> Result<(), SystemError> {
-        if let Some((field, given)) = loads.fault() {
-            return Err(SystemError::Loads { field, given });
-        }
+    /// [`SettingError`] if a number is not finite, or is negative where it must not be.
+    pub fn set_loads(&mut self, loads: Loads) -> Result<(), SettingError> {
+        loads.check()?;
         self.scratch.is_fresh = false;
         self.changes += 1;
         self.model.loads = loads;
@@ -465,32 +460,18 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`SystemError::Loads`] if the time is negative or not finite.
-    pub fn set_damping(&mut self, time_s: f64) -> Result<(), SystemError> {
-        if !(time_s >= 0.0 && time_s.is_finite()) {
-            let (field, given) = ("damping_s", time_s);
-            return Err(SystemError::Loads { field, given });
-        }
+    /// [`SettingError`] if the time is negative or not finite.
+    pub fn set_damping(&mut self, time_s: f64) -> Result<(), SettingError> {
+        SettingError::unless_positive("damping_s", time_s)?;
         self.model.damping_s = time_s;
         self.rebuilt();
         Ok(())
     }
 
-    /// Returns the damping of the stretch constraints, and how many of them it is capped for; `None`
-    /// without damping. Takes linear time.
+    /// Returns the time of the damping of the stretch constraints, in seconds.
     #[must_use]
-    pub fn damping(&self) -> Option<Damping> {
-        let (time_s, w) = (self.model.damping_s, &self.model.inverse_masses);
-        let springs = self.model.stretch.colours().iter();
-        let springs = springs.flat_map(Colour::springs);
-        let capped = springs.filter(|&([a, b], _, stiffness)| {
-            let w = w[a] + w[b];
-            w > 0.0 && time_s * stiffness > damping::cap(stiffness, w)
-        });
-        (time_s > 0.0).then(|| Damping {
-            time_s,
-            capped: capped.count() as f64 / self.model.stretch.len().max(1) as f64,
-        })
+    pub fn damping_s(&self) -> f64 {
+        self.model.damping_s
     }
 
     /// Sets how to treat a step beyond the stability limit. The default is to refuse it.
@@ -626,10 +607,6 @@ impl System {
             scratch.velocities.clone_from(&self.velocities);
         }
     }
-}
-
-fn inverse(mass: f64, held: bool) -> f64 {
-    if held || mass == 0.0 { 0.0 } else { 1.0 / mass }
 }
 
 fn check_constraint(given: Constraint, particles: usize) -> Result<(), SystemError> {

@@ -68,6 +68,8 @@ use std::fmt;
 
 use tearmesh::geometry::{Vector, check_point};
 
+use crate::system::error::SettingError;
+
 /// The condition under which an edge tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -140,30 +142,32 @@ impl Tearing {
     ///
     /// [`TearingError`] names the first number that is not usable.
     pub fn check(&self) -> Result<(), TearingError> {
-        let above = |given: f64, limit: f64| {
-            if given > limit && given.is_finite() {
-                Ok(())
-            } else {
-                Err(TearingError::Threshold { given, limit })
+        self.check_numbers().map_err(TearingError::Number)?;
+        match self.threshold {
+            Threshold::WarpWeft { axis: given, .. }
+                if given == Vector::zeros() || check_point(given.into()).is_err() =>
+            {
+                Err(TearingError::Axis { given })
             }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_numbers(&self) -> Result<(), SettingError> {
+        let above_1 = |given: f64| {
+            let holds = given > 1.0 && given.is_finite();
+            SettingError::unless(holds, "threshold", given, "any above 1")
         };
         match self.threshold {
-            Threshold::Stretch(ratio) | Threshold::PrincipalStretch(ratio) => above(ratio, 1.0)?,
-            Threshold::WarpWeft { warp, weft, axis } => {
-                above(warp, 1.0)?;
-                above(weft, 1.0)?;
-                if axis == Vector::zeros() || check_point(axis.into()).is_err() {
-                    return Err(TearingError::Axis { given: axis });
-                }
+            Threshold::Stretch(ratio) | Threshold::PrincipalStretch(ratio) => above_1(ratio)?,
+            Threshold::WarpWeft { warp, weft, .. } => above_1(warp).and(above_1(weft))?,
+            Threshold::Toughness(given) | Threshold::Force(given) => {
+                SettingError::unless_above_0("threshold", given)?;
             }
-            Threshold::Toughness(given) | Threshold::Force(given) => above(given, 0.0)?,
         }
-        if let Some(given) = self.weakening
-            && !(given > 0.0 && given <= 1.0)
-        {
-            return Err(TearingError::Weakening { given });
-        }
-        Ok(())
+        let given = self.weakening.unwrap_or(1.0);
+        let holds = given > 0.0 && given <= 1.0;
+        SettingError::unless(holds, "weakening", given, "any above 0 and at most 1")
     }
 }
 
@@ -178,22 +182,12 @@ impl Default for Tearing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TearingError {
-    /// A threshold is not finite or not above its limit: 1 for ratios, otherwise 0.
-    Threshold {
-        /// The threshold that was given.
-        given: f64,
-        /// The limit that the threshold must be above.
-        limit: f64,
-    },
+    /// A threshold or the weakening cannot be used.
+    Number(SettingError),
     /// The axis of the warp is zero, not finite or too large.
     Axis {
         /// The axis that was given.
         given: Vector,
-    },
-    /// The weakening factor is not above 0 and at most 1.
-    Weakening {
-        /// The factor that was given.
-        given: f64,
     },
     /// The number of strengths differs from the number of vertices.
     Strengths {
@@ -214,18 +208,13 @@ pub enum TearingError {
 impl fmt::Display for TearingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            TearingError::Threshold { given, limit } => {
-                write!(f, "a tear threshold of {given} is not above {limit}")
-            }
+            TearingError::Number(error) => error.fmt(f),
             TearingError::Axis { given: a } => {
                 write!(
                     f,
                     "the axis ({}, {}, {}) of the warp has no direction",
                     a.x, a.y, a.z
                 )
-            }
-            TearingError::Weakening { given } => {
-                write!(f, "a weakening by {given} is not above 0 and at most 1")
             }
             TearingError::Strengths { given, vertices } => {
                 write!(f, "there are {given} strengths for {vertices} vertices")

@@ -52,7 +52,6 @@ impl Triangle {
     ///
     /// Returns `None` if the corners span no area, a stiffness is negative, or a number is not
     /// finite.
-    #[must_use]
     pub(crate) fn new(
         vertices: [u32; 3],
         material: [[f64; 2]; 3],
@@ -102,10 +101,15 @@ impl Triangle {
         [0, 1].map(|c| a * d[0][c] + b * d[1][c])
     }
 
-    /// The energy, in J, with the corners at these points.
+    /// Those with its particles where they are.
     #[inline]
-    fn energy(&self, corners: [Point; 3]) -> f64 {
-        let [w_u, w_v] = self.derivatives(corners);
+    pub(crate) fn derivatives_at(&self, x: &[Point]) -> [Vector; 2] {
+        self.derivatives(self.vertices.map(|v| x[v as usize]))
+    }
+
+    /// The energy, in J, by these derivatives.
+    #[inline]
+    fn energy(&self, [w_u, w_v]: [Vector; 2]) -> f64 {
         let [k_u, k_v, k_s] = self.stiffness;
         let (e_u, e_v, shear) = (length(w_u) - 1.0, length(w_v) - 1.0, dot(w_u, w_v));
         self.area * 0.5 * (k_u * (e_u * e_u) + k_v * (e_v * e_v) + k_s * (shear * shear))
@@ -114,8 +118,7 @@ impl Triangle {
     /// The forces on the corners, in N. The first is made from the other two, so that their sum is
     /// zero to one rounding.
     #[inline]
-    fn forces(&self, corners: [Point; 3]) -> [Vector; 3] {
-        let [w_u, w_v] = self.derivatives(corners);
+    fn forces(&self, [w_u, w_v]: [Vector; 2]) -> [Vector; 3] {
         let [k_u, k_v, k_s] = self.stiffness;
         let shear = k_s * dot(w_u, w_v);
         let p_u = w_u * (k_u * stretch(w_u)) + w_v * shear;
@@ -125,17 +128,12 @@ impl Triangle {
         [-(f1 + f2), f1, f2]
     }
 
-    /// Those of damping along warp and along weft, as far as they are crushed, with the corners at
-    /// these velocities: the power of what is said of it is that of the stretch of the triangle.
+    /// Those of damping along warp and along weft, as far as they are crushed: the power of what is said of it
+    /// is that of the stretch of the triangle.
     #[inline]
-    fn damping(
-        &self,
-        corners: [Point; 3],
-        velocities: [Vector; 3],
-        crush: Crush<'_>,
-    ) -> [Vector; 3] {
-        let w = self.derivatives(corners);
-        let (a, b) = (velocities[1] - velocities[0], velocities[2] - velocities[0]);
+    fn damping(&self, w: [Vector; 2], crush: Crush<'_>) -> [Vector; 3] {
+        let [v0, v1, v2] = self.vertices.map(|v| crush.velocities[v as usize]);
+        let (a, b) = (v1 - v0, v2 - v0);
         let d = &self.rest_inverse;
         let [p_u, p_v] = [0, 1].map(|c| {
             let ratio = length(w[c]);
@@ -150,17 +148,9 @@ impl Triangle {
         [-(f1 + f2), f1, f2]
     }
 
-    /// |`w_u`|² + |`w_v`|² + |`w_u` · `w_v`|: `k_s` times this bounds the second derivative of the shear
-    /// term by `w_u` and `w_v`. It is 2 at rest.
-    #[inline]
-    fn shear_growth(&self, corners: [Point; 3]) -> f64 {
-        let [w_u, w_v] = self.derivatives(corners);
-        dot(w_u, w_u) + dot(w_v, w_v) + dot(w_u, w_v).abs()
-    }
     /// The second derivatives of the energy: `[i][j]` is the block of corners i and j, in N/m; and
     /// how many of the three terms (u, v, shear) had a part dropped.
-    fn hessian(&self, corners: [Point; 3], clamp: bool) -> ([[Block; 3]; 3], u32) {
-        let [w_u, w_v] = self.derivatives(corners);
+    fn hessian(&self, [w_u, w_v]: [Vector; 2], clamp: bool) -> ([[Block; 3]; 3], u32) {
         let [k_u, k_v, k_s] = self.stiffness;
         let shear = dot(w_u, w_v);
         let mut clamped = 0;
@@ -228,23 +218,6 @@ impl Triangle {
             part(0) + part(1)
         })
     }
-
-    /// Whether neither warp nor weft is longer than `ratio_max` times its rest length, or not a number.
-    fn is_within(&self, corners: [Point; 3], ratio_max: f64) -> bool {
-        let [w_u, w_v] = self.derivatives(corners);
-        let square = ratio_max * ratio_max;
-        dot(w_u, w_u) <= square && dot(w_v, w_v) <= square
-    }
-
-    fn is_crushed(&self, corners: [Point; 3]) -> bool {
-        let square = Crush::BELOW * Crush::BELOW;
-        let derivatives = self.derivatives(corners);
-        derivatives.into_iter().any(|w| dot(w, w) < square)
-    }
-
-    fn corners(&self, x: &[Point]) -> [Point; 3] {
-        self.vertices.map(|v| x[v as usize])
-    }
 }
 
 /// 1 − 1/|w|, which is zero for a w of zero, since that has no direction.
@@ -261,13 +234,6 @@ pub(crate) struct Triangles {
 }
 
 impl Triangles {
-    pub(crate) fn new(particles: usize) -> Triangles {
-        Triangles {
-            list: Vec::new(),
-            lists: Incidence::new(particles),
-        }
-    }
-
     /// Makes room for so many particles in all.
     pub(crate) fn reserve(&mut self, particles: usize) {
         self.lists.reserve(particles, self.list.len());
@@ -282,32 +248,32 @@ impl Triangles {
         self.lists.of(particle)
     }
 
-    /// The elastic energy of one, in joules.
-    pub(crate) fn energy_of(&self, t: usize, x: &[Point]) -> f64 {
-        self.list[t].energy(self.list[t].corners(x))
-    }
-
-    /// How far those that shear are stretched at most: what a reach is held against. Zero without
-    /// any, 2 at rest.
+    /// How far those that shear are stretched at most: what a reach is held against, |`w_u`|² + |`w_v`|² +
+    /// |`w_u` · `w_v`|. `k_s` times this bounds the second derivative of the shear term by `w_u` and `w_v`.
+    /// Zero without any, 2 at rest.
     pub(crate) fn shear_growth(&self, x: &[Point]) -> f64 {
         let sheared = self.list.iter().filter(|t| t.stiffness[2] > 0.0);
-        let growths = sheared.map(|t| t.shear_growth(t.corners(x)));
+        let growths = sheared.map(|t| {
+            let [w_u, w_v] = t.derivatives_at(x);
+            dot(w_u, w_u) + dot(w_v, w_v) + dot(w_u, w_v).abs()
+        });
         growths.fold(0.0, f64::max)
     }
 
-    pub(crate) fn push(&mut self, triangle: Triangle) {
-        let t = self.list.len();
-        self.list.push(triangle);
-        self.lists.push();
-        for (corner, v) in triangle.vertices.into_iter().enumerate() {
-            self.lists.attach(t, corner, v as usize);
+    /// Puts a triangle in the place of number `t`, or appends it.
+    pub(crate) fn put(&mut self, t: usize, triangle: Triangle) {
+        assert!(t <= self.list.len(), "triangles are in step with faces");
+        let is_new = t == self.list.len();
+        if is_new {
+            self.list.push(triangle);
+            self.lists.push();
         }
-    }
-
-    /// Puts another triangle in the place of one.
-    pub(crate) fn set(&mut self, t: usize, triangle: Triangle) {
-        for (corner, to) in triangle.vertices.into_iter().enumerate() {
-            self.repoint(t, corner, to as usize);
+        for (corner, v) in triangle.vertices.into_iter().enumerate() {
+            if is_new {
+                self.lists.attach(t, corner, v as usize);
+            } else {
+                self.repoint(t, corner, v as usize);
+            }
         }
         self.list[t] = triangle;
     }
@@ -337,13 +303,13 @@ impl Triangles {
     /// The elastic energy in joules, added to a sum one after the other.
     pub(crate) fn energy(&self, x: &[Point], sum: f64) -> f64 {
         let triangles = self.list.iter();
-        triangles.fold(sum, |sum, t| sum + t.energy(t.corners(x)))
+        triangles.fold(sum, |sum, t| sum + t.energy(t.derivatives_at(x)))
     }
 
     /// That of the triangles of a particle.
     pub(crate) fn energy_at(&self, x: &[Point], particle: usize) -> f64 {
-        let triangles = self.of(particle);
-        triangles.fold(0.0, |sum, (t, _)| sum + self.energy_of(t, x))
+        let triangles = self.of(particle).map(|(t, _)| &self.list[t]);
+        triangles.fold(0.0, |sum, t| sum + t.energy(t.derivatives_at(x)))
     }
 
     /// Adds the forces, in newtons, to those of the particles, with those of damping where something is
@@ -357,19 +323,20 @@ impl Triangles {
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
     ) -> bool {
-        let mut sane = true;
+        let (mut sane, most) = (true, ratio_max * ratio_max);
         for t in &self.list {
-            let corners = t.corners(x);
-            sane &= t.is_within(corners, ratio_max);
-            for (v, pull) in t.vertices.into_iter().zip(t.forces(corners)) {
+            let w = t.derivatives_at(x);
+            let squares = w.map(|w| dot(w, w));
+            sane &= squares.iter().all(|square| *square <= most);
+            for (v, pull) in t.vertices.into_iter().zip(t.forces(w)) {
                 forces[v as usize] += pull;
             }
             if let Some(crush) = crush
-                && t.is_crushed(corners)
+                && squares
+                    .iter()
+                    .any(|square| *square < Crush::BELOW * Crush::BELOW)
             {
-                let velocities = t.vertices.map(|v| crush.velocities[v as usize]);
-                let damping = t.damping(corners, velocities, crush);
-                for (v, pull) in t.vertices.into_iter().zip(damping) {
+                for (v, pull) in t.vertices.into_iter().zip(t.damping(w, crush)) {
                     forces[v as usize] += pull;
                 }
             }
@@ -381,14 +348,14 @@ impl Triangles {
     pub(crate) fn add_force_at(&self, x: &[Point], particle: usize, sum: &mut Vector) {
         for (t, corner) in self.of(particle) {
             let t = &self.list[t];
-            *sum += t.forces(t.corners(x))[corner];
+            *sum += t.forces(t.derivatives_at(x))[corner];
         }
     }
 
     /// The one that is longest along warp or weft for its length at rest: its corners, and that ratio.
     pub(crate) fn longest(&self, x: &[Point]) -> Option<([usize; 3], f64)> {
         let ratios = self.list.iter().map(|t| {
-            let ratios = t.derivatives(t.corners(x)).map(length);
+            let ratios = t.derivatives_at(x).map(length);
             let corners = t.vertices.map(|v| v as usize);
             (corners, ratios.into_iter().fold(0.0, f64::max))
         });
@@ -435,24 +402,25 @@ impl Triangles {
         }
     }
 
-    /// Adds the second derivatives of the energy, each pair's to its slot by that number. With `clamp` every
-    /// term is positive semidefinite; returns how many had a part dropped for it.
+    /// Adds the second derivatives of the energy, each pair's by that number in this kind. With `clamp` every term
+    /// is positive semidefinite; returns how many had a part dropped for it.
     pub(crate) fn add_hessian(
         &self,
+        kind: usize,
         x: &[Point],
         clamp: bool,
-        slots: &[u32],
-        hessian: &mut Hessian,
+        to: &mut Hessian,
     ) -> u64 {
         let mut clamped = 0;
-        for (t, slots) in self.list.iter().zip(slots.as_chunks::<3>().0) {
-            let (blocks, dropped) = t.hessian(t.corners(x), clamp);
+        for (number, t) in self.list.iter().enumerate() {
+            let (blocks, dropped) = t.hessian(t.derivatives_at(x), clamp);
             clamped += u64::from(dropped);
-            for (i, &slot) in slots.iter().enumerate() {
+            for (i, row) in blocks.iter().enumerate() {
                 let j = (i + 1) % 3;
                 let (a, b) = (t.vertices[i], t.vertices[j]);
-                hessian.add(slot, [a, a], &blocks[i][i]);
-                hessian.add(slot, [a, b], &blocks[i][j]);
+                let pair = (kind, 3 * number + i);
+                to.add(pair, [a, a], &row[i]);
+                to.add(pair, [a, b], &row[j]);
             }
         }
         clamped
@@ -482,9 +450,10 @@ mod tests {
 
     #[test]
     fn corners_come_and_go_and_lists_stay_right() {
-        let mut triangles = Triangles::new(5);
+        let mut triangles = Triangles::default();
+        (0..5).for_each(|_| triangles.push_particle());
         for vertices in [[0, 1, 2], [2, 1, 3], [3, 0, 2], [4, 2, 1]] {
-            triangles.push(triangle(vertices));
+            triangles.put(triangles.list.len(), triangle(vertices));
             check(&triangles, 5);
         }
         assert_eq!(triangles.of(2).count(), 4);
@@ -492,7 +461,7 @@ mod tests {
         triangles.repoint(1, 0, 5);
         triangles.repoint(3, 1, 5);
         check(&triangles, 6);
-        triangles.set(2, triangle([1, 3, 5]));
+        triangles.put(2, triangle([1, 3, 5]));
         check(&triangles, 6);
         // Particle 0 has one triangle left; it goes to 4, and 5 becomes 0.
         triangles.repoint(0, 0, 4);

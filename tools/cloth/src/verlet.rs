@@ -134,7 +134,7 @@ impl Solver for Verlet {
     }
 
     fn quality(&self, system: &System) -> Quality {
-        let carried = system.guard.carry().len();
+        let carried = system.guard.carry.len();
         Quality::Carried { carried }
     }
 }
@@ -143,6 +143,6 @@ impl Solver for Verlet {
 /// in between, or the guards are those of another step.
 fn is_fresh(system: &System, dt_s: f64) -> bool {
     let had_s = system.scratch.guarded_s;
-    let differs = had_s != dt_s && (had_s > 0.0 || system.guard.carry().len() > 0);
+    let differs = had_s != dt_s && (had_s > 0.0 || system.guard.carry.len() > 0);
     system.scratch.is_fresh && !differs
 }

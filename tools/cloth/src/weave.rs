@@ -70,14 +70,7 @@ impl Cloth {
             for child in family.children() {
                 let triangle = self.woven(child.face);
                 let triangles = &mut self.system.model.triangles;
-                if child.face == child.parent {
-                    triangles.set(child.face.index(), triangle);
-                } else {
-                    let index = triangles.as_slice().len();
-                    let face = child.face.index();
-                    assert_eq!(index, face, "triangles are in step with faces");
-                    triangles.push(triangle);
-                }
+                triangles.put(child.face.index(), triangle);
             }
         }
     }
@@ -88,7 +81,7 @@ impl Cloth {
         let around: Vec<usize> = around.map(|(t, _)| t).collect();
         for t in around {
             let triangle = self.woven(FaceId::new(t).expect("I1: ids fit"));
-            self.system.model.triangles.set(t, triangle);
+            self.system.model.triangles.put(t, triangle);
         }
     }
 

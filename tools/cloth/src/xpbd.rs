@@ -26,9 +26,9 @@
 use tearmesh::geometry::{Vector, length};
 
 use crate::motion::{finish, finish_and_predict, force_scale, predict};
-use crate::solver::{Abilities, Failure, Quality, SettingError, Solver};
+use crate::solver::{Abilities, Failure, Quality, Solver};
 use crate::spring::{self, Correction};
-use crate::system::{Recorded, System};
+use crate::system::{Recorded, SettingError, System};
 
 /// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at
 /// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2
@@ -193,7 +193,7 @@ fn sweep(system: &mut System, sweeps: u32, fractions: [f64; 2], scale: f64) -> R
                 scale,
                 ratio_max: model.stretch_ratio_max,
             };
-            for colour in family.colours_mut() {
+            for colour in &mut family.colours {
                 let (weights, x) = (&model.inverse_masses, &mut system.positions);
                 let is_sane = project(colour, weights, correction, x);
                 Failure::unless(is_sane)?;

@@ -111,7 +111,7 @@ struct Step<'a> {
 impl<'a> Step<'a> {
     /// A step of backward Euler.
     fn new(system: &'a System, faces: &'a [u32], h: f64) -> Step<'a> {
-        let damping_s = system.damping().map_or(0.0, |damping| damping.time_s);
+        let damping_s = system.damping_s();
         let families = [(system.stretches(), damping_s), (system.bends(), 0.0)];
         let springs = families.into_iter().flat_map(|(family, damping_s)| {
             family.iter().map(move |id| {

@@ -3,7 +3,7 @@
 
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{EnergyGain, Frame, Run, Warning};
-use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError};
+use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError, StepLimit};
 
 use super::frames::RATE_PER_S;
 use super::summary::has_limited;
@@ -31,14 +31,14 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
     let half = two_digits(run.step_s() / 2.0);
     let has_failed = matches!(warning, Warning::Energy(_)) && has_exploded(run);
     let (message, help): (String, String) = match warning {
-        Warning::Size { size_m } => {
+        Warning::Size(size_m) => {
             let size = short(size_m);
             let message =
                 format!("the mesh is {size} m across, and the fabric suits garments and flags");
             let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
             (message, help.into())
         }
-        Warning::Endless { frequency } => {
+        Warning::Endless(frequency) => {
             let at = frequency.ends.map(|ends| {
                 let [a, b] = ends.map(number);
                 let omega = frequency.omega_rad_per_s;
@@ -50,7 +50,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             let message = format!("{steps:.1e} steps of {step} s are planned{at}");
             (message, help.into())
         }
-        Warning::LateCut { at_s: time_s } | Warning::LateHold { from_s: time_s, .. } => {
+        Warning::LateCut(time_s) | Warning::LateHold { from_s: time_s, .. } => {
             let time = short(time_s);
             let what = match warning {
                 Warning::LateHold { hold, .. } => format!("hold {} is never taken", hold + 1),
@@ -73,7 +73,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             let verlet = "--solver verlet, which is exact at rest";
             (message, format!("--dt {dt} for {most} %, or {verlet}"))
         }
-        Warning::Coarse { wanted_s } => {
+        Warning::Coarse(wanted_s) => {
             let sweeps = match &scene.solver {
                 Method::Pbd(pbd) => pbd.sweeps as usize,
                 _ => 1,
@@ -124,7 +124,7 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             );
             (message, "a finer mesh, or a larger ball".into())
         }
-        Warning::Strong { least } => {
+        Warning::Strong(least) => {
             let vertices = count(run.mesh().vertex_count(), "vertex", "vertices");
             let least = short(least);
             let message = format!(
@@ -262,36 +262,35 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
     let half = two_digits(run.step_s() / 2.0);
     // What is torn later may need still shorter steps.
     let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
-    let exceeds = |given_s: f64, limit_s: f64, why: String| {
-        let limit = two_digits(limit_s);
-        format!("dt {given_s} s exceeds the stability limit {limit} s ({why})")
-    };
     let (message, help) = match *error {
         StepError::Unstable {
             given_s,
             limit_s,
-            frequency,
+            by,
         } => {
-            let at = frequency.ends.map(edge).unwrap_or_default();
-            let omega = short(frequency.omega_rad_per_s.round());
-            let why = format!("bound of frequencies {omega} rad/s{at}");
-            let or = match run.scene().solver {
-                Method::Verlet => "",
-                _ => ", or --solver verlet",
+            let is_verlet = matches!(run.scene().solver, Method::Verlet);
+            let (why, or) = match by {
+                StepLimit::Springs(frequency) => {
+                    let at = frequency.ends.map(edge).unwrap_or_default();
+                    let omega = short(frequency.omega_rad_per_s.round());
+                    let or = if is_verlet {
+                        ""
+                    } else {
+                        ", or --solver verlet"
+                    };
+                    (format!("bound of frequencies {omega} rad/s{at}"), or)
+                }
+                StepLimit::Air(rate) => {
+                    let (vertex, per_s) = (rate.particle + 1, short(rate.rate_per_s.round()));
+                    let why = format!("the air slows vertex {vertex} at a rate of {per_s} /s");
+                    (why, "")
+                }
             };
-            let help = format!("--dt {}{or}", two_digits(limit_s * part));
-            (exceeds(given_s, limit_s, why), help)
-        }
-        StepError::Air {
-            given_s,
-            limit_s,
-            rate,
-        } => {
-            let per_s = short(rate.rate_per_s.round());
-            let vertex = rate.particle + 1;
-            let why = format!("the air slows vertex {vertex} at a rate of {per_s} /s");
-            let help = format!("--dt {}", two_digits(limit_s * part));
-            (exceeds(given_s, limit_s, why), help)
+            let limit = two_digits(limit_s);
+            (
+                format!("dt {given_s} s exceeds the stability limit {limit} s ({why})"),
+                format!("--dt {}{or}", two_digits(limit_s * part)),
+            )
         }
         StepError::Implicit { error, .. } => {
             let (why, or) = unsolved(&error);

@@ -96,20 +96,13 @@ impl Frame {
             let i = usize::from(axis.number);
             (high[i] - low[i]).max(0.0)
         };
-        let level: Vec<Axis> = [Axis::X, Axis::Y, Axis::Z]
-            .into_iter()
-            .filter(|axis| axis.number != up.number)
-            .collect();
-        let (across, other) = if extent(level[1]) > extent(level[0]) {
-            (level[1], level[0])
-        } else {
-            (level[0], level[1])
-        };
-        let (along, depth) = if extent(up) < 0.01 * extent(across) {
-            (other, up)
-        } else {
-            (up, other)
-        };
+        let level = [[Axis::Y, Axis::Z], [Axis::X, Axis::Z], [Axis::X, Axis::Y]];
+        let [mut across, mut other] = level[usize::from(up.number)];
+        if extent(other) > extent(across) {
+            std::mem::swap(&mut across, &mut other);
+        }
+        let is_flat = extent(up) < 0.01 * extent(across);
+        let (along, depth) = if is_flat { (other, up) } else { (up, other) };
         let mut corner = Point::origin();
         for axis in [across, along, depth] {
             let i = usize::from(axis.number);
@@ -134,7 +127,6 @@ impl Frame {
 
     /// Returns the place of a point, as fractions of width and height from the bottom left corner.
     /// A fraction is 0 along an axis without extent.
-    #[must_use]
     pub(crate) fn parts(&self, point: Point) -> [f64; 2] {
         let d = point - self.corner;
         let part = |axis: Axis, extent: f64| {

@@ -27,7 +27,6 @@ impl Scene {
     ];
 
     /// Returns a scene in which nothing holds the cloth: it falls for two seconds, and can tear.
-    #[must_use]
     pub fn fall(up: Axis) -> Scene {
         Scene {
             duration_s: 2.0,
@@ -49,7 +48,6 @@ impl Scene {
     /// Returns a scene in which a sheet hangs by its two upper corners. Each is clamped over a
     /// patch of a tenth of the sheet, because the strain at a single pinned vertex would grow as
     /// the mesh gets finer.
-    #[must_use]
     pub fn hang(frame: &Frame) -> Scene {
         let corner = |across: f64| {
             HeldVertices::still(Region::Near {
@@ -66,7 +64,6 @@ impl Scene {
     /// Returns the scene of a flag: the left edge is held, wind blows across and sways, and after a
     /// second and a half the flag is cut in two (Souza et al. 2014, Figure 4). It does not tear by
     /// itself.
-    #[must_use]
     pub fn flag(frame: &Frame) -> Scene {
         let [width, ..] = frame.extents_m;
         let across = frame.across.vector();
@@ -104,7 +101,6 @@ impl Scene {
     /// times as strong, and twice that at half the distance, and tears elsewhere (tried up to 160
     /// cells per side). Drag is that of a light cloth in air. Without it, loose pieces would fly
     /// away at some 10 m/s, the speed that the energy of torn edges gives them.
-    #[must_use]
     pub fn rip(frame: &Frame) -> Scene {
         let down = frame.along.vector() * -frame.extents_m[1];
         let grip = |radius: f64| Region::Near {
@@ -135,7 +131,6 @@ impl Scene {
     /// Returns a trouser test: a strip is slit from the middle of its lower edge to its centre, and
     /// the ends of the two legs are pulled apart, toward the viewer and away. There is no gravity.
     /// The sum of the forces at the clamps is the force that tears.
-    #[must_use]
     pub fn trouser(frame: &Frame) -> Scene {
         let height = frame.extents_m[1];
         let depth = frame.depth.vector();

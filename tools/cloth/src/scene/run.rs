@@ -15,7 +15,7 @@ pub use self::gain::EnergyGain;
 use std::num::NonZero;
 
 use tearmesh::geometry::{Point, Vector, dot, length};
-use tearmesh::{CutReport, Edits, Mesh, PositionError, Positions, Scissor, VertexId};
+use tearmesh::{CutReport, Edits, Mesh, PositionError, Positions, VertexId};
 
 use self::gain::Watch;
 use self::held::Held;
@@ -28,8 +28,8 @@ use crate::method::Softness;
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
 use crate::solver::{Quality, Solver, StepError};
-use crate::system::Unstable;
-use crate::tearing::{Tear, TearReport};
+use crate::system::{SettingError, Unstable};
+use crate::tearing::TearReport;
 
 /// A scene in progress, with its mesh and its cloth.
 ///
@@ -46,12 +46,12 @@ use crate::tearing::{Tear, TearReport};
 /// assert_eq!(run.tally().splits, 0); // What merely hangs does not tear.
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[must_use]
 #[derive(Debug)]
 pub struct Run {
     scene: Scene,
-    sim: Simulation,
+    pub(super) sim: Simulation,
     held: Vec<Held>,
-    scissors: Vec<Scissor>,
     next_cut: usize,
     cuts_made: Vec<CutMade>,
     steps_planned: u64,
@@ -104,14 +104,14 @@ impl Run {
         scene: Scene,
         frame: &Frame,
     ) -> Result<Run, RunError> {
-        if let Some((field, given)) = scene.wind.and_then(|wind| wind.fault()) {
-            return Err(RunError::Wind { field, given });
+        if let Some(wind) = scene.wind {
+            wind.check().map_err(RunError::Wind)?;
         }
         let points = positions.as_slice();
         let held = scene.holds.iter().enumerate();
         let held = held.map(|(number, hold)| Held::new(number, hold, &mesh, points, frame));
         let held = held.collect::<Result<Vec<_>, _>>()?;
-        let scissors = scissors(&scene.cuts)?;
+        check_cuts(&scene.cuts)?;
         let loads = Loads {
             gravity_m_per_s2: Some(scene.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
@@ -135,7 +135,7 @@ impl Run {
             is_recorded: false,
         };
         let duration_s = scene.duration_s;
-        let sim = Simulation::new(mesh, positions.clone(), def);
+        let sim = Simulation::new(mesh, positions, def);
         let mut sim = sim.map_err(|error| match error {
             SimulationError::Step(step_s) => RunError::Times { step_s, duration_s },
             error => RunError::Simulation(error),
@@ -147,19 +147,16 @@ impl Run {
             return Err(RunError::Times { step_s, duration_s });
         }
         let last_s = Run::STEPS_MAX as f64 * step_s;
-        let uncounted = |wind: &SwayingWind| !(last_s / wind.period_s).is_finite();
-        if let Some(wind) = scene.wind.filter(uncounted) {
-            return Err(RunError::Wind {
-                field: "wind.period_s",
-                given: wind.period_s,
-            });
+        if let Some(SwayingWind { period_s, .. }) = scene.wind {
+            let is_counted = (last_s / period_s).is_finite();
+            SettingError::unless(is_counted, "wind.period_s", period_s, "any that is longer")
+                .map_err(RunError::Wind)?;
         }
         Ok(Run {
             watch: Watch::new(sim.cloth.system(), step_s),
             balance: Balance::new(sim.cloth.system_mut()),
             sim,
             held,
-            scissors,
             next_cut: 0,
             cuts_made: Vec::new(),
             steps_planned: steps_planned as u64,
@@ -194,7 +191,6 @@ impl Run {
     /// # Panics
     ///
     /// If a step was taken already, or the run would need more than 2⁴⁰ steps.
-    #[must_use]
     pub fn in_smaller_steps(mut self, parts: NonZero<u32>) -> Run {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
         self.sim.step_s /= f64::from(parts.get());
@@ -228,7 +224,6 @@ impl Run {
     /// # Panics
     ///
     /// If a step was taken already.
-    #[must_use]
     pub fn with_solver(mut self, solver: impl Solver + Send + Sync + 'static) -> Run {
         assert_eq!(self.tally.steps, 0, "the run has not begun");
         self.sim.solver = Box::new(solver);
@@ -266,7 +261,7 @@ impl Run {
     /// [`StepError`]; the cloth is then as it was at the end of the last good step, except for cuts
     /// made at the beginning of this one ([`Run::cuts_made`]).
     pub fn step(&mut self) -> Result<TearReport, StepError> {
-        self.sim.sheet.edits.clear();
+        self.sim.edits.clear();
         self.sim.events.clear();
         self.cuts_made.clear();
         let done = self.advance(self.tally.steps);
@@ -278,13 +273,13 @@ impl Run {
 
     fn advance(&mut self, now: u64) -> Result<TearReport, StepError> {
         let step_s = self.step_s();
-        let hands = (self.sim.cloth.system_mut(), &mut self.balance);
-        held::take_and_release(&mut self.held, now, step_s, hands);
+        let (system, balance) = (self.sim.cloth.system_mut(), &mut self.balance);
+        held::take_and_release(&mut self.held, now, step_s, system, balance);
         self.cut(now)?;
         self.blow(now);
-        let report = self.sim.step_observed(Some(&mut self.balance))?;
+        let substeps = self.sim.step_observed(Some(&mut self.balance))?;
         self.tally.steps += 1;
-        self.measure_moves(step_s / f64::from(report.substeps));
+        self.measure_moves(step_s / f64::from(substeps));
         let is_frame = self.watch.is_time(self.tally.steps);
         let tear = self.tear_overstretched();
         if is_frame || tear.overstretched > 0 || self.is_over() {
@@ -320,8 +315,8 @@ impl Run {
             && held::step_at(cut.at_s, self.step_s()) <= now
         {
             let before = Measured::of(self.cloth());
-            let scissor = &self.scissors[self.next_cut];
-            let made = self.sim.cut_measured(scissor, cut.method);
+            let scissor = cut.scissor().expect("the rays of cuts span planes");
+            let made = self.sim.cut_measured(&scissor, cut.method);
             let report = made.map_err(|error| StepError::BlowUp {
                 elapsed_s: self.elapsed_s(),
                 at: BlowUpSite::Particle(error.unusable()[0].0.index()),
@@ -380,7 +375,6 @@ impl Run {
 
     /// Returns whether an event at this time, in seconds, takes place. Times are rounded to steps,
     /// and an event at the end of the last step never happens.
-    #[must_use]
     pub(crate) fn reaches(&self, time_s: f64) -> bool {
         held::step_at(time_s, self.step_s()) < self.steps_planned
     }
@@ -452,7 +446,6 @@ impl Run {
     }
 
     /// Returns the scene that this run carries out.
-    #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -460,7 +453,7 @@ impl Run {
     /// Returns the mesh in its present state, with all cuts and tears.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
-        &self.sim.sheet.mesh
+        &self.sim.mesh
     }
 
     /// Returns the cloth in its present state.
@@ -481,12 +474,6 @@ impl Run {
         &self.cuts_made
     }
 
-    /// Returns the state of tearing; `None` for a scene without a rule for tearing.
-    #[must_use]
-    pub(crate) fn tear(&self) -> Option<&Tear> {
-        self.sim.tear.as_ref()
-    }
-
     /// Returns the vertices that a hold of the scene holds or leads now, copies included. Holds are
     /// numbered from 0. The slice is empty before the hold begins and after it ends.
     ///
@@ -505,7 +492,6 @@ impl Run {
     /// # Panics
     ///
     /// If the scene has no hold of this number.
-    #[must_use]
     pub(crate) fn pins(&self, hold: usize) -> usize {
         self.held[hold].pins(self.mesh())
     }
@@ -523,23 +509,19 @@ impl Run {
     }
 }
 
-/// The scissors of cuts, whose times must ascend.
-fn scissors(cuts: &[TimedCut]) -> Result<Vec<Scissor>, RunError> {
-    let (mut scissors, mut last_s) = (Vec::new(), 0.0);
+/// Refuses cuts that cannot be made, or whose times do not ascend.
+fn check_cuts(cuts: &[TimedCut]) -> Result<(), RunError> {
+    let mut last_s = 0.0;
     for (number, cut) in cuts.iter().enumerate() {
         let given_s = cut.at_s;
-        if !(given_s >= 0.0 && given_s.is_finite()) {
+        if !(given_s >= last_s && given_s.is_finite()) {
             return Err(RunError::CutTime { number, given_s });
         }
-        if given_s < last_s {
-            return Err(RunError::CutTimes { number });
-        }
         last_s = given_s;
-        let scissor = Scissor::new(cut.rays[0], cut.rays[1]);
-        let scissor = scissor.map_err(|error| RunError::Cut { number, error })?;
-        scissors.push(scissor.through(cut.through));
+        let scissor = cut.scissor();
+        scissor.map_err(|error| RunError::Cut { number, error })?;
     }
-    Ok(scissors)
+    Ok(())
 }
 
 /// The strength of each vertex by the regions of a scene; empty for 1 everywhere.

@@ -84,8 +84,8 @@ pub struct HoldForces {
 #[derive(Clone, Debug)]
 pub struct TearLog {
     events: Vec<TearEvent>,
-    first_n: f64,
-    knows_forces: bool,
+    /// The largest force at the first tear; `None` if the method does not know its forces.
+    first_n: Option<f64>,
     frames: Vec<HoldForces>,
     /// Whether each hold is led, or all count since none is.
     counts: Vec<bool>,
@@ -107,8 +107,7 @@ impl TearLog {
         let has_led = holds.iter().any(is_led);
         TearLog {
             events: Vec::new(),
-            first_n: 0.0,
-            knows_forces: !matches!(run.scene().solver, Method::Provot(_)),
+            first_n: (!matches!(run.scene().solver, Method::Provot(_))).then_some(0.0),
             frames: Vec::new(),
             counts: holds.iter().map(|hold| !has_led || is_led(hold)).collect(),
             recent: VecDeque::new(),
@@ -120,7 +119,7 @@ impl TearLog {
 
     /// Records a step that the run has just taken.
     pub fn note(&mut self, run: &Run, tear: &TearReport) {
-        if self.knows_forces {
+        if self.first_n.is_some() {
             self.weigh(run);
         }
         let Some((edge, load)) = tear.worst.filter(|_| tear.splits > 0) else {
@@ -132,14 +131,14 @@ impl TearLog {
             let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| x[v.index()]);
             between(a, b, 0.5)
         };
-        if self.events.is_empty() && self.knows_forces {
+        if self.events.is_empty() && self.first_n.is_some() {
             let total_s: f64 = self.recent.iter().map(|(seconds, _)| seconds).sum();
             let mean = |hold: usize| {
                 let parts = self.recent.iter();
                 let sum = parts.fold(Vector::zeros(), |sum, (s, forces)| sum + forces[hold] * *s);
                 sum / total_s
             };
-            self.first_n = self.largest(mean);
+            self.first_n = Some(self.largest(mean));
         }
         self.events.push(TearEvent {
             time_s: run.elapsed_s(),
@@ -198,7 +197,7 @@ impl TearLog {
     #[must_use]
     pub fn first_tear(&self) -> Option<FirstTear> {
         let &event = self.events.first()?;
-        let force_n = self.knows_forces.then_some(self.first_n);
+        let force_n = self.first_n;
         Some(FirstTear { event, force_n })
     }
 
@@ -215,8 +214,7 @@ impl TearLog {
     pub fn largest_force_n(&self) -> Option<f64> {
         let frames = self.frames.iter();
         let largest = frames.map(|frame| self.largest(|hold| frame.forces_n[hold]));
-        let largest_n = largest.fold(self.first_n, f64::max);
-        self.knows_forces.then_some(largest_n)
+        Some(largest.fold(self.first_n?, f64::max))
     }
 
     fn largest(&self, of: impl Fn(usize) -> Vector) -> f64 {

@@ -27,20 +27,14 @@ use crate::stability::frequency_bound;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Warning {
     /// The mesh is far smaller or larger than the garments and flags for which the default fabric is made.
-    Size {
-        /// The diagonal of the mesh, in metres.
-        size_m: f64,
-    },
+    /// Its diagonal is given, in metres.
+    Size(f64),
     /// An explicit method needs so many steps that the run will hardly end.
-    Endless {
-        /// The frequency that asks for such short steps.
-        frequency: Frequency,
-    },
+    /// The frequency is the one that asks for such short steps.
+    Endless(Frequency),
     /// A cut comes after the last step.
-    LateCut {
-        /// The time of the cut, in seconds.
-        at_s: f64,
-    },
+    /// Its time is given, in seconds.
+    LateCut(f64),
     /// A hold begins after the last step.
     LateHold {
         /// The index of the hold, from 0.
@@ -51,10 +45,8 @@ pub enum Warning {
     /// XPBD leaves the cloth softer than its fabric by more than [`Softness::TOLERABLE`].
     Soft(Softness),
     /// PBD takes steps that are too long for the mesh, so that cloth is stretched by its own weight.
-    Coarse {
-        /// The longest suitable step, in seconds.
-        wanted_s: f64,
-    },
+    /// The longest suitable step is given, in seconds.
+    Coarse(f64),
     /// PBD treats edges as rigid, whatever the fabric.
     Rigid,
     /// A hold pins single vertices, whose strain grows as the mesh gets finer.
@@ -74,10 +66,8 @@ pub enum Warning {
         longest_m: f64,
     },
     /// All vertices are stronger than the cloth.
-    Strong {
-        /// The least strength of a vertex.
-        least: f64,
-    },
+    /// The least strength of a vertex is given.
+    Strong(f64),
     /// Provot's limiter could not hold its limit, since held vertices were too far apart.
     Limiter(LimiterStats),
     /// A vertex moved so far in one step that it may have passed through a ball.
@@ -106,15 +96,15 @@ impl Warning {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
-            Warning::Size { .. } => "W-SIM-SIZE",
-            Warning::Endless { .. } => "W-SIM-ENDLESS",
-            Warning::LateCut { .. } | Warning::LateHold { .. } => "W-SCENE-LATE",
+            Warning::Size(_) => "W-SIM-SIZE",
+            Warning::Endless(_) => "W-SIM-ENDLESS",
+            Warning::LateCut(_) | Warning::LateHold { .. } => "W-SCENE-LATE",
             Warning::Soft(_) => "W-SIM-SOFT",
-            Warning::Coarse { .. } => "W-SIM-COARSE",
+            Warning::Coarse(_) => "W-SIM-COARSE",
             Warning::Rigid => "W-SIM-RIGID",
             Warning::Pinned { .. } => "W-SIM-PIN",
             Warning::SmallBall { .. } | Warning::PassedBall { .. } => "W-SIM-COLLIDER",
-            Warning::Strong { .. } => "W-SIM-STRONG",
+            Warning::Strong(_) => "W-SIM-STRONG",
             Warning::Limiter(_) => "W-SIM-LIMIT",
             Warning::Energy(_) => "W-SIM-ENERGY",
             Warning::Damped { .. } => "W-SIM-DAMPED",
@@ -128,7 +118,7 @@ impl Warning {
         let size_m = frame.size_m();
         let is_usual = (0.01..=8.0).contains(&size_m);
         let mut warnings = Vec::new();
-        warnings.extend((!is_usual).then_some(Warning::Size { size_m }));
+        warnings.extend((!is_usual).then_some(Warning::Size(size_m)));
         warnings.extend(endless(run));
         warnings.extend(late(run));
         let softness = run.softness();
@@ -139,7 +129,7 @@ impl Warning {
             let system = run.cloth().system();
             let wanted_s = scene.solver.wanted_step_s(system, speed_m_per_s);
             let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s);
-            warnings.extend(wanted_s.map(|wanted_s| Warning::Coarse { wanted_s }));
+            warnings.extend(wanted_s.map(Warning::Coarse));
             warnings.push(Warning::Rigid);
         }
         if scene.tearing.is_some() {
@@ -187,9 +177,9 @@ impl Warning {
 /// asks for, and one face without area is enough for years of them.
 fn endless(run: &Run) -> Option<Warning> {
     let is_explicit = matches!(run.scene().solver, Method::Verlet | Method::Provot(_));
-    (is_explicit && run.steps_planned() >= STEPS_MANY).then(|| Warning::Endless {
-        frequency: frequency_bound(&mut run.cloth().system().clone()),
-    })
+    let frequency = || frequency_bound(&mut run.cloth().system().clone());
+    let is_endless = is_explicit && run.steps_planned() >= STEPS_MANY;
+    is_endless.then(|| Warning::Endless(frequency()))
 }
 
 /// Hours of a mesh of a few thousand vertices.
@@ -203,7 +193,7 @@ fn late(run: &Run) -> impl Iterator<Item = Warning> {
     let holds = scene.holds.iter().map(|hold| hold.from_s).enumerate();
     let holds = holds.filter(|&(_, from_s)| run.steps_planned() > 0 && !run.reaches(from_s));
     let holds = holds.map(|(hold, from_s)| Warning::LateHold { hold, from_s });
-    cuts.map(|at_s| Warning::LateCut { at_s }).chain(holds)
+    cuts.map(Warning::LateCut).chain(holds)
 }
 
 /// The balls of a scene, by the indices of colliders, and their radii in metres.
@@ -217,10 +207,10 @@ fn balls(run: &Run) -> impl Iterator<Item = (usize, f64)> {
 
 /// Strengths are those of vertices, and on a coarse mesh a small region may hold all that could tear.
 fn strong(run: &Run) -> Option<Warning> {
-    let tear = run.tear()?;
+    let tear = run.sim.tear.as_ref()?;
     let strengths = run.mesh().vertices().map(|v| tear.strength(v));
     let least = strengths.fold(f64::INFINITY, f64::min);
-    (least > 1.0 && least.is_finite()).then_some(Warning::Strong { least })
+    (least > 1.0 && least.is_finite()).then_some(Warning::Strong(least))
 }
 
 /// Of what Provot's limiter takes nothing is known.

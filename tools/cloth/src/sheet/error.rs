@@ -5,25 +5,16 @@ use std::fmt;
 use tearmesh::geometry::Vector;
 use tearmesh::{FaceId, MassError, VertexId};
 
+use crate::system::error::SettingError;
+
 /// The reason why a cloth was refused.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ClothError {
     /// The masses were refused.
     Mass(MassError),
-    /// A stiffness is not a positive finite number, or the stiffness of a bend constraint would not
-    /// be one.
-    Stiffness {
-        /// The name of the field of [`Fabric`](crate::Fabric).
-        field: &'static str,
-        /// The value that was given.
-        given: f64,
-    },
-    /// The time of damping is negative or not finite.
-    Damping {
-        /// The time that was given, in seconds.
-        given: f64,
-    },
+    /// A number of the [`Fabric`](crate::Fabric) cannot be used, or would make a bend too stiff.
+    Number(SettingError),
     /// Two vertices that a constraint joins are at the same place, or have coordinates that are not
     /// finite.
     Length {
@@ -40,35 +31,13 @@ pub enum ClothError {
         /// The direction of warp that was given, in space.
         warp: Vector,
     },
-    /// The number of positions or masses differs from the number of vertices.
-    Counts {
-        /// The number of vertices.
-        vertices: usize,
-        /// The number of positions.
-        positions: usize,
-        /// The number of masses.
-        masses: usize,
-    },
-}
-
-impl From<MassError> for ClothError {
-    fn from(error: MassError) -> ClothError {
-        ClothError::Mass(error)
-    }
 }
 
 impl fmt::Display for ClothError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ClothError::Mass(error) => error.fmt(f),
-            ClothError::Stiffness { field, given } => write!(
-                f,
-                "{field} is {given}, which makes no positive finite stiffness"
-            ),
-            ClothError::Damping { given } => write!(
-                f,
-                "damping_s is {given}, which is no finite time of 0 or more"
-            ),
+            ClothError::Number(error) => error.fmt(f),
             ClothError::Length {
                 ends: [a, b],
                 given,
@@ -77,14 +46,6 @@ impl fmt::Display for ClothError {
                 f,
                 "the face {face} has no area at rest, or the warp ({}, {}, {}) no direction in it",
                 warp.x, warp.y, warp.z
-            ),
-            ClothError::Counts {
-                vertices,
-                positions,
-                masses,
-            } => write!(
-                f,
-                "there are {positions} positions and {masses} masses for {vertices} vertices"
             ),
         }
     }

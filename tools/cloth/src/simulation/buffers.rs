@@ -1,6 +1,6 @@
 //! The buffers that draw a cloth, and what changed in them since they were last uploaded.
 
-use tearmesh::{DrawBuffers, Mesh, Point};
+use tearmesh::{Cursor, DrawBuffers, Follower, Mesh, Point};
 
 /// The vertex and index buffers of a cloth, and the piece of each face.
 ///
@@ -12,6 +12,8 @@ pub struct ClothBuffers {
     pub(super) draw: DrawBuffers<[f32; 0]>,
     positions: Vec<[f32; 3]>,
     pieces: Vec<u32>,
+    /// The edit up to which the pieces are known; `None` at the beginning.
+    pieces_seen: Option<Cursor>,
     /// Positions and pieces when changes were last taken.
     sent: (Vec<[f32; 3]>, Vec<u32>),
 }
@@ -29,24 +31,28 @@ pub struct BufferChanges {
 }
 
 impl ClothBuffers {
-    pub(super) fn new(mesh: &Mesh, points: &[Point]) -> ClothBuffers {
+    /// The buffers of a mesh as it was at the cursor `seen` of its log.
+    pub(super) fn new(mesh: &Mesh, points: &[Point], seen: Cursor) -> ClothBuffers {
+        let draw = DrawBuffers::new(mesh, vec![[]; mesh.half_edge_count()]);
         let mut buffers = ClothBuffers {
-            draw: DrawBuffers::new(mesh, vec![[]; mesh.half_edge_count()]),
+            draw: draw.starting_at(seen),
             positions: Vec::new(),
             pieces: Vec::new(),
+            pieces_seen: None,
             sent: (Vec::new(), Vec::new()),
         };
-        buffers.update(points, Some(mesh));
+        buffers.update(mesh, points);
         let _all = buffers.take_changes();
         buffers
     }
 
-    /// Takes over where the vertices are, and with a mesh the pieces that it has now.
-    pub(super) fn update(&mut self, points: &[Point], mesh: Option<&Mesh>) {
+    /// Takes over where the vertices are, and the pieces that the mesh has now.
+    pub(super) fn update(&mut self, mesh: &Mesh, points: &[Point]) {
         let positions = (0..self.draw.len()).map(|slot| self.draw.place_f32(slot as u32, points));
         self.positions.clear();
         self.positions.extend(positions);
-        if let Some(mesh) = mesh {
+        let now = Some(*self.draw.cursor());
+        if std::mem::replace(&mut self.pieces_seen, now) != now {
             let components = mesh.components();
             self.pieces.clear();
             let pieces = mesh.faces().map(|face| components.of(face) as u32);

@@ -9,7 +9,7 @@ use super::hand::HandId;
 use super::report::CutId;
 use crate::sheet::ClothError;
 use crate::solver::StepError;
-use crate::system::SystemError;
+use crate::system::SettingError;
 use crate::tearing::TearingError;
 
 /// The reason why a simulation was refused.
@@ -19,7 +19,7 @@ pub enum SimulationError {
     /// The mesh, the density or the fabric makes no cloth.
     Cloth(ClothError),
     /// A load cannot be used.
-    Loads(SystemError),
+    Loads(SettingError),
     /// The rules for tearing, or the strengths of vertices, cannot be used.
     Tearing(TearingError),
     /// The step, in seconds, is not positive and finite.

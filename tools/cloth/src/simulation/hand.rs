@@ -49,17 +49,10 @@ pub(super) struct Hand {
 pub(super) struct Hands {
     hands: Vec<Hand>,
     next: u32,
-    seen: Cursor,
+    pub(super) seen: Cursor,
 }
 
 impl Hands {
-    pub(super) fn starting_at(seen: Cursor) -> Hands {
-        Hands {
-            seen,
-            ..Hands::default()
-        }
-    }
-
     /// A new hand that grips around a place at rest.
     pub(super) fn grab(&mut self, v: VertexId, centre: Point, radius_m: f64) -> HandId {
         let id = HandId(self.next);

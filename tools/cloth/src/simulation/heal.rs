@@ -6,12 +6,13 @@
 //! before the end. Of a pair the lighter moves more, so that its momentum stays; one that is held
 //! does not move. Where the cloth is pulled so hard that it would soon tear elsewhere, a pair waits.
 
+use std::collections::BTreeSet;
+
 use tearmesh::geometry::length;
 use tearmesh::{Cursor, Edit, Follower, HalfEdgeId, Mesh, VertexId};
 
 use super::hand::{Hands, now};
 use super::report::CutId;
-use super::sheet::Sheet;
 use crate::sheet::Cloth;
 use crate::system::System;
 use crate::tearing::Threshold;
@@ -41,7 +42,7 @@ const REST_S: f64 = 0.5;
 
 /// Two copies of a vertex that are drawn together.
 #[derive(Clone, Copy, Debug)]
-struct Pair {
+pub(super) struct Pair {
     ends: [VertexId; 2],
     /// How far they may be apart at the end of the step, in metres.
     gap_m: f64,
@@ -54,34 +55,22 @@ struct Pair {
 /// The pairs that are still open, a follower of the log.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Healing {
-    open: Vec<Pair>,
+    pub(super) open: Vec<Pair>,
     /// How many were sewn, and left, since no pair was open.
     pub(super) sewn: usize,
     pub(super) left: usize,
-    seen: Cursor,
+    pub(super) seen: Cursor,
 }
 
 impl Healing {
-    pub(super) fn starting_at(seen: Cursor) -> Healing {
-        Healing {
-            seen,
-            ..Healing::default()
-        }
-    }
-
-    /// The number of open pairs.
-    pub(super) fn len(&self) -> usize {
-        self.open.len()
-    }
-
     /// Opens the pairs on both sides of torn links, but for those that are open already; how many.
     pub(super) fn begin(
         &mut self,
         links: impl Iterator<Item = HalfEdgeId>,
-        sheet: &Sheet,
+        mesh: &Mesh,
         system: &System,
     ) -> usize {
-        let mut pairs: Vec<_> = links.flat_map(|h| sheet.apart(h)).collect();
+        let mut pairs: Vec<_> = links.flat_map(|h| apart(mesh, h)).collect();
         pairs.sort_unstable();
         pairs.dedup();
         pairs.retain(|pair| self.open.iter().all(|open| open.ends != *pair));
@@ -156,25 +145,29 @@ impl Healing {
         }
     }
 
-    /// The vertices within two rings of an open pair, which do not tear. Some come twice.
-    pub(super) fn guarded(&self, mesh: &Mesh) -> Vec<VertexId> {
-        let mut guarded: Vec<_> = self.open.iter().flat_map(|pair| pair.ends).collect();
-        guarded.sort_unstable();
-        guarded.dedup();
-        let mut ring = 0;
+    /// The vertices within two rings of an open pair, which do not tear.
+    pub(super) fn guarded(&self, mesh: &Mesh) -> BTreeSet<VertexId> {
+        let mut guarded: BTreeSet<_> = self.open.iter().flat_map(|pair| pair.ends).collect();
         for _ in 0..2 {
-            let end = guarded.len();
-            for place in ring..end {
-                for h in mesh.corners_of(guarded[place]) {
-                    guarded.extend([mesh.target(h), mesh.origin(h.prev())]);
-                }
-            }
-            guarded[end..].sort_unstable();
-            guarded.dedup();
-            ring = end;
+            let corners = guarded.iter().flat_map(|&v| mesh.corners_of(v));
+            let ring = corners.flat_map(|h| [mesh.target(h), mesh.origin(h.prev())]);
+            let ring: Vec<_> = ring.collect();
+            guarded.extend(ring);
         }
         guarded
     }
+}
+
+/// The vertices at both ends of a torn link that are not yet one, as seen from one of its half-edges; none
+/// for an edge that is whole.
+fn apart(mesh: &Mesh, h: HalfEdgeId) -> impl Iterator<Item = [VertexId; 2]> + use<> {
+    let sides = mesh.ghost_pair(h).map(|ghost| {
+        let [from, to] = [h, ghost].map(|h| [mesh.origin(h), mesh.target(h)]);
+        [[from[0], to[1]], [from[1], to[0]]]
+    });
+    let ends = sides.into_iter().flatten();
+    let ends = ends.filter(|[one, other]| one != other);
+    ends.map(|[one, other]| [one.min(other), one.max(other)])
 }
 
 impl Follower for Healing {

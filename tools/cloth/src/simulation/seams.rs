@@ -1,28 +1,20 @@
 //! Which cut tore which links of a mesh.
 
-use tearmesh::{Cursor, Cut, Edit, Follower, HalfEdgeId, Insert, Mesh};
+use tearmesh::{Cursor, Cut, Edit, Follower, HalfEdgeId, Insert};
 
 use super::report::CutId;
 use crate::follow::lies_on;
 
 /// Which cut tore each link, a follower of the log.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Seams {
     /// By half-edge: the number of the cut that tore its link, from 1; 0 for none.
-    cut_of: Vec<u32>,
+    pub(super) cut_of: Vec<u32>,
     cuts: u32,
-    seen: Cursor,
+    pub(super) seen: Cursor,
 }
 
 impl Seams {
-    pub(super) fn of(mesh: &Mesh, seen: Cursor) -> Seams {
-        Seams {
-            cut_of: vec![0; mesh.half_edge_count()],
-            cuts: 0,
-            seen,
-        }
-    }
-
     /// Notes what a cut tore.
     pub(super) fn add(&mut self, cut: &Cut) -> CutId {
         let id = CutId(self.cuts);

@@ -6,17 +6,58 @@ use tearmesh::geometry::Point;
 
 use crate::Constraint;
 
-/// The reason why particles, constraints, triangles or loads were refused.
+/// A setting, such as one of a method, a fabric or a load, with a value that cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SettingError {
+    /// The name of the setting.
+    pub setting: &'static str,
+    /// The value that was given; for a vector, its unusable component.
+    pub given: f64,
+    /// The values that are allowed, in words.
+    pub allowed: &'static str,
+}
+
+impl SettingError {
+    pub(crate) fn unless(
+        holds: bool,
+        setting: &'static str,
+        given: f64,
+        allowed: &'static str,
+    ) -> Result<(), SettingError> {
+        let error = SettingError {
+            setting,
+            given,
+            allowed,
+        };
+        if holds { Ok(()) } else { Err(error) }
+    }
+
+    /// Refuses a number that is negative or not finite.
+    pub(crate) fn unless_positive(setting: &'static str, given: f64) -> Result<(), SettingError> {
+        let holds = given >= 0.0 && given.is_finite();
+        SettingError::unless(holds, setting, given, "any of 0 or more")
+    }
+
+    /// Refuses a number that is not above 0, or not finite.
+    pub(crate) fn unless_above_0(setting: &'static str, given: f64) -> Result<(), SettingError> {
+        let holds = given > 0.0 && given.is_finite();
+        SettingError::unless(holds, setting, given, "any above 0")
+    }
+}
+
+impl fmt::Display for SettingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (given, allowed) = (self.given, self.allowed);
+        write!(f, "{} is {given}, and may be {allowed}", self.setting)
+    }
+}
+
+impl std::error::Error for SettingError {}
+
+/// The reason why particles, constraints or triangles were refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SystemError {
-    /// The number of masses differs from the number of points.
-    Counts {
-        /// The number of points.
-        points: usize,
-        /// The number of masses.
-        masses: usize,
-    },
     /// A mass is not positive and finite. The first such particle is named.
     Mass {
         /// The index of the particle with the unusable mass.
@@ -43,21 +84,11 @@ pub enum SystemError {
         /// The indices of the particles that were given as corners.
         corners: [usize; 3],
     },
-    /// A number of a load is not finite, or is negative where it must not be.
-    Loads {
-        /// The name of the field of [`Loads`](crate::Loads).
-        field: &'static str,
-        /// The value that was given; for a vector, its unusable component.
-        given: f64,
-    },
 }
 
 impl fmt::Display for SystemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            SystemError::Counts { points, masses } => {
-                write!(f, "there are {masses} masses for {points} points")
-            }
             SystemError::Mass { particle, given } => write!(
                 f,
                 "particle {particle} has the mass {given} kg, which is not positive and finite"
@@ -80,9 +111,6 @@ impl fmt::Display for SystemError {
                 f,
                 "the particles {a}, {b} and {c} make no triangle with these coordinates and this stiffness"
             ),
-            SystemError::Loads { field, given } => {
-                write!(f, "{field} is {given}, which is not finite, or negative")
-            }
         }
     }
 }

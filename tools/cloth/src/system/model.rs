@@ -9,12 +9,12 @@ use crate::constraint::Constraints;
 use crate::crush::Crush;
 use crate::load::{Loads, Path};
 use crate::mass_scaling::MassScaling;
-use crate::matrix::Hessian;
+use crate::matrix::{Hessian, Weights};
 use crate::pair::{Pairs, Pull};
 use crate::triangle::Triangles;
 
 /// All but positions and velocities.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Model {
     pub(crate) masses: Vec<f64>,
     /// Zero for a particle that is held.
@@ -62,10 +62,10 @@ impl Model {
         })
     }
 
-    /// Appends a particle without mass and constraints.
-    pub(crate) fn push_particle(&mut self, is_held: bool) {
-        self.masses.push(0.0);
-        self.inverse_masses.push(0.0);
+    /// Appends a particle without constraints.
+    pub(crate) fn push_particle(&mut self, mass: f64, is_held: bool) {
+        self.masses.push(mass);
+        self.inverse_masses.push(inverse(mass, is_held));
         self.held.push(is_held);
         self.stretch.push_particle();
         self.bend.push_particle();
@@ -95,27 +95,21 @@ impl Model {
     /// The constraint that is longest for its rest length, if that is beyond `ratio_max`.
     pub(crate) fn longest_beyond(&self, x: &[Point], ratio_max: f64) -> Option<BlowUpSite> {
         let [stretch, bend] = self.families().map(|pairs| pairs.longest(x));
-        let stretch = stretch.map(|(ends, stretch_ratio)| BlowUpSite::Constraint {
-            ends,
-            stretch_ratio,
-        });
-        let bend = bend.map(|(ends, stretch_ratio)| BlowUpSite::Bend {
-            ends,
-            stretch_ratio,
-        });
         let triangle = self.triangles.longest(x);
-        let triangle = triangle.map(|(corners, stretch_ratio)| BlowUpSite::Triangle {
-            corners,
-            stretch_ratio,
-        });
-        let sites = [stretch, bend, triangle].into_iter().flatten();
-        let longest = sites.reduce(|most, one| {
-            if one.stretch_ratio() > most.stretch_ratio() {
+        let sites = [
+            stretch.map(|(ends, ratio)| BlowUpSite::Constraint(ends, ratio)),
+            bend.map(|(ends, ratio)| BlowUpSite::Bend(ends, ratio)),
+            triangle.map(|(corners, ratio)| BlowUpSite::Triangle(corners, ratio)),
+        ];
+        let ratio = BlowUpSite::stretch_ratio;
+        let longer = |most, one| {
+            if ratio(&one) > ratio(&most) {
                 one
             } else {
                 most
             }
-        });
+        };
+        let longest = sites.into_iter().flatten().reduce(longer);
         longest.filter(|site| site.stretch_ratio() > Some(ratio_max))
     }
 
@@ -144,29 +138,30 @@ impl Model {
             .each_pair(|number, ends| visit(2, number, ends));
     }
 
-    /// Adds the second derivatives of the energy, with `slots` by the kind of a constraint. With `clamp`
-    /// every term is positive semidefinite; returns how many had a part dropped for it.
-    pub(crate) fn add_hessian<'a>(
-        &self,
-        x: &[Point],
-        clamp: bool,
-        slots: impl Fn(usize) -> &'a [u32],
-        hessian: &mut Hessian,
-    ) -> u64 {
+    /// Adds the second derivatives of the energy. With `clamp` every term is positive semidefinite; returns how
+    /// many had a part dropped for it.
+    pub(crate) fn add_hessian(&self, x: &[Point], clamp: bool, to: &mut Hessian) -> u64 {
         let [stretch, bend] = self.families();
-        stretch.add_hessian(x, clamp, slots(0), hessian)
-            + bend.add_hessian(x, clamp, slots(1), hessian)
-            + self.triangles.add_hessian(x, clamp, slots(2), hessian)
+        stretch.add_hessian(0, x, clamp, to)
+            + bend.add_hessian(1, x, clamp, to)
+            + self.triangles.add_hessian(2, x, clamp, to)
+    }
+
+    pub(crate) fn weights(&self) -> Weights<'_> {
+        Weights {
+            masses: &self.masses,
+            inverse_masses: &self.inverse_masses,
+        }
     }
 
     /// Adds the forces of constraints and triangles, in a guarded step with damping.
     pub(crate) fn add_forces(
         &self,
         x: &[Point],
-        ratio_max: f64,
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
     ) -> Pull {
+        let ratio_max = self.stretch_ratio_max;
         let families = self.families();
         let [stretch, bend] = families.map(|pairs| pairs.add_forces(x, ratio_max, crush, forces));
         let are_triangles_sane = self.triangles.add_forces(x, ratio_max, crush, forces);
@@ -196,23 +191,6 @@ impl Model {
         self.grabbed.retain(|(led, _)| *led as usize != particle);
     }
 
-    /// Fills in the forces of springs, triangles and wind.
-    pub(crate) fn pull(
-        &self,
-        positions: &[Point],
-        velocities: &[Vector],
-        crush: Option<Crush<'_>>,
-        forces: &mut [Vector],
-        counters: &mut Counters,
-    ) -> Pull {
-        counters.force_evaluations += 1;
-        self.count_visits(1, counters);
-        forces.fill(Vector::zeros());
-        let pull = self.add_forces(positions, self.stretch_ratio_max, crush, forces);
-        self.blow(positions, velocities, forces, counters);
-        pull
-    }
-
     /// Makes accelerations of forces, with gravity, and with what is carried as heavy as that makes it;
     /// held particles have none.
     pub(crate) fn weigh(&self, carry: Option<&MassScaling>, forces: &mut [Vector]) {
@@ -234,30 +212,18 @@ impl Model {
     }
 
     /// Adds the forces of wind.
-    fn blow(
+    pub(crate) fn blow(
         &self,
-        positions: &[Point],
-        velocities: &[Vector],
+        x: &[Point],
+        v: &[Vector],
         forces: &mut [Vector],
         counters: &mut Counters,
     ) {
         if let Some(wind) = self.loads.wind {
             counters.wind_evaluations += 1;
             counters.features.wind += self.faces.len() as u64 / 3;
-            wind.press(&self.faces, positions, velocities, forces);
+            wind.press(&self.faces, x, v, forces);
         }
-    }
-
-    /// Adds the force of wind, and makes accelerations of forces, with gravity.
-    pub(crate) fn external(
-        &self,
-        positions: &[Point],
-        velocities: &[Vector],
-        accelerations: &mut [Vector],
-        counters: &mut Counters,
-    ) {
-        self.blow(positions, velocities, accelerations, counters);
-        self.weigh(None, accelerations);
     }
 
     /// The force of a spring as the method of the last step exerted it, by its length and its
@@ -280,7 +246,16 @@ impl Model {
     /// The multipliers of all constraints.
     pub(crate) fn multipliers_mut(&mut self) -> impl Iterator<Item = &mut f64> {
         let families = [&mut self.stretch, &mut self.bend].into_iter();
-        let colours = families.flat_map(Constraints::colours_mut);
+        let colours = families.flat_map(|family| &mut family.colours);
         colours.flat_map(|colour| &mut colour.multipliers)
+    }
+}
+
+/// The inverse mass of a particle: zero for one that is held or has no mass.
+pub(crate) fn inverse(mass: f64, is_held: bool) -> f64 {
+    if is_held || mass == 0.0 {
+        0.0
+    } else {
+        1.0 / mass
     }
 }

@@ -27,8 +27,6 @@ pub struct Tear {
     /// From where on an edge may tear, with what that depends on: the number of changes of the
     /// system, and what its method records.
     bound: Option<((u64, Recorded), Option<f64>)>,
-    /// Edges that may tear.
-    candidates: Vec<HalfEdgeId>,
     due: Vec<Due>,
     torn: Vec<Torn>,
     seen: Cursor,
@@ -91,7 +89,6 @@ impl Tear {
             seen,
             has_tips: false,
             bound: None,
-            candidates: Vec::new(),
             due: Vec::new(),
             torn: Vec::new(),
             ahead: Vec::new(),
@@ -118,11 +115,16 @@ impl Tear {
             let given = strengths[vertex];
             return Err(TearingError::Strength { vertex, given });
         }
+        self.set_strengths(strengths);
+        Ok(self)
+    }
+
+    /// Sets the strengths of vertices that are usable.
+    pub(crate) fn set_strengths(&mut self, strengths: impl IntoIterator<Item = f64>) {
         for (v, strength) in (0..).map_while(VertexId::new).zip(strengths) {
             *self.strengths.at_mut(v) = strength;
         }
         self.bound = None;
-        Ok(self)
     }
 
     /// Makes room for all splits that can follow ([`Cloth::reserve`]), so that they allocate nothing.
@@ -131,7 +133,6 @@ impl Tear {
         let splits = corners.saturating_sub(mesh.vertex_count());
         self.strengths.reserve(splits);
         self.tips.reserve(splits);
-        room_for(&mut self.candidates, corners);
         room_for(&mut self.due, corners);
         room_for(&mut self.torn, corners);
         room_for(&mut self.ahead, corners);
@@ -188,15 +189,9 @@ impl Tear {
     /// If the cloth or this state is not in step with the mesh, or edits that they have not seen
     /// were cleared from the log.
     pub fn apply(&mut self, mesh: &mut Mesh, cloth: &mut Cloth, edits: &mut Edits) -> TearReport {
-        let report = self.find(mesh, cloth, edits);
-        self.tear(mesh, cloth, edits, report)
-    }
-
-    /// The first half of [`apply`](Tear::apply): finds what is overstretched, and changes nothing.
-    pub(crate) fn find(&mut self, mesh: &Mesh, cloth: &mut Cloth, edits: &Edits) -> TearReport {
         edits.replay(&mut (&mut *cloth, &mut *self));
-        self.look(mesh, cloth);
-        self.judge(mesh, cloth)
+        let report = self.find(mesh, cloth);
+        self.tear(mesh, cloth, edits, report)
     }
 
     /// The other half: tears what was found.
@@ -248,9 +243,8 @@ impl Tear {
         &self.torn
     }
 
-    /// Finds the edges that may tear: all that do, and maybe some more.
-    fn look(&mut self, mesh: &Mesh, cloth: &mut Cloth) {
-        self.candidates.clear();
+    /// Finds the edges that tear, the worst first: the first half of [`apply`](Tear::apply).
+    pub(crate) fn find(&mut self, mesh: &Mesh, cloth: &mut Cloth) -> TearReport {
         let of = (cloth.system().changes, cloth.system().model.recorded);
         let bound = match self.bound {
             Some((known, bound)) if known == of => bound,
@@ -261,55 +255,34 @@ impl Tear {
         };
         self.bound = Some((of, bound));
         cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
-        let candidates = &mut self.candidates;
-        match bound {
-            None => candidates.extend(mesh.edges()),
-            Some(ratio) => find_stretched(cloth.system(), ratio, |id| {
-                candidates.push(whole_edge(mesh, cloth.edge(id)));
-            }),
-        }
-    }
-
-    /// Finds those of the candidates that tear, the worst first.
-    fn judge(&mut self, mesh: &Mesh, cloth: &Cloth) -> TearReport {
-        let mut report = TearReport::default();
-        self.due.clear();
-        let candidates = std::mem::take(&mut self.candidates);
-        for &edge in &candidates {
-            let Some(load) = self.tearing.threshold.edge_load(mesh, cloth, edge) else {
-                continue;
-            };
-            let severity = self.severity(mesh, cloth, edge, load);
-            let is_over = severity >= 1.0;
-            if !is_over {
-                continue;
-            }
-            report.overstretched += 1;
-            let is_worse = |(worst, most): (HalfEdgeId, f64)| {
-                severity > most || (severity == most && edge < worst)
-            };
-            if report.worst.is_none_or(is_worse) {
-                report.worst = Some((edge, severity));
-            }
-            self.due.push(Due {
+        let mut due = std::mem::take(&mut self.due);
+        due.clear();
+        let judge = |edge: HalfEdgeId| {
+            let load = self.tearing.threshold.edge_load(mesh, cloth, edge)?;
+            let along = at_rest(mesh, cloth, edge);
+            let ends = [mesh.origin(edge), mesh.target(edge)];
+            let [a, b] = ends.map(|v| self.strength_along(v, along));
+            let severity = load / a.min(b);
+            (severity >= 1.0).then_some(Due {
                 edge,
                 load,
                 severity,
-            });
+            })
+        };
+        match bound {
+            None => due.extend(mesh.edges().filter_map(judge)),
+            Some(ratio) => find_stretched(cloth.system(), ratio, |id| {
+                due.extend(judge(cloth.edge(id)));
+            }),
         }
-        self.candidates = candidates;
         let worse = |one: &Due, other: &Due| other.severity.total_cmp(&one.severity);
-        self.due
-            .sort_unstable_by(|one, other| worse(one, other).then(one.edge.cmp(&other.edge)));
-        report
-    }
-
-    /// A load over the smaller strength of an edge's ends.
-    fn severity(&self, mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId, load: f64) -> f64 {
-        let along = at_rest(mesh, cloth, edge);
-        let ends = [mesh.origin(edge), mesh.target(edge)];
-        let [a, b] = ends.map(|v| self.strength_along(v, along));
-        load / a.min(b)
+        due.sort_unstable_by(|one, other| worse(one, other).then(one.edge.cmp(&other.edge)));
+        self.due = due;
+        TearReport {
+            overstretched: self.due.len(),
+            worst: self.due.first().map(|due| (due.edge, due.severity)),
+            ..TearReport::default()
+        }
     }
 
     /// What every vertex bears.
@@ -327,9 +300,10 @@ impl Tear {
         let along = at_rest(mesh, cloth, due.edge);
         let mass = |v: VertexId| {
             let bears = due.load < self.strength_along(v, along);
-            cloth.free_mass(v).filter(|_| !bears)
+            let is_held = cloth.system.is_held(v.index());
+            (!is_held && !bears).then(|| cloth.masses.at(v))
         };
-        tear::candidate(mesh, due.edge, cloth, mass)
+        tear::candidate(mesh, due.edge, cloth.positions(), mass)
     }
 
     /// Splits a vertex because of an edge; the length that came apart.
@@ -344,7 +318,7 @@ impl Tear {
         let across = at_rest(mesh, cloth, edge);
         let mut edges = mesh.corners_of(vertex).flat_map(|h| [h, h.prev()]);
         let is_whole = edges.all(|h| mesh.pair(h).is_some());
-        let Some(split) = split::by_plane(mesh, vertex, &plane, &*cloth, edits) else {
+        let Some(split) = split::by_plane(mesh, vertex, &plane, cloth.positions(), edits) else {
             return 0.0;
         };
         let mut length_m = 0.0;
@@ -380,11 +354,6 @@ impl Follower for Tear {
             *self.tips.at_mut(split.new) = Vector::zeros();
         }
     }
-}
-
-/// An edge by the half-edge that [`Mesh::edges`] has it by.
-fn whole_edge(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
-    mesh.pair(h).map_or(h, |pair| h.min(pair))
 }
 
 /// The elastic energy of an edge, in joules, by the strain that it is held against its threshold

@@ -1,6 +1,6 @@
 //! The load of an edge or a link: its strain or force as a multiple of what it bears.
 
-use tearmesh::geometry::{Point, Vector, cross, dot};
+use tearmesh::geometry::{Vector, cross, dot};
 use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
@@ -18,14 +18,19 @@ impl Threshold {
     /// If there is no such constraint.
     #[must_use]
     pub fn load(&self, system: &System, id: ConstraintId) -> Option<f64> {
-        let link = system.stretches().get(id);
+        let stiffness = system.stretches().get(id).stiffness_n_per_m;
+        self.load_of(system, id, stiffness, 1.0)
+    }
+
+    /// The load of a link of this modulus that bears such a share of a threshold in newtons.
+    fn load_of(&self, system: &System, id: ConstraintId, modulus: f64, share: f64) -> Option<f64> {
         match *self {
             Threshold::Stretch(ratio) => Some(strain(system, id) / (ratio - 1.0)),
             Threshold::Toughness(g) => {
-                let bears = strain_borne(g, link.stiffness_n_per_m, link.rest_length_m);
-                Some(strain(system, id) / bears)
+                let length = system.stretches().get(id).rest_length_m;
+                Some(strain(system, id) / strain_borne(g, modulus, length))
             }
-            Threshold::Force(newtons) => Some(force::force_n(system, id) / newtons),
+            Threshold::Force(newtons) => Some(force::force_n(system, id) / (newtons * share)),
             Threshold::WarpWeft { .. } | Threshold::PrincipalStretch(_) => None,
         }
     }
@@ -41,16 +46,6 @@ impl Threshold {
     pub fn edge_load(&self, mesh: &Mesh, cloth: &Cloth, h: HalfEdgeId) -> Option<f64> {
         let (system, id) = (cloth.system(), cloth.stretch(h));
         match *self {
-            Threshold::Stretch(_) => self.load(system, id),
-            Threshold::Toughness(g) => {
-                let length = system.stretches().get(id).rest_length_m;
-                let bears = strain_borne(g, modulus(cloth), length);
-                Some(strain(system, id) / bears)
-            }
-            Threshold::Force(newtons) => {
-                let share = cloth.fabric.share(mesh, h);
-                Some(force::force_n(system, id) / (newtons * share))
-            }
             Threshold::WarpWeft { warp, weft, axis } => {
                 let ratio = if runs_along(cloth, h, axis)? {
                     warp
@@ -66,6 +61,10 @@ impl Threshold {
                 let most = stretch.max_by(f64::total_cmp)?;
                 Some((most - 1.0) / (ratio - 1.0))
             }
+            Threshold::Stretch(_) | Threshold::Toughness(_) | Threshold::Force(_) => {
+                let share = cloth.fabric.share(mesh, h);
+                self.load_of(system, id, modulus(cloth), share)
+            }
         }
     }
 }
@@ -79,24 +78,18 @@ impl Threshold {
             let each = stretches.iter().map(|id| of(&stretches.get(id)));
             each.fold(0.0, f64::max)
         };
+        let recorded = cloth.system().model.recorded;
+        let has_strains = !matches!(recorded, Recorded::RigidForces | Recorded::Limiter);
         let strain = match *self {
             Threshold::Stretch(ratio) => ratio - 1.0,
             Threshold::WarpWeft { warp, weft, .. } => warp.min(weft) - 1.0,
             Threshold::Toughness(g) => {
                 strain_borne(g, modulus(cloth), most(|edge| edge.rest_length_m))
             }
-            Threshold::Force(_)
-                if matches!(
-                    cloth.system().model.recorded,
-                    Recorded::RigidForces | Recorded::Limiter
-                ) =>
-            {
-                return None;
-            }
-            Threshold::Force(newtons) => {
+            Threshold::Force(newtons) if has_strains => {
                 0.5 * newtons / most(|edge| edge.stiffness_n_per_m * edge.rest_length_m)
             }
-            Threshold::PrincipalStretch(_) => return None,
+            Threshold::Force(_) | Threshold::PrincipalStretch(_) => return None,
         };
         // The load is computed by another way, which may round down.
         let ratio = (1.0 + load * strain) * (1.0 - 16.0 * f64::EPSILON);
@@ -124,70 +117,38 @@ pub(super) fn strain(system: &System, id: ConstraintId) -> f64 {
     system.unlimited_ratio(id) - 1.0
 }
 
-/// How many constraints are looked at together. Fewer or more take more instructions.
-const TOGETHER: usize = 4;
-
 /// Finds the stretch constraints that are at least `ratio` times as long as at rest by [`strain`], and
 /// some that rounding brings there. Takes one pass, without a root.
 pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(ConstraintId)) {
     let (strain, square, x) = (ratio - 1.0, ratio * ratio, &system.positions[..]);
-    for colour in system.model.stretch.colours() {
-        let constraints = colour.ids.iter().zip(&colour.rest);
-        // What is not a number is found as well.
+    // What is not a number is found as well.
+    let mut look = |id: u32, is_short: bool| {
+        if !is_short {
+            found(ConstraintId(id));
+        }
+    };
+    for colour in &system.model.stretch.colours {
+        let constraints = colour.ids.iter().zip(colour.springs());
         match system.model.recorded {
             Recorded::Nothing | Recorded::RigidForces => {
-                let (rest, last) = colour.rest.as_chunks::<TOGETHER>();
-                let ends = colour.ends.as_chunks::<TOGETHER>().0;
-                let chunks = rest.iter().zip(ends).enumerate();
-                let long = chunks.filter(|(_, (rest, ends))| !are_short(rest, ends, square, x));
-                let long = long.flat_map(|(chunk, _)| chunk * TOGETHER..(chunk + 1) * TOGETHER);
-                let last = colour.ids.len() - last.len()..colour.ids.len();
-                for i in long.chain(last) {
-                    if !are_short(&[colour.rest[i]], &[colour.ends[i]], square, x) {
-                        found(ConstraintId(colour.ids[i]));
-                    }
+                for (&id, ([a, b], rest, _)) in constraints {
+                    let d = x[b] - x[a];
+                    look(id, dot(d, d) < square * (rest * rest));
                 }
             }
             Recorded::SpringForces => {
                 let forces = colour.multipliers.iter().zip(&colour.compliance);
-                for ((&id, &rest), (&multiplier, &compliance)) in constraints.zip(forces) {
-                    let is_short = -multiplier * compliance < strain * rest;
-                    if !is_short {
-                        found(ConstraintId(id));
-                    }
+                for ((&id, (_, rest, _)), (multiplier, compliance)) in constraints.zip(forces) {
+                    look(id, -multiplier * compliance < strain * rest);
                 }
             }
             Recorded::Limiter => {
                 for (&id, &before) in colour.ids.iter().zip(&colour.ratios) {
-                    let is_short = before < ratio;
-                    if !is_short {
-                        found(ConstraintId(id));
-                    }
+                    look(id, before < ratio);
                 }
             }
         }
     }
-}
-
-/// Whether all of these are shorter than that multiple of their rest length, given by its square. One
-/// branch for all, since hardly any edge is found: one by one they take 28 instructions each, and four at a
-/// time 25.
-#[inline(always)]
-fn are_short<const N: usize>(
-    rest: &[f64; N],
-    ends: &[[u32; 2]; N],
-    square: f64,
-    x: &[Point],
-) -> bool {
-    let mut squares = [0.0; N];
-    for (square, &[a, b]) in squares.iter_mut().zip(ends) {
-        let d = x[b as usize] - x[a as usize];
-        *square = dot(d, d);
-    }
-    let lengths = squares.into_iter().zip(rest);
-    lengths.fold(true, |all, (length, rest)| {
-        all & (length < square * (rest * rest))
-    })
 }
 
 /// What a cloth's strain is multiplied by for its tension, in N/m: of springs and, the mean of

@@ -5,6 +5,7 @@ use std::fmt;
 use tearmesh::{ScissorError, VertexId};
 
 use crate::simulation::SimulationError;
+use crate::system::error::SettingError;
 
 /// The reason why a scene was refused.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,12 +24,7 @@ pub enum RunError {
     },
     /// The wind is not usable at all times: its velocity with the sway is not finite, or its period
     /// is not positive and finite, or is too short.
-    Wind {
-        /// The name of the field of the scene with the unusable number.
-        field: &'static str,
-        /// The value that was given; for a vector, its unusable component.
-        given: f64,
-    },
+    Wind(SettingError),
     /// The region of a hold or a strength contains no vertex.
     NoVertices {
         /// The part of the scene that has the region: `hold` or `strength`.
@@ -60,17 +56,12 @@ pub enum RunError {
         /// The reason why the rays span no plane.
         error: ScissorError,
     },
-    /// The time of a cut is negative or not finite.
+    /// The time of a cut is negative, not finite, or earlier than that of the cut before it.
     CutTime {
         /// The index of the cut in the scene, from 0.
         number: usize,
         /// The time that was given, in seconds.
         given_s: f64,
-    },
-    /// The times of the cuts do not ascend.
-    CutTimes {
-        /// The index of the first cut that is earlier than the one before it, from 0.
-        number: usize,
     },
 }
 
@@ -81,9 +72,7 @@ impl fmt::Display for RunError {
             RunError::Times { step_s, duration_s } => {
                 write!(f, "{duration_s} s cannot be taken in steps of {step_s} s")
             }
-            RunError::Wind { field, given } => {
-                write!(f, "{field} is {given}, which gives no usable wind")
-            }
+            RunError::Wind(error) => error.fmt(f),
             RunError::NoVertices { named_by, number } => {
                 let verb = match *named_by {
                     "hold" => "holds",
@@ -107,12 +96,9 @@ impl fmt::Display for RunError {
             RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
             RunError::CutTime { number, given_s } => write!(
                 f,
-                "cut {} is at {given_s} s, which is not finite, or negative",
+                "cut {} is at {given_s} s, which is not finite, negative, or before the cut before it",
                 number + 1
             ),
-            RunError::CutTimes { number } => {
-                write!(f, "cut {} is earlier than the one before it", number + 1)
-            }
         }
     }
 }

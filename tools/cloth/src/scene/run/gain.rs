@@ -13,7 +13,7 @@ use crate::method::FRAME_S;
 use crate::system::System;
 
 /// The energy that a method made out of nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyGain {
     /// The time at which it was first noticed, in seconds: at most 1/60 s after it exceeded the
     /// margin.
@@ -31,11 +31,10 @@ pub(super) struct Watch {
     every: u64,
     /// What rounding may make, in joules.
     least_j: f64,
-    /// The largest values of any frame.
-    made_j: f64,
-    put_in_j: f64,
-    /// Since when more was made than its share of what was put in.
-    since_s: Option<f64>,
+    /// The largest values of any frame, and since when more is made than its share of what was put in.
+    gain: EnergyGain,
+    /// Whether more is made.
+    is_beyond: bool,
 }
 
 impl Watch {
@@ -59,9 +58,8 @@ impl Watch {
         Watch {
             every: every as u64,
             least_j: Watch::ROUNDING * collapsed.sum::<f64>(),
-            made_j: 0.0,
-            put_in_j: 0.0,
-            since_s: None,
+            gain: EnergyGain::default(),
+            is_beyond: false,
         }
     }
 
@@ -72,17 +70,16 @@ impl Watch {
 
     /// Judges a frame. What was made before more was put in may turn out to be within its share.
     pub(super) fn judge(&mut self, elapsed_s: f64, balance: &EnergyBalance) {
-        self.made_j = self.made_j.max(balance.made_j());
-        self.put_in_j = self.put_in_j.max(balance.put_in_j());
-        let is_beyond = self.made_j > Watch::SHARE * self.put_in_j + self.least_j;
-        self.since_s = is_beyond.then_some(self.since_s.unwrap_or(elapsed_s));
+        let gain = &mut self.gain;
+        gain.made_j = gain.made_j.max(balance.made_j());
+        gain.put_in_j = gain.put_in_j.max(balance.put_in_j());
+        if !self.is_beyond {
+            gain.since_s = elapsed_s;
+        }
+        self.is_beyond = gain.made_j > Watch::SHARE * gain.put_in_j + self.least_j;
     }
 
     pub(super) fn gain(&self) -> Option<EnergyGain> {
-        Some(EnergyGain {
-            since_s: self.since_s?,
-            made_j: self.made_j,
-            put_in_j: self.put_in_j,
-        })
+        self.is_beyond.then_some(self.gain)
     }
 }

@@ -53,39 +53,38 @@ pub(super) fn vertices_in(
     Ok(found)
 }
 
-/// A system in whose particles hands have a part, and the balance of what they work.
-type Hands<'a> = (&'a mut System, &'a mut Balance);
-
 /// Takes vertices, and lets vertices go, where that is to happen at the beginning of this step.
-pub(super) fn take_and_release(all: &mut [Held], now: u64, step_s: f64, hands: Hands<'_>) {
-    let (system, balance) = hands;
+pub(super) fn take_and_release(
+    all: &mut [Held],
+    now: u64,
+    step_s: f64,
+    system: &mut System,
+    balance: &mut Balance,
+) {
     for held in all.iter_mut() {
         if held.since.is_none() && step_at(held.hold.from_s, step_s) == now {
             held.since = Some(now);
             for &v in &held.vertices {
-                held.take(v, system.positions()[v.index()], (system, balance));
+                held.take(v, system.positions()[v.index()], system, balance);
             }
         }
     }
-    let ends = |until_s: f64| step_at(until_s, step_s) <= now;
     for number in 0..all.len() {
-        if all[number].hold.until_s.is_some_and(ends)
-            && let Some(since) = all[number].since.take()
-        {
-            release(all, number, since, (system, balance));
+        let until_s = all[number].hold.until_s;
+        if until_s.is_none_or(|until_s| step_at(until_s, step_s) > now) {
+            continue;
         }
-    }
-}
-
-/// Lets the vertices of a hold go, or gives them to those that hold them as well.
-fn release(all: &[Held], number: usize, since: u64, (system, balance): Hands<'_>) {
-    for &v in &all[number].vertices {
-        let others = (0..).zip(all);
-        let others = others.filter(|(_, held)| held.since.is_some() && held.vertices.contains(&v));
-        match others.max_by_key(|&(other, held)| (held.since, other)) {
-            Some((other, held)) if (held.since, other) > (Some(since), number) => {} // It leads it already.
-            Some((_, held)) => held.take_back(v, (system, balance)),
-            None => balance.handle(system, v.index(), |system| system.release(v.index())),
+        // Its vertices are free, or those of others that hold them as well.
+        let since = all[number].since.take();
+        for &v in all[number].vertices.iter().filter(|_| since.is_some()) {
+            let others = (0..).zip(all.iter());
+            let others =
+                others.filter(|(_, held)| held.since.is_some() && held.vertices.contains(&v));
+            match others.max_by_key(|&(other, held)| (held.since, other)) {
+                Some((other, held)) if (held.since, other) > (since, number) => {} // It leads it already.
+                Some((_, held)) => held.take_back(v, system, balance),
+                None => balance.handle(system, v.index(), |system| system.release(v.index())),
+            }
         }
     }
 }
@@ -115,21 +114,21 @@ impl Held {
     }
 
     /// Takes a vertex that was at this place when its way began.
-    fn take(&self, v: VertexId, from: Point, (system, balance): Hands<'_>) {
-        match self.path(from) {
-            Some(path) => balance.handle(system, v.index(), |system| system.grab(v.index(), path)),
-            None => balance.handle(system, v.index(), |system| {
+    fn take(&self, v: VertexId, from: Point, system: &mut System, balance: &mut Balance) {
+        balance.handle(system, v.index(), |system| match self.path(from) {
+            Some(path) => system.grab(v.index(), path),
+            None => {
                 system.release(v.index()); // Of a path of another hold.
                 system.hold(v.index());
-            }),
-        }
+            }
+        });
     }
 
     /// Takes a vertex back that another hold has led: it goes on from where it is.
-    fn take_back(&self, v: VertexId, (system, balance): Hands<'_>) {
+    fn take_back(&self, v: VertexId, system: &mut System, balance: &mut Balance) {
         let at = system.positions()[v.index()];
         let gone = self.path(at).map(|path| path.at(system.elapsed_s()) - at);
-        self.take(v, gone.map_or(at, |gone| at - gone), (system, balance));
+        self.take(v, gone.map_or(at, |gone| at - gone), system, balance);
     }
 
     /// The way of a vertex that is taken at a place; `None` of one that stays there.
