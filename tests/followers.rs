@@ -410,8 +410,8 @@ fn families_of_faces_are_named_by_their_parent() {
         assert_eq!(family.children()[0].face, family.parent());
         assert!(family.children().len() > 1);
         for child in family.children() {
-            let mixes = child.corner_mixes();
-            let faces = mixes.map(|mix| mix.map(HalfEdgeId::face).nearest());
+            let sources = child.sources;
+            let faces = sources.map(|mix| mix.map(HalfEdgeId::face).nearest());
             assert_eq!(faces, [family.parent(); 3]);
         }
     }

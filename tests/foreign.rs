@@ -125,9 +125,6 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
     cases.add(f, "the side of a face", move |w| {
         classify::face(&w.mesh, f, &plane, &w.positions)
     });
-    cases.add(v, "the sides of faces", move |w| {
-        classify::faces_of(&w.mesh, v, &plane, &w.positions).count()
-    });
     cases.add(h, "pair", move |w| w.mesh.pair(h));
     cases.add(h, "ghost pair", move |w| w.mesh.ghost_pair(h));
     cases.add(h, "either pair", move |w| w.mesh.pair_or_ghost(h));

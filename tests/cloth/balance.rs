@@ -32,7 +32,7 @@ impl Observed {
         for _ in 0..steps {
             let taken = self
                 .system
-                .step_observed(&mut solver, dt_s, &mut self.balance);
+                .step_observed(&mut solver, dt_s, Some(&mut self.balance));
             taken.expect("a stable step");
         }
     }
@@ -293,7 +293,7 @@ fn edits_make_what_is_there_after_and_was_not_before() {
         for _ in 0..20 {
             let taken = cloth
                 .system_mut()
-                .step_observed(&mut Verlet::new(), 1e-3, &mut kept);
+                .step_observed(&mut Verlet::new(), 1e-3, Some(&mut kept));
             taken.expect("a step");
         }
     }

@@ -3,7 +3,7 @@
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::scene::Warning;
 use tearmesh_cloth::{
-    Balance, Fabric, Solver, System, SystemError, Unstable, Verlet, force, recommended_step_s,
+    Balance, Fabric, Solver, System, Unstable, Verlet, force, recommended_step_s,
 };
 
 use crate::parts::cloths::{cloth, sheet};
@@ -25,7 +25,7 @@ fn swung(damping_s: f64, dt_s: f64) -> (f64, Balance, System) {
     let mut system = oscillator(damping_s);
     let mut kept = Balance::new(&mut system);
     for _ in 0..(2.0 / dt_s).round() as usize {
-        let taken = system.step_observed(&mut Verlet::new(), dt_s, &mut kept);
+        let taken = system.step_observed(&mut Verlet::new(), dt_s, Some(&mut kept));
         taken.expect("a stable step");
     }
     (system.positions()[1].x - 1.0, kept, system)
@@ -36,7 +36,7 @@ fn swung(damping_s: f64, dt_s: f64) -> (f64, Balance, System) {
 fn a_damped_spring_swings_by_the_closed_answer_and_its_ratio_is_capped() {
     let omega = 10.0;
     // τ k = c = 2 ζ √(k m); a ratio above a tenth is a tenth.
-    for (damping_s, ratio, capped) in [(0.01, 0.05, 0.0), (0.019, 0.095, 0.0), (7.0, 0.1, 1.0)] {
+    for (damping_s, ratio) in [(0.01, 0.05), (0.019, 0.095), (7.0, 0.1)] {
         let t = 2.0;
         let slower = omega * f64::sqrt(1.0 - ratio * ratio);
         let shape = (slower * t).cos() + ratio * omega / slower * (slower * t).sin();
@@ -50,8 +50,6 @@ fn a_damped_spring_swings_by_the_closed_answer_and_its_ratio_is_capped() {
         let balance = kept.now(&system);
         let lost_j = balance.began_j - mechanical_j(&system);
         near(-balance.damping_j / lost_j, 1.0, 5e-3);
-        let damping = system.damping().expect("it is damped");
-        assert_eq!((damping.time_s, damping.capped), (damping_s, capped));
 
         // What a spring of 2 c/(Δt (1 + 2θ)) would take of the step that suits.
         let (mut system, c) = (oscillator(damping_s), 2.0 * ratio * omega);
@@ -62,10 +60,8 @@ fn a_damped_spring_swings_by_the_closed_answer_and_its_ratio_is_capped() {
             1e-12,
         );
     }
-    assert_eq!(oscillator(0.0).damping(), None);
     let refused = oscillator(0.0).set_damping(-1.0).expect_err("no time");
-    let (field, given) = ("damping_s", -1.0);
-    assert_eq!(refused, SystemError::Loads { field, given });
+    assert_eq!((refused.setting, refused.given), ("damping_s", -1.0));
 }
 
 #[test]
@@ -124,8 +120,8 @@ fn damped_cloth_gains_no_energy_at_the_longest_step() {
         let before = mechanical_j(system);
         let mut most = 0.0_f64;
         for _ in 0..2000 {
-            let report = system.step(&mut Verlet::new(), dt_s).expect("a step");
-            assert_eq!(report.substeps, 1, "{seed}");
+            let substeps = system.step(&mut Verlet::new(), dt_s).expect("a step");
+            assert_eq!(substeps, 1, "{seed}");
             most = most.max(mechanical_j(system));
         }
         let left = mechanical_j(system);

@@ -2,8 +2,8 @@
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::{
-    BlowUpSite, Collider, Constraint, Loads, Path, Pbd, Provot, StepError, System, SystemError,
-    Unstable, Verlet, Wind, Xpbd, frequency_bound, stable_step_s,
+    BlowUpSite, Collider, Constraint, Loads, Path, Pbd, Provot, StepError, StepLimit, System,
+    SystemError, Unstable, Verlet, Wind, Xpbd, frequency_bound, stable_step_s,
 };
 
 use crate::parts::nets::{chain, framed, row};
@@ -33,11 +33,11 @@ fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
     );
     assert_eq!(system.elapsed_s(), 0.0);
     system.when_unstable(Unstable::Substep);
-    let report = system
+    let substeps = system
         .clone()
         .step(&mut PlainVerlet::new(), dt)
         .expect("two");
-    assert_eq!(report.substeps, 2);
+    assert_eq!(substeps, 2);
 
     system.when_unstable(Unstable::Allow);
     run(&mut system, PlainVerlet::new(), dt, 60);
@@ -53,9 +53,7 @@ fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
     let Some(StepError::BlowUp { at, .. }) = error else {
         panic!("{error:?}");
     };
-    assert!(
-        matches!(at, BlowUpSite::Constraint { ends: [0, 1], stretch_ratio } if stretch_ratio > 100.0)
-    );
+    assert!(matches!(at, BlowUpSite::Constraint([0, 1], ratio) if ratio > 100.0));
 }
 
 /// A light particle between two springs whose far ends are led from a right angle to one side. At a
@@ -100,7 +98,11 @@ fn f1_a_step_stays_stable_while_the_configuration_gets_stiffer() {
         "{divided} m/s, led at 1 m/s: {error:?}"
     );
     let (refused, error, dt) = led(Unstable::Refuse);
-    let Some(StepError::Unstable { frequency, .. }) = error else {
+    let Some(StepError::Unstable {
+        by: StepLimit::Springs(frequency),
+        ..
+    }) = error
+    else {
         panic!("{error:?}");
     };
     assert!(frequency.omega_rad_per_s * dt > 1.89 && refused < 10.0);
@@ -239,9 +241,6 @@ fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
         made(&mut nan(), &[1.0; 4]),
         "particle 3 is at (0, NaN, 0), which is not usable"
     );
-    let few = System::new(points(), vec![1.0]).map(drop);
-    let (points, masses) = (3, 1);
-    assert_eq!(few, Err(SystemError::Counts { points, masses }));
     let mut system = on_a_line([0.0, 1.0, 2.0], 1.0);
     for (ends, rest_length_m, stiffness_n_per_m) in [
         ([0, 1], 0.0, 1.0),
@@ -271,7 +270,7 @@ fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
     let error = system.set_loads(loads).expect_err("no wind").to_string();
     assert_eq!(
         error,
-        "wind.coefficient is NaN, which is not finite, or negative"
+        "wind.coefficient is NaN, and has to be finite and at least 0"
     );
     for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = system.step(&mut Verlet::new(), dt).expect_err("no step");

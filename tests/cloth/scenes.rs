@@ -473,9 +473,14 @@ fn scenes_that_make_no_sense_are_refused_at_once() {
         "{timeless}"
     );
     let drag = text(&|scene| scene.drag_per_s = -1.0);
-    assert_eq!(drag, "drag_per_s is -1, which is not finite, or negative");
+    assert_eq!(
+        drag,
+        "drag_per_s is -1, and has to be finite and at least 0"
+    );
     for at_s in [f64::NAN, -1.0, f64::INFINITY] {
-        let expected = format!("cut 1 is at {at_s} s, which is not finite, or negative");
+        let expected = format!(
+            "cut 1 is at {at_s} s, which is not finite, negative, or before the cut before it"
+        );
         assert_eq!(text(&|scene| scene.cuts[0].at_s = at_s), expected);
     }
     // Wind that is not usable at some time, and not in the first step.

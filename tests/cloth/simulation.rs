@@ -18,7 +18,7 @@ const ALL: u64 = 1_000_000;
 /// A sheet of n × n cells of a metre in all.
 fn sheet(n: u32, def: SimulationDef) -> Simulation {
     let (mesh, positions) = shapes::grid(n, n);
-    Simulation::new(mesh, positions, def).expect("a simulation")
+    Simulation::new(mesh, &positions, def).expect("a simulation")
 }
 
 /// A sheet that hangs by its upper edge.
@@ -515,7 +515,7 @@ fn definitions_that_make_no_simulation_are_refused() {
         let (mesh, positions) = shapes::grid(2, 2);
         let mut def = SimulationDef::default();
         change(&mut def);
-        Simulation::new(mesh, positions, def).expect_err("refused")
+        Simulation::new(mesh, &positions, def).expect_err("refused")
     };
     let error = refused(&|def| def.density_kg_per_m2 = -1.0);
     assert!(
@@ -592,7 +592,7 @@ fn a_definition_with_positions_that_were_edited_goes_on_from_their_place_in_the_
         .expect("cut");
     let vertices = mesh.vertex_count();
     let moved: Positions = positions.clone();
-    let mut sim = Simulation::new(mesh, moved, SimulationDef::default()).expect("a simulation");
+    let mut sim = Simulation::new(mesh, &moved, SimulationDef::default()).expect("a simulation");
     assert_eq!(sim.edits().cursor(), edits.cursor());
     // Wounds that it was born with heal as well.
     let (sewn, left) = heal(&mut sim, Wounds::All);

@@ -141,8 +141,8 @@ fn stretch_beyond_the_limit_is_a_blow_up() {
             let mut solver = implicit_by_default(method);
             let place = |error| match error {
                 StepError::BlowUp { at, .. } => match at {
-                    BlowUpSite::Constraint { ends, .. } => ends.to_vec(),
-                    BlowUpSite::Triangle { corners, .. } => corners.to_vec(),
+                    BlowUpSite::Constraint(ends, _) => ends.to_vec(),
+                    BlowUpSite::Triangle(corners, _) => corners.to_vec(),
                     _ => panic!("{name}: {at:?}"),
                 },
                 error => panic!("{name}: {error}"),

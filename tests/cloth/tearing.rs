@@ -217,18 +217,21 @@ fn what_cannot_be_is_refused_with_what_was_given() {
         axis,
     };
     let refusals = [
-        (stretch(1.0), "threshold is 1, and may be any above 1"),
+        (
+            stretch(1.0),
+            "threshold is 1, and has to be finite and above 1",
+        ),
         (
             stretch(f64::NAN),
-            "threshold is NaN, and may be any above 1",
+            "threshold is NaN, and has to be finite and above 1",
         ),
         (
             Tearing::new(Threshold::Force(0.0)),
-            "threshold is 0, and may be any above 0",
+            "threshold is 0, and has to be finite and above 0",
         ),
         (
             Tearing::new(Threshold::Toughness(f64::INFINITY)),
-            "threshold is inf, and may be any above 0",
+            "threshold is inf, and has to be finite and above 0",
         ),
         (
             Tearing::new(threads),
@@ -239,7 +242,7 @@ fn what_cannot_be_is_refused_with_what_was_given() {
                 weakening: Some(1.5),
                 ..stretch(1.5)
             },
-            "weakening is 1.5, and may be any above 0 and at most 1",
+            "weakening is 1.5, and has to be above 0 and at most 1",
         ),
     ];
     for (tearing, text) in refusals {

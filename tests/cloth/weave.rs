@@ -2,7 +2,7 @@
 
 use tearmesh::{Masses, Point, Vector, shapes};
 use tearmesh_cloth::{
-    Cloth, ClothError, Fabric, Pbd, Solver, StepError, SystemError, Unstable, Weave, Xpbd, energy,
+    Cloth, Fabric, Pbd, Solver, StepError, SystemError, Unstable, Weave, Xpbd, energy,
     frequency_bound,
 };
 
@@ -74,7 +74,7 @@ fn explicit_methods_are_held_to_the_limit_of_triangles() {
     let error = cloth
         .step(&mut PlainVerlet::new(), 2.05 / rest)
         .expect_err("too long");
-    assert!(matches!(error, StepError::Unstable { frequency, .. } if frequency.ends.is_some()));
+    assert!(error.to_string().contains(" at edge "), "{error}");
     let dt = 1.0 / rest;
     cloth.step(&mut PlainVerlet::new(), dt).expect("a step");
 
@@ -90,8 +90,8 @@ fn explicit_methods_are_held_to_the_limit_of_triangles() {
         .expect_err("too long now");
     assert!(matches!(error, StepError::Unstable { .. }), "{error}");
     cloth.system_mut().when_unstable(Unstable::Substep);
-    let report = cloth.step(&mut PlainVerlet::new(), dt).expect("divided");
-    assert!(report.substeps > 1);
+    let substeps = cloth.step(&mut PlainVerlet::new(), dt).expect("divided");
+    assert!(substeps > 1);
 }
 
 #[test]
@@ -116,8 +116,8 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
         assert!(error.to_string().starts_with(named), "{error}");
     }
     let nothing = made(Fabric::new(0.0)).expect_err("nothing at all");
-    let (field, given) = ("modulus_n_per_m", 0.0);
-    assert_eq!(nothing, ClothError::Stiffness { field, given });
+    let named = "modulus_n_per_m is 0, ";
+    assert!(nothing.to_string().starts_with(named), "{nothing}");
     for warp in [
         Vector::z(),
         Vector::zeros(),
@@ -130,7 +130,7 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
     let mut cloth = made(Fabric::woven(weave())).expect("a cloth");
     for method in [&mut Pbd::default() as &mut dyn Solver, &mut Xpbd::default()] {
         let error = cloth.step(method, 0.01).expect_err("springs alone");
-        assert_eq!(error, StepError::Triangles { count: 8 });
+        assert!(matches!(error, StepError::NotSprings { count: 8, .. }));
         let text = "the method supports springs only, and 8 triangles resist stretch";
         assert_eq!(error.to_string(), text);
     }

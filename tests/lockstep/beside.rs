@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use tearmesh::script::World;
 use tearmesh::{
-    ChildFace, CornerSource, Edit, HalfEdgeId, Insert, InsertLocation, Masses, Mesh, PerCorner,
-    PerVertex, Positions, Slide, VertexId,
+    ChildFace, Edit, HalfEdgeId, Insert, InsertLocation, Masses, Mesh, Mix, PerCorner, PerVertex,
+    Positions, Slide, VertexId,
 };
 
 use crate::oracle::{Soup, WHOLE, between};
@@ -179,19 +179,19 @@ fn corners_come_from_their_faces(mesh: &Mesh, insert: &Insert<'_>, corners: &[f6
 }
 
 /// The weights of the corners of the parent in a corner of a child.
-pub(super) fn weights_in_parent(child: &ChildFace, source: &CornerSource) -> [f64; 3] {
+pub(super) fn weights_in_parent(child: &ChildFace, source: &Mix<HalfEdgeId>) -> [f64; 3] {
     let mut weights = [0.0; 3];
     let mut add = |h: HalfEdgeId, weight: f64| {
         assert_eq!(h.face(), child.parent, "a source is a corner of the parent");
         weights[h.corner()] += weight;
     };
     match *source {
-        CornerSource::Corner(h) => add(h, 1.0),
-        CornerSource::Edge { ends: [a, b], t } => {
+        Mix::Copy(h) => add(h, 1.0),
+        Mix::Between { ends: [a, b], t } => {
             add(a, 1.0 - t);
             add(b, t);
         }
-        CornerSource::Face { weights: given } => weights = given,
+        Mix::Weighted { weights: given, .. } => weights = given,
     }
     weights
 }

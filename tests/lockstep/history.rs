@@ -1,6 +1,6 @@
 //! How to undo what the log told.
 
-use tearmesh::{CornerSource, Edit, HalfEdgeId, Mesh, VertexId};
+use tearmesh::{Edit, HalfEdgeId, Mesh, Mix, VertexId};
 
 pub(super) fn triangles(mesh: &Mesh) -> &[[u32; 3]] {
     mesh.indices().as_chunks().0
@@ -34,7 +34,7 @@ pub(super) fn undone<'e>(
                         assert_eq!(child.face.index(), faces.len(), "the last are new");
                     }
                     for (source, vertex) in child.sources.iter().zip(child.vertices) {
-                        if let CornerSource::Corner(h) = source {
+                        if let Mix::Copy(h) = source {
                             parents.push((*h, vertex));
                         }
                     }

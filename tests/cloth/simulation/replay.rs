@@ -38,7 +38,7 @@ fn replays(sim: &Simulation, n: u32, def: &SimulationDef) {
         .expect("what was written can be read");
     assert_eq!(&read, log);
     let (mesh, positions) = shapes::grid(n, n);
-    let again = Simulation::replayed(mesh, positions, def.clone(), &read, |_, _| {});
+    let again = Simulation::replayed(mesh, &positions, def.clone(), &read, |_, _| {});
     let again = again.expect("replayed");
     assert!(bits(&again) == bits(sim), "the same bytes");
     assert_eq!(again.log(), Some(log));
@@ -136,7 +136,7 @@ fn a_log_of_something_else_is_refused() {
     let log = sim.log().expect("recorded").clone();
     let replayed = |n: u32, def: &SimulationDef, log: &InputLog| {
         let (mesh, positions) = shapes::grid(n, n);
-        Simulation::replayed(mesh, positions, def.clone(), log, |_, _| {}).map(drop)
+        Simulation::replayed(mesh, &positions, def.clone(), log, |_, _| {}).map(drop)
     };
     assert_eq!(replayed(4, &def, &log), Ok(()));
     let harder = SimulationDef {

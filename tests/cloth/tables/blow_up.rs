@@ -76,7 +76,7 @@ fn class(
                 return Class::BlownUp;
             }
             Err(StepError::Unstable { .. }) => return Class::Unstable,
-            Err(StepError::Triangles { .. }) => return Class::Refused,
+            Err(StepError::NotSprings { .. }) => return Class::Refused,
             Err(other) => panic!("{other}"),
         }
     }

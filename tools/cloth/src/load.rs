@@ -61,7 +61,7 @@ impl Loads {
         let finite = |setting, v: Vector| {
             let unusable = v.iter().copied().find(|x| !x.is_finite());
             let given = unusable.unwrap_or(0.0);
-            SettingError::unless(unusable.is_none(), setting, given, "any finite number")
+            SettingError::unless(unusable.is_none(), setting, given, "finite")
         };
         finite(
             "gravity_m_per_s2",

@@ -127,7 +127,7 @@ impl Solver for Provot {
 
     fn check(&self) -> Result<(), SettingError> {
         let given = self.limiter.stretch_ratio_max;
-        SettingError::unless(given >= 1.0, "stretch_ratio_max", given, "1 or more")
+        SettingError::unless(given >= 1.0, "stretch_ratio_max", given, "at least 1")
     }
 
     fn quality(&self, _system: &System) -> Quality {

@@ -98,7 +98,12 @@ impl SwayingWind {
             |(u, sway): &(&f64, &f64)| u.is_finite() && !(u.abs() + sway.abs()).is_finite();
         let unusable = parts.filter(beyond).map(|(_, sway)| *sway).next();
         let (field, given) = ("wind.sway_m_per_s", unusable.unwrap_or(0.0));
-        SettingError::unless(unusable.is_none(), field, given, "any that keeps it finite")
+        SettingError::unless(
+            unusable.is_none(),
+            field,
+            given,
+            "such that it is finite at all times",
+        )
     }
 }
 

@@ -173,8 +173,7 @@ impl Cloth {
                     cloth.constraint(apexes, 0.0)?;
                     let id = cloth.bend_across([h, pair]);
                     let (field, given) = bend.number();
-                    let made =
-                        SettingError::unless(id.is_some(), field, given, "any number that is less");
+                    let made = SettingError::unless(id.is_some(), field, given, "less");
                     made.map_err(ClothError::Number)?;
                 }
             }

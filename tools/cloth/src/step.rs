@@ -80,8 +80,13 @@ fn check(system: &System, solver: &dyn Solver, dt_s: f64) -> Result<(), StepErro
     }
     solver.check().map_err(StepError::Setting)?;
     let ratio = system.model.stretch_ratio_max;
-    SettingError::unless(ratio > 0.0, "stretch_ratio_max", ratio, "any above 0")
-        .map_err(StepError::Setting)?;
+    SettingError::unless(
+        ratio > 0.0,
+        "stretch_ratio_max",
+        ratio,
+        "finite and above 0",
+    )
+    .map_err(StepError::Setting)?;
     if solver.abilities().takes_all_forces {
         return Ok(());
     }

@@ -156,7 +156,7 @@ impl Tearing {
     fn check_numbers(&self) -> Result<(), SettingError> {
         let above_1 = |given: f64| {
             let holds = given > 1.0 && given.is_finite();
-            SettingError::unless(holds, "threshold", given, "any above 1")
+            SettingError::unless(holds, "threshold", given, "finite and above 1")
         };
         match self.threshold {
             Threshold::Stretch(ratio) | Threshold::PrincipalStretch(ratio) => above_1(ratio)?,
@@ -167,7 +167,7 @@ impl Tearing {
         }
         let given = self.weakening.unwrap_or(1.0);
         let holds = given > 0.0 && given <= 1.0;
-        SettingError::unless(holds, "weakening", given, "any above 0 and at most 1")
+        SettingError::unless(holds, "weakening", given, "above 0 and at most 1")
     }
 }
 

@@ -156,7 +156,7 @@ impl Solver for Pbd {
             ("stiffness", self.stiffness),
             ("bend_stiffness", self.bend_stiffness),
         ] {
-            SettingError::unless((0.0..=1.0).contains(&given), setting, given, "0 to 1")?;
+            SettingError::unless((0.0..=1.0).contains(&given), setting, given, "from 0 to 1")?;
         }
         Ok(())
     }

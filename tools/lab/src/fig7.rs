@@ -21,7 +21,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use tearmesh::geometry::{Plane, Side};
-use tearmesh::{Edit, Edits, Mesh, Point, classify, shapes, split};
+use tearmesh::{Edit, Edits, Mesh, Point, VertexId, classify, shapes, split};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 use tearmesh_cloth::statistics::median;
 
@@ -136,17 +136,18 @@ fn follow(replica: &mut Mesh, edits: &Edits, places: &[Point]) -> Vec<Split> {
             panic!("a rip does nothing but split");
         };
         let (vertex, at) = (done.old, places[done.old.index()]);
-        let corners = replica.corners_of(vertex);
-        let neighbours = corners.flat_map(|h| [replica.target(h), replica.origin(h.prev())]);
-        let mut planes = neighbours.map(|other| Plane::new(at, places[other.index()] - at));
-        let plane = planes.find_map(|plane| {
-            let plane = plane.ok()?;
+        let toward = |other: VertexId| {
+            let plane = Plane::new(at, places[other.index()] - at).ok()?;
             let divides = replica.corners_of(vertex).all(|h| {
                 let side = classify::face(replica, h.face(), &plane, places);
                 (side == Side::Back) == done.corners.contains(&h)
             });
             divides.then_some(plane)
-        });
+        };
+        let plane = replica
+            .corners_of(vertex)
+            .flat_map(|h| [replica.target(h), replica.origin(h.prev())])
+            .find_map(toward);
         let plane = plane.expect("a rip splits by a plane that leads to a neighbour");
         let mut again = Edits::new();
         split::by_plane(replica, vertex, &plane, places, &mut again);

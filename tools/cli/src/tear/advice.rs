@@ -319,14 +319,10 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
 /// Where a simulation blew up.
 fn place(at: BlowUpSite) -> String {
     let (place, ratio) = match at {
-        BlowUpSite::Constraint {
-            ends: [a, b],
-            stretch_ratio,
-        } => (format!("edge {}-{}", a + 1, b + 1), stretch_ratio),
-        BlowUpSite::Bend {
-            ends: [a, b],
-            stretch_ratio,
-        } => {
+        BlowUpSite::Constraint([a, b], stretch_ratio) => {
+            (format!("edge {}-{}", a + 1, b + 1), stretch_ratio)
+        }
+        BlowUpSite::Bend([a, b], stretch_ratio) => {
             let place = format!("the bend between the vertices {} and {}", a + 1, b + 1);
             (place, stretch_ratio)
         }

@@ -149,7 +149,7 @@ impl Run {
         let last_s = Run::STEPS_MAX as f64 * step_s;
         if let Some(SwayingWind { period_s, .. }) = scene.wind {
             let is_counted = (last_s / period_s).is_finite();
-            SettingError::unless(is_counted, "wind.period_s", period_s, "any that is longer")
+            SettingError::unless(is_counted, "wind.period_s", period_s, "longer")
                 .map_err(RunError::Wind)?;
         }
         Ok(Run {

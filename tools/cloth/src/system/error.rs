@@ -35,20 +35,20 @@ impl SettingError {
     /// Refuses a number that is negative or not finite.
     pub(crate) fn unless_positive(setting: &'static str, given: f64) -> Result<(), SettingError> {
         let holds = given >= 0.0 && given.is_finite();
-        SettingError::unless(holds, setting, given, "any of 0 or more")
+        SettingError::unless(holds, setting, given, "finite and at least 0")
     }
 
     /// Refuses a number that is not above 0, or not finite.
     pub(crate) fn unless_above_0(setting: &'static str, given: f64) -> Result<(), SettingError> {
         let holds = given > 0.0 && given.is_finite();
-        SettingError::unless(holds, setting, given, "any above 0")
+        SettingError::unless(holds, setting, given, "finite and above 0")
     }
 }
 
 impl fmt::Display for SettingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (given, allowed) = (self.given, self.allowed);
-        write!(f, "{} is {given}, and may be {allowed}", self.setting)
+        write!(f, "{} is {given}, and has to be {allowed}", self.setting)
     }
 }
 

@@ -316,8 +316,10 @@ impl Tear {
         (vertex, plane): (VertexId, Plane),
     ) -> f64 {
         let across = at_rest(mesh, cloth, edge);
-        let mut edges = mesh.corners_of(vertex).flat_map(|h| [h, h.prev()]);
-        let is_whole = edges.all(|h| mesh.pair(h).is_some());
+        let is_whole = mesh
+            .corners_of(vertex)
+            .flat_map(|h| [h, h.prev()])
+            .all(|h| mesh.pair(h).is_some());
         let Some(split) = split::by_plane(mesh, vertex, &plane, cloth.positions(), edits) else {
             return 0.0;
         };

@@ -93,7 +93,7 @@ impl<'d> Player<'d> {
     /// Why it cannot be simulated, in words.
     pub fn new(document: &'d Document, settings: Settings) -> Result<Player<'d>, String> {
         let start = Start::new(document, &settings)?;
-        let sim = words(Simulation::new(start.mesh, start.positions, start.def))?;
+        let sim = words(Simulation::new(start.mesh, &start.positions, start.def))?;
         let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
         words(player.sim.hold(start.held.iter().copied()))?;
         for scissor in &start.cuts {
@@ -123,7 +123,7 @@ impl<'d> Player<'d> {
                 torn.next_cut();
             }
         };
-        let sim = Simulation::replayed(start.mesh, start.positions, start.def, &inputs, follow);
+        let sim = Simulation::replayed(start.mesh, &start.positions, start.def, &inputs, follow);
         let sim = words(sim)?;
         let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
         player.torn = torn;
