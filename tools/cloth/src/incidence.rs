@@ -79,31 +79,3 @@ impl<const ENDS: usize> Incidence<ENDS> {
 pub(crate) fn room_for<T>(list: &mut Vec<T>, count: usize) {
     list.reserve(count.saturating_sub(list.len()));
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_list_has_what_was_attached_and_not_detached() {
-        let mut lists = Incidence::<3>::default();
-        (0..2).for_each(|_| lists.push_particle());
-        for constraint in 0..4 {
-            lists.push();
-            lists.attach(constraint, constraint % 3, 1);
-        }
-        lists.attach(2, 0, 0);
-        let of = |lists: &Incidence<3>, particle| lists.of(particle).collect::<Vec<_>>();
-        assert_eq!(of(&lists, 1), [(3, 0), (2, 2), (1, 1), (0, 0)]);
-        for (gone, left) in [(3, vec![2, 1, 0]), (1, vec![2, 0]), (0, vec![2])] {
-            lists.detach(gone, gone % 3, 1);
-            let ids = of(&lists, 1).into_iter().map(|(id, _)| id);
-            assert_eq!(ids.collect::<Vec<_>>(), left);
-        }
-        lists.push_particle();
-        assert_eq!((lists.last_particle(), lists.of(2).count()), (2, 0));
-        lists.detach(2, 0, 0);
-        lists.swap_remove_particle(0);
-        assert_eq!((of(&lists, 1), lists.last_particle()), (vec![(2, 2)], 1));
-    }
-}

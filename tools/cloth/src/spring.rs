@@ -216,30 +216,16 @@ mod tests {
         }
     }
 
+    /// With a part of the correction and without compliance, and with compliance in the first sweep, which reads
+    /// no multiplier, and in the next.
     #[test]
     fn what_is_projected_together_is_what_it_would_be_one_by_one() {
         let pairs = Pairs::new();
-        let mut expected = pairs.positions.clone();
-        let mut expected_multipliers = Vec::new();
-        for i in 0..COUNT {
-            let (length, w) = (pairs.length(i), pairs.weight(i));
-            let change = 0.7 * (length - pairs.colour.rest[i]) / (length * w);
-            pairs.move_one(i, change, &mut expected);
-            let moves = w > 0.0 && length > 0.0;
-            expected_multipliers.push(0.25 - if moves { change * length } else { 0.0 });
-        }
-        let mut swept = Pairs::new();
-        assert!(swept.sweep::<false>(0.7, 0.0));
-        assert_eq!(swept.positions, expected);
-        assert_eq!(swept.colour.multipliers, expected_multipliers);
-        assert_ne!(swept.positions, pairs.positions);
-    }
-
-    #[test]
-    fn the_first_sweep_reads_no_multiplier_and_the_next_reads_that() {
-        let pairs = Pairs::new();
-        let scale = 3.0;
-        for (is_first, before) in [(true, f64::NAN), (false, 0.25)] {
+        for (is_first, before, fraction, scale) in [
+            (false, 0.25, 0.7, 0.0),
+            (true, f64::NAN, 1.0, 3.0),
+            (false, 0.25, 1.0, 3.0),
+        ] {
             let mut swept = Pairs::new();
             swept.colour.multipliers.fill(before);
             let mut expected = pairs.positions.clone();
@@ -249,18 +235,18 @@ mod tests {
                 let (length, w) = (pairs.length(i), pairs.weight(i));
                 let compliance = scale * (1.0 / pairs.colour.stiffness[i]);
                 let error = length - pairs.colour.rest[i] + compliance * before;
-                let change = error / ((w + compliance) * length);
+                let change = fraction * error / ((w + compliance) * length);
                 pairs.move_one(i, change, &mut expected);
-                let pulls = length > 0.0;
+                let pulls = length > 0.0 && w + compliance > 0.0;
                 expected_multipliers.push(before - if pulls { change * length } else { 0.0 });
             }
-            assert!(if is_first {
-                swept.sweep::<true>(1.0, scale)
-            } else {
-                swept.sweep::<false>(1.0, scale)
+            assert!(match is_first {
+                true => swept.sweep::<true>(fraction, scale),
+                false => swept.sweep::<false>(fraction, scale),
             });
             assert_eq!(swept.positions, expected);
             assert_eq!(swept.colour.multipliers, expected_multipliers);
+            assert_ne!(swept.positions, pairs.positions);
         }
     }
 
