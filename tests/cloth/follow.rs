@@ -424,9 +424,13 @@ fn a_cloth_that_cannot_be_is_refused_with_ids() {
     let twice = [[0.0; 3], [0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let twice = Positions::new(twice).expect("positions");
     assert!(refused(&twice, Fabric::new(1.0)).ends_with("has the rest length 0 m"));
+}
+
+#[test]
+#[should_panic(expected = "masses and positions are those of the mesh")]
+fn a_cloth_with_positions_of_another_mesh_is_a_bug_of_the_caller() {
+    let (mesh, positions) = shapes::grid(1, 1);
+    let masses = Masses::area(&mesh, &positions, 1.0).expect("masses");
     let few = Positions::new([[0.0; 3]]).expect("positions");
-    assert_eq!(
-        refused(&few, Fabric::new(1.0)),
-        "there are 1 positions and 4 masses for 4 vertices"
-    );
+    let _ = Cloth::new(&mesh, &few, masses, Fabric::new(1.0));
 }

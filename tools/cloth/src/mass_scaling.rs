@@ -216,7 +216,13 @@ mod tests {
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
             springs.neighbours(particle, visit);
         };
-        carry.weigh(masses, |particle| sums[particle], neighbours, 0.65, dt_s);
+        carry.weigh(
+            [masses, &inverse],
+            |particle| sums[particle],
+            neighbours,
+            0.65,
+            dt_s,
+        );
         carry
     }
 
