@@ -112,11 +112,6 @@ impl EnergyBalance {
 /// millisecond while there is drag, and the valence of the particles that are led.
 #[derive(Clone, Debug, Default)]
 pub struct Balance {
-    began_j: f64,
-    contact_began_j: f64,
-    damped_began_j: f64,
-    potential_began_j: f64,
-    edits_j: f64,
     pub(crate) work: Work,
     /// The forces on those who are led, where the substep began.
     forces: Vec<Vector>,
@@ -127,9 +122,8 @@ pub struct Balance {
 /// The work that was summed up, in joules, and the power of air that was sampled last.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Work {
-    held_j: f64,
-    wind_j: f64,
-    drag_j: f64,
+    /// What was summed up; of gravity, damping and colliders what there was at the beginning.
+    sums: EnergyBalance,
     /// Of wind and drag, in watts.
     sampled: Option<[f64; 2]>,
     since_s: f64,
@@ -138,8 +132,8 @@ pub(crate) struct Work {
 impl Work {
     /// Adds the work of wind and drag since the last sample, at this mean power.
     fn add_air(&mut self, [wind_w, drag_w]: [f64; 2]) {
-        self.wind_j += wind_w * self.since_s;
-        self.drag_j += drag_w * self.since_s;
+        self.sums.wind_j += wind_w * self.since_s;
+        self.sums.drag_j += drag_w * self.since_s;
         self.since_s = 0.0;
     }
 }
@@ -149,19 +143,21 @@ impl Balance {
     /// colliders, which cannot be observed from outside.
     #[must_use]
     pub fn new(system: &mut System) -> Balance {
-        Balance {
+        let mut balance = Balance::default();
+        balance.work.sums = EnergyBalance {
             began_j: energy::kinetic_j(system) + energy::stored_j(system),
-            contact_began_j: *system.contact_j.get_or_insert(0.0),
-            damped_began_j: system.damped_j,
-            potential_began_j: energy::potential_j(system),
-            ..Balance::default()
-        }
+            gravity_j: energy::potential_j(system),
+            damping_j: system.damped_j,
+            colliders_j: *system.contact_j.get_or_insert(0.0),
+            ..EnergyBalance::default()
+        };
+        balance
     }
 
     /// Adds the energy in joules that edits of the mesh made: what there is of it after them, and was not
     /// before. Without this call it counts as made by the method.
     pub fn add_edits(&mut self, made_j: f64) {
-        self.edits_j += made_j;
+        self.work.sums.edits_j += made_j;
     }
 
     /// Returns the balance up to now. Costs a pass over all constraints.
@@ -169,17 +165,14 @@ impl Balance {
     pub fn now(&self, system: &System) -> EnergyBalance {
         let mut work = self.work;
         work.add_air(work.sampled.unwrap_or_default());
+        let sums = work.sums;
         EnergyBalance {
-            began_j: self.began_j,
             kinetic_j: energy::kinetic_j(system),
             elastic_j: energy::stored_j(system),
-            gravity_j: self.potential_began_j - energy::potential_j(system),
-            held_j: work.held_j,
-            wind_j: work.wind_j,
-            drag_j: work.drag_j,
-            damping_j: self.damped_began_j - system.damped_j,
-            colliders_j: system.contact_j.unwrap_or(0.0) - self.contact_began_j,
-            edits_j: self.edits_j,
+            gravity_j: sums.gravity_j - energy::potential_j(system),
+            damping_j: sums.damping_j - system.damped_j,
+            colliders_j: system.contact_j.unwrap_or(0.0) - sums.colliders_j,
+            ..sums
         }
     }
 
@@ -194,7 +187,7 @@ impl Balance {
     ) {
         let before_j = energy::at_j(system, particle);
         change(system);
-        self.work.held_j += energy::at_j(system, particle) - before_j;
+        self.work.sums.held_j += energy::at_j(system, particle) - before_j;
     }
 
     /// Looks at the system before a substep. Particles that are led have the velocity for it already.
@@ -223,7 +216,7 @@ impl Balance {
                     (before + after) / 2.0
                 };
                 let way = system.velocities[*particle as usize] * substep_s;
-                self.work.held_j -= dot(mean, way);
+                self.work.sums.held_j -= dot(mean, way);
             }
         }
         if let Some(before) = self.work.sampled {

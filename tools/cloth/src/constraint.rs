@@ -191,16 +191,17 @@ impl Constraints {
         constraint
     }
 
-    /// Gives the end `from` of a constraint to another particle. The constraint keeps its
+    /// Gives the end `from` of a constraint, if it has it, to another particle. The constraint keeps its
     /// colour if that is free there.
     pub(crate) fn repoint(&mut self, id: ConstraintId, from: usize, to: usize) {
-        let (mut constraint, memory) = self.detach(id);
-        for end in &mut constraint.ends {
-            if *end == from {
-                *end = to;
-            }
+        if self.get(id).ends.contains(&from) {
+            let (mut constraint, memory) = self.detach(id);
+            let moved = constraint
+                .ends
+                .map(|end| if end == from { to } else { end });
+            constraint.ends = moved;
+            self.attach(id.0, constraint, memory);
         }
-        self.attach(id.0, constraint, memory);
     }
 
     pub(crate) fn set_stiffness(&mut self, id: ConstraintId, stiffness_n_per_m: f64) {

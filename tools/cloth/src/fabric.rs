@@ -240,13 +240,6 @@ impl Bending {
         }
     }
 
-    pub(super) fn law(&self) -> Option<Buckling> {
-        match *self {
-            Bending::Spring { .. } => None,
-            Bending::Buckling { law, .. } => Some(law),
-        }
-    }
-
     /// The stiffness of a bend constraint of this length, across an edge whose faces have this area:
     /// zero where they have none. `None` where it is beyond all numbers.
     pub(super) fn stiffness_n_per_m(&self, rest_length_m: f64, area_m2: f64) -> Option<f64> {

@@ -7,7 +7,7 @@ use tearmesh::{
     VertexId, VertexOp,
 };
 
-use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Stretch, Unbend};
 use crate::sheet::{Cloth, NO_BEND, Piece, weight};
 use crate::system::System;
@@ -59,12 +59,11 @@ impl Cloth {
             self.system.model.faces[corner.index()] = new as u32;
             for h in [corner, corner.prev()] {
                 let id = self.stretch(h);
-                let stretch = &mut self.system.model.stretch;
-                repoint(stretch, id, old, new);
+                self.system.model.stretch.repoint(id, old, new);
             }
             let id = self.bend_of.get(corner.next());
             if id != NO_BEND {
-                repoint(&mut self.system.model.bend, id, old, new);
+                self.system.model.bend.repoint(id, old, new);
             }
         }
         if self.fabric.unbend == Unbend::Vertex {
@@ -356,12 +355,6 @@ pub(super) fn lies_on(source: &Mix<HalfEdgeId>, h: HalfEdgeId) -> bool {
         Mix::Copy(corner) => corner == h || corner == h.next(),
         Mix::Between { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),
         Mix::Weighted { .. } => false,
-    }
-}
-
-fn repoint(family: &mut Constraints, id: ConstraintId, from: usize, to: usize) {
-    if family.get(id).ends.contains(&from) {
-        family.repoint(id, from, to);
     }
 }
 

@@ -220,13 +220,12 @@ impl Guard {
         let damper = damping::stiffness_in(dt_s);
         let stiffness = |particle: usize| self.sums[particle] + damper * self.dampers[particle];
         let masses = [&model.masses[..], &model.inverse_masses[..]];
+        let reach = self.reach.max(REACH);
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
             let [stretch, bend] = model.families();
             stretch.springs_at(particle, damper, &mut *visit);
             bend.springs_at(particle, damper, &mut *visit);
-            model
-                .triangles
-                .springs_at(particle, self.reach.max(REACH), visit);
+            model.triangles.springs_at(particle, reach, visit);
         };
         let share = SHARE * (1.0 - air);
         self.carry.weigh(masses, stiffness, neighbours, share, dt_s);

@@ -8,7 +8,7 @@ use tearmesh::geometry::{Point, cross, length};
 use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Positions, VertexId};
 
 use crate::constraint::{Constraint, ConstraintId};
-use crate::fabric::{Fabric, Stretch};
+use crate::fabric::{Bending, Fabric, Stretch};
 use crate::incidence::room_for;
 use crate::solver::{Solver, StepError};
 use crate::system::{SettingError, System};
@@ -166,7 +166,9 @@ impl Cloth {
             cloth.measure_membrane(id);
         }
         if let Some(bend) = fabric.bend {
-            cloth.system.model.buckling = bend.law();
+            if let Bending::Buckling { law, .. } = bend {
+                cloth.system.model.buckling = Some(law);
+            }
             for h in mesh.edges() {
                 if let Some(pair) = mesh.pair(h) {
                     let apexes = [h, pair].map(|h| mesh.origin(h.prev()));
@@ -206,9 +208,7 @@ impl Cloth {
     /// neither they allocate nor a step by a method that keeps its room in the system: all but
     /// [`Implicit`](crate::Implicit). (Only a colour beyond those that the present valence of vertices
     /// needs would take room of its own.) Costs some hundred bytes per face.
-    pub(crate) fn reserve(&mut self) {
-        let corners = self.stretch_of.ids.len();
-        let splits = corners.saturating_sub(self.system.positions.len());
+    pub(crate) fn reserve(&mut self, splits: usize, corners: usize) {
         self.masses.reserve(splits);
         self.rest.reserve(splits);
         room_for(&mut self.stretch_of.edges, corners);

@@ -140,8 +140,8 @@ impl Simulation {
             // Each split leaves every vertex a face, so V ≤ 3F.
             let corners = mesh.half_edge_count();
             let splits = corners.saturating_sub(mesh.vertex_count());
-            tear.reserve(&mesh);
-            cloth.reserve();
+            tear.reserve(splits, corners);
+            cloth.reserve(splits, corners);
             mesh.reserve(splits);
             edits.reserve(splits, 2 * corners, corners);
             strengths.reserve(splits);

@@ -139,17 +139,17 @@ pub(crate) fn whole_step_s(
 fn air_share(system: &mut System, solver: &dyn Solver) -> Option<AirShare> {
     let abilities = solver.abilities();
     let limit = abilities.air_limit?;
-    let drag = match abilities.takes_drag_explicitly {
-        true => air::drag_rate(system),
-        false => None,
-    };
-    let rate = match (air::wind_rate(system), drag) {
-        (Some(wind), Some(drag)) => AirRate {
-            rate_per_s: wind.rate_per_s + drag.rate_per_s,
-            ..wind
-        },
-        (wind, drag) => wind.or(drag)?,
-    };
+    let mut rate = air::wind_rate(system);
+    if abilities.takes_drag_explicitly
+        && let Some(drag) = air::drag_rate(system)
+    {
+        let wind = rate.get_or_insert(AirRate {
+            rate_per_s: 0.0,
+            ..drag
+        });
+        wind.rate_per_s += drag.rate_per_s;
+    }
+    let rate = rate?;
     let per_s = rate.rate_per_s / limit;
     Some(AirShare { rate, per_s })
 }

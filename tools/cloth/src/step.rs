@@ -41,7 +41,13 @@ impl System {
         check(self, solver, dt_s)?;
         let admitted = admit(self, solver, dt_s);
         let substeps = admitted.map_err(|error| unless_broken(self, error))?;
-        begin(self);
+        // Positions and velocities are kept once the method changes them; those who are led are given new
+        // velocities before that.
+        self.scratch.is_beginning = true;
+        self.scratch.led.clear();
+        let led = self.model.grabbed.iter().map(|(particle, _)| *particle);
+        let led = led.map(|particle| (particle, self.velocities[particle as usize]));
+        self.scratch.led.extend(led);
         let (began_s, contact_j, damped_j) = (self.elapsed_s, self.contact_j, self.damped_j);
         let work = balance.as_ref().map(|balance| balance.work);
         self.model.recorded = Recorded::Nothing;
@@ -59,17 +65,6 @@ impl System {
         }
         self.elapsed_s = began_s + dt_s;
         Ok(substeps)
-    }
-}
-
-/// Notes that a step begins. Positions and velocities are kept once the method changes them; those who
-/// are led are given new velocities before that.
-fn begin(system: &mut System) {
-    system.scratch.is_beginning = true;
-    system.scratch.led.clear();
-    for (particle, _) in &system.model.grabbed {
-        let velocity = system.velocities[*particle as usize];
-        system.scratch.led.push((*particle, velocity));
     }
 }
 

@@ -182,16 +182,17 @@ pub fn member(
     seed: u64,
     stop: &dyn Fn() -> bool,
 ) -> Member {
-    let (status, why, observed) = match observe(subject, step_divisor, seed, stop) {
-        Ok(Some(observed)) => (MemberStatus::Done, String::new(), Some(observed)),
-        Ok(None) => (MemberStatus::Interrupted, String::new(), None),
-        Err(why) => (MemberStatus::Failed, why, None),
+    let observed = observe(subject, step_divisor, seed, stop);
+    let status = match observed {
+        Ok(Some(_)) => MemberStatus::Done,
+        Ok(None) => MemberStatus::Interrupted,
+        Err(_) => MemberStatus::Failed,
     };
     Member {
         seed,
         status,
-        why,
-        observed,
+        why: observed.as_ref().err().cloned().unwrap_or_default(),
+        observed: observed.ok().flatten(),
     }
 }
 

@@ -128,9 +128,7 @@ impl Tear {
     }
 
     /// Makes room for all splits that can follow ([`Cloth::reserve`]), so that they allocate nothing.
-    pub(crate) fn reserve(&mut self, mesh: &Mesh) {
-        let corners = mesh.half_edge_count();
-        let splits = corners.saturating_sub(mesh.vertex_count());
+    pub(crate) fn reserve(&mut self, splits: usize, corners: usize) {
         self.strengths.reserve(splits);
         self.tips.reserve(splits);
         room_for(&mut self.due, corners);
@@ -383,21 +381,15 @@ fn along_plane(
 ) -> impl Iterator<Item = VertexId> + use<> {
     let x = cloth.positions();
     let to = |other: VertexId| x[other.index()] - x[v.index()];
+    let slope = |neighbour: VertexId| {
+        let d = to(neighbour);
+        (dot(plane.normal(), d) / length(d)).abs()
+    };
     let best = |opposite: Option<VertexId>| {
-        let mut best: Option<(f64, VertexId)> = None;
-        for &neighbour in neighbours {
-            let d = to(neighbour);
-            if opposite.is_some_and(|first| dot(d, to(first)) >= 0.0) {
-                continue;
-            }
-            let slope = (dot(plane.normal(), d) / length(d)).abs();
-            let better =
-                |(least, id): (f64, VertexId)| slope < least || (slope == least && neighbour < id);
-            if slope.is_finite() && best.is_none_or(better) {
-                best = Some((slope, neighbour));
-            }
-        }
-        best.map(|(_, neighbour)| neighbour)
+        let is_beside = |v: VertexId| opposite.is_some_and(|first| dot(to(v), to(first)) >= 0.0);
+        let others = neighbours.iter().copied().filter(|&v| !is_beside(v));
+        let others = others.filter(|&v| slope(v).is_finite());
+        others.min_by(|&a, &b| slope(a).total_cmp(&slope(b)).then(a.cmp(&b)))
     };
     let first = best(None);
     let second = first.and_then(|first| best(Some(first)));
