@@ -13,6 +13,7 @@ use tearmesh::{
 };
 
 use crate::cases::scripts;
+use crate::oracle::joined_sets;
 use crate::work::triangles;
 
 /// How much was seen.
@@ -42,21 +43,6 @@ fn twins(triangles: &[[u32; 3]], roots: &[u32]) -> Vec<Option<usize>> {
     (0..3 * triangles.len()).map(across).collect()
 }
 
-/// Numbers that are made equal along links, until nothing changes.
-fn joined(count: usize, links: &[(usize, usize)]) -> Vec<usize> {
-    let mut number: Vec<usize> = (0..count).collect();
-    let mut changed = true;
-    while changed {
-        changed = false;
-        for &(a, b) in links {
-            let least = number[a].min(number[b]);
-            changed |= number[a] != least || number[b] != least;
-            (number[a], number[b]) = (least, least);
-        }
-    }
-    number
-}
-
 /// What the oracle knows of the whole.
 struct Whole<'m> {
     mesh: &'m Mesh,
@@ -72,16 +58,16 @@ impl Whole<'_> {
         let links = twins.iter().enumerate();
         let links: Vec<(usize, usize)> = links.filter_map(|(h, g)| Some((h, (*g)?))).collect();
         let pairs = links.iter().filter(|&&(h, g)| !is_torn(mesh, h, g));
-        let pairs: Vec<(usize, usize)> = pairs.map(|&(h, g)| (h / 3, g / 3)).collect();
-        let piece_of = joined(mesh.face_count(), &pairs);
+        let pairs: Vec<[usize; 2]> = pairs.map(|&(h, g)| [h / 3, g / 3]).collect();
+        let piece_of = joined_sets(mesh.face_count(), &pairs);
         let stays = links
             .iter()
             .filter(|&&(h, g)| piece_of[h / 3] == piece_of[g / 3]);
-        let turns: Vec<_> = stays.map(|&(h, g)| (h, g / 3 * 3 + (g + 1) % 3)).collect();
+        let turns: Vec<_> = stays.map(|&(h, g)| [h, g / 3 * 3 + (g + 1) % 3]).collect();
         Whole {
             mesh,
             piece_of,
-            orbit_of: joined(mesh.half_edge_count(), &turns),
+            orbit_of: joined_sets(mesh.half_edge_count(), &turns),
             twins,
         }
     }
@@ -210,7 +196,7 @@ fn split(mut mesh: Mesh, vertices: &[usize], range: Range<usize>) -> Mesh {
 
 /// The fans A and C keep the middle vertex, and hang together elsewhere; B and D are cut off.
 #[test]
-fn a_vertex_whose_fans_hung_together_through_other_pieces_becomes_several() {
+fn a_vertex_with_fans_joined_elsewhere_becomes_several() {
     let (whole, _) = shapes::grid(4, 4);
     let middle = VertexId::new(12).expect("small");
     // The faces round the middle, in order; two that are opposite are cut off altogether.

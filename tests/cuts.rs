@@ -189,7 +189,7 @@ fn a_cut_tells_what_the_mesh_shows() {
 }
 
 #[test]
-fn straight_seams_have_the_lines_tips_and_sides_of_the_oracle() {
+fn straight_seams_have_the_lines_and_tips_of_the_oracle() {
     let (mut tips_of_all, mut faces, mut sideless) = (0, 0, 0);
     for case in cases() {
         let scissor = case.scissor().snap(0.0);

@@ -93,7 +93,7 @@ fn values_of(mesh: &Mesh) -> Vec<Value> {
 }
 
 #[test]
-fn buffers_that_follow_are_those_made_anew_and_a_gpu_is_told() {
+fn buffers_that_follow_are_those_made_anew() {
     let (mut count, mut edits, mut seams, mut written, mut all) = (0, 0, 0, 0, 0);
     for script in scripts(3_000) {
         count += 1;

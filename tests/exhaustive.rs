@@ -48,7 +48,7 @@ fn every_three_edits_of_every_small_mesh() {
 
 /// Splits, insertions, merges and slides where chords, planes and sewing are tried as well.
 #[test]
-fn every_edit_of_the_least_meshes_with_chords_slides_planes_and_sewing() {
+fn every_edit_of_every_kind_of_the_least_meshes() {
     let all = |faces_max, in_a_row| edits_of_meshes(Kinds::AndMore, faces_max, in_a_row);
     let counts = |count: Count| (count.counts(), count.slides);
     assert_eq!(counts(all(5, 1)), ([620, 1_271, 0], 422));

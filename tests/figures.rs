@@ -50,7 +50,7 @@ fn figure_1() -> (Mesh, Positions) {
 }
 
 #[test]
-fn figure_1_the_faces_behind_the_plane_move_to_the_new_vertex() {
+fn figure_1_faces_behind_the_plane_move_to_a_new_vertex() {
     let (mesh, positions) = figure_1();
     assert_eq!(faces_of(&mesh, 0), [0, 1, 2]);
     assert_eq!(faces_of(&mesh, 7), [3, 4, 5]);
@@ -59,7 +59,7 @@ fn figure_1_the_faces_behind_the_plane_move_to_the_new_vertex() {
 }
 
 #[test]
-fn figure_1_a_plane_with_all_faces_on_one_side_does_nothing() {
+fn figure_1_a_plane_with_faces_on_one_side_does_nothing() {
     let (mut mesh, positions) = shapes::fan(6, true);
     let before = mesh.clone();
     let below = positions.at(v(0)) - Vector::y() * 2.0;
@@ -280,7 +280,7 @@ fn long_lists_of_defects_are_capped_and_counted() {
 }
 
 #[test]
-fn a_vertex_without_a_face_keeps_its_number_and_is_not_split() {
+fn a_vertex_without_a_face_keeps_its_number() {
     let mut mesh = Mesh::build(5, &[[0, 1, 3]]).expect("a triangle");
     assert_eq!((mesh.vertex_count(), mesh.half_edge_of(v(2))), (5, None));
     let refused = split::vertex(&mut mesh, v(2), &[], &mut Edits::new()).err();

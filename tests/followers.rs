@@ -449,7 +449,7 @@ fn one_edit_of_each_kind() -> Vec<(Edits, [usize; 2])> {
 }
 
 #[test]
-fn lists_of_the_wrong_length_are_refused_for_every_kind_of_edit() {
+fn lists_of_the_wrong_length_are_refused_by_every_edit() {
     for (edits, [vertices, faces]) in one_edit_of_each_kind() {
         let edit = edits.iter().next().expect("one edit");
         let start = edit.before();

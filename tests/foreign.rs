@@ -263,7 +263,7 @@ impl Place for Unknown<'_> {
 
 /// What was noted before the panic was found in the record of the next split.
 #[test]
-fn regression_a_place_that_panics_leaves_nothing_in_the_log() {
+fn regression_a_place_that_panics_leaves_the_log_alone() {
     let (mesh, positions) = shapes::fan(6, true);
     let hub = VertexId::new(0).expect("an id");
     let plane = Plane::new(Point::origin(), Vector::new(1.0, 0.2, 0.0)).expect("a normal");

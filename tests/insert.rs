@@ -118,7 +118,7 @@ fn random_edits_keep_every_invariant_and_the_surface() {
 }
 
 #[test]
-fn with_room_for_faces_an_insertion_leaves_the_index_buffer_in_place() {
+fn an_insertion_with_room_leaves_the_index_buffer_in_place() {
     let (built, _) = shapes::grid(4, 4);
     let mut mesh = built.clone();
     mesh.reserve_faces(2);
@@ -190,7 +190,7 @@ fn regression_a_child_whose_share_would_be_zero_is_refused() {
 /// Where p on one edge and q on another are equally far along, the quad between them is divided
 /// from p to the end of the edge of q.
 #[test]
-fn of_two_diagonals_that_are_equally_good_one_is_always_taken() {
+fn of_two_equally_good_diagonals_one_is_always_taken() {
     for corner in 0..3 {
         for order in [[0, 1], [1, 0]] {
             let mut mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a triangle");
@@ -213,7 +213,7 @@ fn stitches<const N: usize>(pairs: [(usize, usize); N]) -> [Stitch; N] {
 }
 
 #[test]
-fn sewing_lists_every_stitch_that_it_refuses_and_changes_nothing() {
+fn sewing_lists_all_stitches_refused_and_changes_nothing() {
     let (mut mesh, _) = shapes::grid(2, 2);
     let mut edits = Edits::new();
     for old in [3, 4, 5].map(vertex) {

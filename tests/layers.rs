@@ -12,6 +12,7 @@ use tearmesh::{
     CutLayers, CutMethod, Edit, Mesh, Plane, Point, Positions, Ray, Scissor, Vector, shapes,
 };
 
+use crate::oracle::joined_sets;
 use crate::random::Random;
 use crate::surfaces::{File, built, corpus};
 use crate::work::{Work, triangles};
@@ -105,25 +106,14 @@ impl Oracle {
 
     /// Numbers the chains: pieces that share an edge have one number.
     fn join(&mut self) {
-        self.chain = self.pieces.keys().map(|&f| (f, f)).collect();
-        let mut changed = true;
-        while changed {
-            changed = false;
-            let mut least: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-            for (f, ends) in &self.pieces {
-                for edge in ends.iter().filter_map(|end| end.1) {
-                    let least = least.entry(edge).or_insert(usize::MAX);
-                    *least = self.chain[f].min(*least);
-                }
-            }
-            for (f, ends) in &self.pieces {
-                let edges = ends.iter().filter_map(|end| end.1);
-                let smallest = edges.map(|edge| least[&edge]).min();
-                let of_face = self.chain.get_mut(f).expect("every piece has a chain");
-                changed |= smallest.is_some_and(|smallest| smallest < *of_face);
-                *of_face = smallest.unwrap_or(*of_face).min(*of_face);
-            }
+        let mut first = BTreeMap::new();
+        let mut joined = Vec::new();
+        for (&f, ends) in &self.pieces {
+            let edges = ends.iter().filter_map(|end| end.1);
+            joined.extend(edges.map(|edge| [f, *first.entry(edge).or_insert(f)]));
         }
+        let chain = joined_sets(self.triangles.len(), &joined);
+        self.chain = self.pieces.keys().map(|&f| (f, chain[f])).collect();
     }
 
     /// The face that a ray hits first.

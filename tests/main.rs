@@ -29,7 +29,6 @@ mod methods;
 mod necks;
 mod oracle;
 mod pick;
-mod pieces;
 mod planes;
 mod polygons;
 mod properties;

@@ -49,7 +49,7 @@ fn masses_that_cannot_be_exact_are_refused() {
 }
 
 #[test]
-fn halving_is_refused_exactly_where_it_would_leave_the_normal_numbers() {
+fn halving_is_refused_just_where_it_leaves_normal_numbers() {
     // The hub could be halved 79 times, a vertex of the rim once.
     let (mesh, positions) = shapes::fan(80, true);
     let hub = VertexId::new(0).expect(USUAL);

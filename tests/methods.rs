@@ -8,10 +8,9 @@
 use tearmesh::{CutMethod, CutReport, Point, Positions, shapes};
 
 use crate::oracle::straight::Surface;
-use crate::pieces::pieces_by_vertices;
 use crate::random::Random;
-use crate::surfaces::{delaunay, jittered, surface};
-use crate::work::{ALONG_EDGES, Work, between, scissor};
+use crate::surfaces::{delaunay, jittered, pieces_by_vertices, surface};
+use crate::work::{ALONG_EDGES, Work, between, scissor, triangles};
 
 /// How many random cuts each mesh gets.
 const CUTS: usize = 40;
@@ -30,7 +29,7 @@ fn reports(sheet: &Surface) -> [(Vec<CutReport>, usize); 3] {
         for (method, (reports, divided)) in ALONG_EDGES.into_iter().zip(&mut reports) {
             let mut work = Work::of(sheet);
             reports.push(work.cut(method, &scissor).1);
-            let mut pieces = pieces_by_vertices(&work.mesh);
+            let mut pieces = pieces_by_vertices(triangles(&work.mesh));
             pieces.sort_unstable();
             pieces.dedup();
             *divided += usize::from(pieces.len() == 2);

@@ -63,7 +63,7 @@ fn a_neck_narrower_than_the_snap_is_reported() {
 
 /// What an ideal cut leaves is counted by the naive implementation.
 #[test]
-fn through_cuts_of_slit_sheets_leave_ideal_pieces_and_those_on_necks() {
+fn through_cuts_leave_ideal_pieces_and_those_on_necks() {
     let mut random = Random(71);
     let mut sheets = vec![surface(&shapes::tube(12, 6)), surface(&shapes::grid(9, 9))];
     sheets.extend([jittered(10, &mut random), delaunay(150, 9, &mut random)]);

@@ -167,7 +167,7 @@ fn plain(defect: &Defect) -> Fault {
 }
 
 #[test]
-fn random_triangles_are_built_or_refused_like_the_oracle_does() {
+fn random_triangles_are_built_as_the_oracle_says() {
     let faces = |vertices: u32| {
         let triangle = prop::array::uniform3(0..vertices + u32::from(vertices > 6));
         prop::collection::vec(triangle, 0..=7)
@@ -184,7 +184,7 @@ fn random_triangles_are_built_or_refused_like_the_oracle_does() {
 }
 
 #[test]
-fn damaged_shapes_are_built_or_refused_like_the_oracle_does() {
+fn damaged_shapes_are_built_as_the_oracle_says() {
     let damage = prop::collection::vec(any::<[u8; 3]>(), 0..=3);
     let triangles = (any::<Script>(), damage).prop_map(|(script, damage)| {
         let (mesh, _) = script.shape.make();
@@ -238,7 +238,7 @@ impl Triangles {
 
 /// Every list of up to three oriented triangles on six vertices, and of up to four on five.
 #[test]
-fn all_small_lists_are_built_or_refused_like_the_oracle_does() {
+fn all_small_lists_are_built_as_the_oracle_says() {
     let mut lists = 0;
     for (vertices, most) in [(6, 3), (5, 4)] {
         let mut all = Vec::new();

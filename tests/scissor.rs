@@ -12,10 +12,9 @@ use tearmesh::{
 
 use crate::oracle::naive_cut;
 use crate::oracle::straight::{Cut, Surface, is_generic};
-use crate::pieces::pieces_by_vertices;
 use crate::random::Random;
 use crate::straight::{cases, judged, random_generic_cut};
-use crate::surfaces::jittered;
+use crate::surfaces::{jittered, pieces_by_vertices};
 use crate::work::{Rays, Work, between, down, ray, scissor};
 
 fn is_between(scissor: &Scissor, p: [f64; 3]) -> bool {
@@ -286,7 +285,7 @@ fn partition_divides_sheets_and_follows_the_oracle() {
         assert_eq!(counts, (2, 2, true), "{report:?}");
         assert!(report.seam_length_ratio < 1.6, "{report:?}");
         let after = work.surface();
-        let piece = pieces_by_vertices(&work.mesh);
+        let piece = pieces_by_vertices(&after.faces);
         let mut sides = vec![[false; 2]; piece.len()];
         for (f, face) in after.faces.iter().enumerate() {
             let distance = face.map(|v| cut.plane.distance(after.points[v as usize]));

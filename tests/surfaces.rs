@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use tearmesh::{Mesh, Positions, shapes};
 
 use crate::delaunay;
-use crate::oracle::naive_cut;
 use crate::oracle::straight::{Cut, Surface};
+use crate::oracle::{joined_sets, naive_cut};
 use crate::random::Random;
 use crate::work::{Work, down, triangles};
 
@@ -34,6 +34,16 @@ impl Work {
     pub(crate) fn surface(&self) -> Surface {
         surface(&(self.mesh.clone(), self.positions.clone()))
     }
+}
+
+/// The numbers of the pieces that faces belong to, joined by shared vertices.
+pub(crate) fn pieces_by_vertices(faces: &[[u32; 3]]) -> Vec<usize> {
+    let mut first = BTreeMap::new();
+    let mut joined = Vec::new();
+    for (f, &face) in faces.iter().enumerate() {
+        joined.extend(face.map(|v| [f, *first.entry(v).or_insert(f)]));
+    }
+    joined_sets(faces.len(), &joined)
 }
 
 pub(crate) fn jittered(n: u32, random: &mut Random) -> Surface {
