@@ -9,7 +9,7 @@ use std::path::Path;
 use tearmesh_obj::{Document, ReadError, Repair};
 
 use super::refuse::refusal;
-use super::torn_damage::exercise;
+use super::work::exercise;
 use super::{digest, positions, read, rewritten, text, write_as};
 
 /// Beginnings of files that stand in the table by their names.

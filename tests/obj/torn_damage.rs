@@ -1,13 +1,12 @@
 //! Records that another program, or an accident, has changed: said by line, and never more.
 
 use tearmesh::mend;
-use tearmesh_obj::Document;
 
 use super::digest;
 use super::random::Random;
 use super::tables::{TORN, with_record};
-use super::work::{Work, files};
-use super::{read, rewritten, text};
+use super::work::{Work, exercise, files};
+use super::{read, text};
 
 /// What a record says of faces is not believed before the file is known to have them.
 #[test]
@@ -65,36 +64,6 @@ fn positions_may_change_and_copies_that_part_are_vertices() {
     assert_eq!(work.torn.cuts(), [1]);
     work.sew_apart(&mend::stitches(&work.mesh, |_| true), 99.0);
     assert_eq!(Ok(&work.mesh), document.mesh().as_ref());
-}
-
-/// Everything that can be done with a file, whatever its record says.
-pub(crate) fn exercise(bytes: &[u8]) -> bool {
-    let Ok(document) = Document::read(bytes) else {
-        return false;
-    };
-    let Ok(mesh) = document.mesh() else {
-        return false;
-    };
-    assert!(mesh.check().is_empty());
-    let written = rewritten(bytes);
-    // What is left out is said to be.
-    let marks = ["#tearmesh record", "#~ ", "#tearmesh end"];
-    let is_of_record = |line: &str| marks.iter().any(|mark| line.starts_with(mark));
-    let has_lines = |bytes: &[u8]| text(bytes).lines().any(is_of_record);
-    if !document.has_record() && has_lines(bytes) && !has_lines(&written) {
-        let helps = document.diagnostics().iter();
-        let helps = helps.filter_map(|one| one.help.as_ref());
-        let said = helps.filter(|help| help.contains("will not be written again"));
-        assert_eq!(said.count(), 1, "{}", text(bytes));
-    }
-    assert_eq!(text(&rewritten(&written)), text(&written));
-    let mut work = Work::on(&document);
-    work.sew_apart(&work.torn.stitches_of_last(1), f64::INFINITY);
-    let simplified = work.torn.simplified(&work.mesh, &work.positions);
-    if let Some(simple) = simplified.ok().and_then(|one| one.document) {
-        let _refused = simple.mesh().is_ok();
-    }
-    true
 }
 
 #[test]

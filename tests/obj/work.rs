@@ -11,7 +11,7 @@ use tearmesh::{
 use tearmesh_obj::{Document, TornDocument};
 
 use super::random::Random;
-use super::{positions, read, text};
+use super::{positions, read, rewritten, text};
 
 /// A document under the scissors.
 pub(crate) struct Work<'d> {
@@ -291,6 +291,36 @@ pub(crate) fn file_of(mesh: &Mesh, at: &Positions) -> String {
 
 pub(crate) fn vertex(v: usize) -> VertexId {
     VertexId::new(v).expect("small")
+}
+
+/// Everything that can be done with a file, whatever its record says.
+pub(crate) fn exercise(bytes: &[u8]) -> bool {
+    let Ok(document) = Document::read(bytes) else {
+        return false;
+    };
+    let Ok(mesh) = document.mesh() else {
+        return false;
+    };
+    assert!(mesh.check().is_empty());
+    let written = rewritten(bytes);
+    // What is left out is said to be.
+    let marks = ["#tearmesh record", "#~ ", "#tearmesh end"];
+    let is_of_record = |line: &str| marks.iter().any(|mark| line.starts_with(mark));
+    let has_lines = |bytes: &[u8]| text(bytes).lines().any(is_of_record);
+    if !document.has_record() && has_lines(bytes) && !has_lines(&written) {
+        let helps = document.diagnostics().iter();
+        let helps = helps.filter_map(|one| one.help.as_ref());
+        let said = helps.filter(|help| help.contains("will not be written again"));
+        assert_eq!(said.count(), 1, "{}", text(bytes));
+    }
+    assert_eq!(text(&rewritten(&written)), text(&written));
+    let mut work = Work::on(&document);
+    work.sew_apart(&work.torn.stitches_of_last(1), f64::INFINITY);
+    let simplified = work.torn.simplified(&work.mesh, &work.positions);
+    if let Some(simple) = simplified.ok().and_then(|one| one.document) {
+        let _refused = simple.mesh().is_ok();
+    }
+    true
 }
 
 /// The files of `tests/data`, and one where everything comes late.
