@@ -7,8 +7,6 @@
 //! One pass over the input in blocks of whole lines, of 64 KiB or one line; nothing is allocated
 //! for a line, and where it ends is found as it is read. Several hundred megabytes a second.
 
-mod apart;
-mod copies;
 mod decimal;
 mod face;
 mod fault;
@@ -18,6 +16,7 @@ mod forward;
 mod items;
 mod reader;
 mod record;
+mod restore;
 mod scan;
 mod source;
 mod statements;

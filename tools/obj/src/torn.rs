@@ -89,8 +89,8 @@ pub struct TornDocument<'d> {
     extras: Extras,
     /// What was inserted, by class, ascending: vertices are classes.
     inserted: Vec<Inserted>,
-    /// What became of faces, and of their corners; `None` until the first insertion.
-    corners: Option<Corners<'d>>,
+    /// What became of faces, and of their corners.
+    pub(crate) corners: Corners<'d>,
     /// Divided faces.
     families: Families,
     /// Vertices that slid, by the nodes of the ancestry.
@@ -115,7 +115,7 @@ impl<'d> TornDocument<'d> {
             ancestry: Ancestry::new(count, record.map_or(&[], |record| &record.splits)),
             extras: Extras::new(document),
             inserted: record.map_or(Vec::new(), |record| record.inserted.clone()),
-            corners: None,
+            corners: Corners::new(document),
             families: record.map_or_else(Families::default, |record| record.families.clone()),
             slides: record.map_or(Vec::new(), |record| record.slides.clone()),
             places: Cow::Borrowed(&document.positions),
@@ -307,10 +307,7 @@ impl<'d> TornDocument<'d> {
     /// Returns the number of faces of the mesh after the edits followed so far.
     #[must_use]
     pub fn face_count(&self) -> usize {
-        match &self.corners {
-            Some(corners) => corners.face_count(),
-            None => self.document.triangles().len(),
-        }
+        self.corners.face_count()
     }
 
     /// Returns the faces of the mesh in the order in which they are written. The children of a divided
@@ -318,7 +315,7 @@ impl<'d> TornDocument<'d> {
     /// the face at index `i` of this list.
     #[must_use]
     pub fn faces_in_order(&self) -> Vec<FaceId> {
-        let slots = self.slots();
+        let slots = self.corners.slots();
         let faces = slots.faces.iter();
         faces.filter_map(|&f| FaceId::new(f as usize)).collect()
     }
@@ -375,9 +372,8 @@ impl<'d> TornDocument<'d> {
                 }
             }
         }
-        let (document, ancestry) = (self.document, &self.ancestry);
-        let corners = self.corners.get_or_insert_with(|| Corners::new(document));
-        corners.insert(insert, |v| ancestry.class(v.index()), &mut self.families);
+        let class = |v: VertexId| self.ancestry.class(v.index());
+        self.corners.insert(insert, class, &mut self.families);
         self.cut_is_used = true;
     }
 
@@ -390,17 +386,11 @@ impl<'d> TornDocument<'d> {
     /// Follows a vertex that slid, and had these numbers before.
     fn slide(&mut self, slide: &Slide<'_>, before: &[f64]) {
         let numbers = [before, &self.numbers(slide.vertex)].concat();
-        let mut exchanges = Vec::new();
-        let document = self.document;
-        if document.texture.len() + document.normals.len() > 0 {
-            let corners = self.corners.get_or_insert_with(|| Corners::new(document));
-            exchanges = corners.slide(slide);
-        }
         self.slides.push(Slid {
             vertex: self.ancestry.node(slide.vertex.index()),
             cut: self.cut,
             numbers,
-            exchanges,
+            exchanges: self.corners.slide(slide),
         });
         self.cut_is_used = true;
     }
@@ -495,14 +485,6 @@ impl Follower for TornDocument<'_> {
 
 /// What is known of the faces and vertices, in terms of the mesh.
 impl TornDocument<'_> {
-    pub(crate) fn slots(&self) -> Slots {
-        let triangles = self.document.triangles().len() as u32;
-        match &self.corners {
-            Some(corners) => corners.slots(triangles as usize),
-            None => Slots::undivided(triangles),
-        }
-    }
-
     /// Divided faces, by faces of the mesh and classes.
     pub(crate) fn families(&self) -> &Families {
         &self.families
@@ -546,37 +528,7 @@ impl TornDocument<'_> {
 
     /// Whether nothing that is written has changed, but for numbers.
     pub(crate) fn is_untouched(&self) -> bool {
-        self.ancestry.is_whole() && self.corners.is_none()
-    }
-
-    /// The texture coordinate and the normal of a corner of the mesh.
-    #[inline]
-    pub(crate) fn corner(&self, half_edge: usize, polygon: usize) -> [Option<u32>; 2] {
-        match &self.corners {
-            Some(corners) => corners.at(half_edge),
-            None => {
-                let (face, corner) = (half_edge / 3, half_edge % 3);
-                let of_polygon = self.document.corner_of_polygon(face, corner, polygon);
-                self.document.polygons.indices(of_polygon)
-            }
-        }
-    }
-
-    /// The texture coordinate and the normal of a corner of the mesh, for a caller that does not
-    /// know its polygon.
-    pub(crate) fn corner_of(&self, half_edge: usize) -> [Option<u32>; 2] {
-        let polygon = match self.corners {
-            Some(_) => 0,
-            None => self.document.polygon_of(half_edge / 3),
-        };
-        self.corner(half_edge, polygon)
-    }
-
-    /// How many texture coordinates and normals there are.
-    pub(crate) fn counts(&self) -> [usize; 2] {
-        let [_, texture, normals] = self.document.counts();
-        let corners = self.corners.as_ref();
-        corners.map_or([texture, normals], Corners::counts)
+        self.ancestry.is_whole() && self.corners.is_undivided()
     }
 
     /// Whether a texture coordinate (0) or a normal (1) was inserted.
@@ -585,18 +537,5 @@ impl TornDocument<'_> {
         let record = self.document.record.as_deref();
         let runs = record.map(|record| &record.new_indices[which]);
         index >= known || runs.is_some_and(|runs| is_in(runs, index as u32))
-    }
-
-    /// Whether faces and corners are those of the document.
-    pub(crate) fn is_undivided(&self) -> bool {
-        self.corners.is_none()
-    }
-
-    /// The numbers of a texture coordinate (0) or a normal (1).
-    pub(crate) fn value(&self, which: usize, index: u32) -> &[f64] {
-        match &self.corners {
-            Some(corners) => corners.value(which, index),
-            None => self.document.value(which, index),
-        }
     }
 }

@@ -366,8 +366,12 @@ impl<W: Write> Writer<'_, W> {
                 let extras = torn.extra_numbers(vertex);
                 self.out.statement(b"v", &[at.x, at.y, at.z], extras)
             }
-            TEXTURE => self.out.statement(b"vt", torn.value(0, element), &[]),
-            _ => self.out.statement(b"vn", torn.value(1, element), &[]),
+            TEXTURE => self
+                .out
+                .statement(b"vt", torn.corners.value(0, element), &[]),
+            _ => self
+                .out
+                .statement(b"vn", torn.corners.value(1, element), &[]),
         }
     }
 
@@ -400,7 +404,7 @@ impl<W: Write> Writer<'_, W> {
             if place == self.ready {
                 self.move_up()?;
             }
-            self.write_triangle(half_edges(prepared.slots.faces[place]), polygon)?;
+            self.write_triangle(half_edges(prepared.slots.faces[place]))?;
         }
         Ok(())
     }
@@ -424,7 +428,7 @@ impl<W: Write> Writer<'_, W> {
         let faces = prepared.slots.faces[places].iter();
         for h in faces.flat_map(|&face| half_edges(face)) {
             let vertex = prepared.separated.indices[h as usize];
-            let [texture, normal] = torn.corner_of(h as usize);
+            let [texture, normal] = torn.corners.at(h as usize);
             for (which, index) in [Some(vertex), texture, normal].into_iter().enumerate() {
                 let number = index.map_or(0, |index| orders[which].number(index) + 1);
                 needed[which] = number.max(needed[which]);
@@ -438,14 +442,14 @@ impl<W: Write> Writer<'_, W> {
         Ok(())
     }
 
-    fn write_triangle(&mut self, half_edges: [u32; 3], polygon: usize) -> io::Result<()> {
+    fn write_triangle(&mut self, half_edges: [u32; 3]) -> io::Result<()> {
         let prepared = self.prepared;
         self.out.pending.push(b'f');
         for h in half_edges {
             let vertex = prepared.separated.indices[h as usize];
             let vertex = prepared.orders[VERTICES].number(vertex);
             self.hash.add_corner(vertex);
-            let [texture, normal] = self.torn.corner(h as usize, polygon);
+            let [texture, normal] = self.torn.corners.at(h as usize);
             let texture = texture.map(|index| prepared.orders[TEXTURE].number(index));
             let normal = normal.map(|index| prepared.orders[NORMALS].number(index));
             self.out.corner(vertex, [texture, normal]);

@@ -3,12 +3,11 @@
 //! A record that is damaged, of a later version, or of other faces than the file has is left
 //! out with a warning, and the file read as one without.
 
-use super::apart::put_in_place;
-use super::copies::join;
 use super::fault::{Fault, Line, Parsed, locate};
 use super::fits::{forget_corners, misfit, settle};
 use super::items::Items;
 
+use super::restore::{join, put_in_place};
 use super::scan::Scan;
 use super::words::{CODE, damaged, exactly, hexadecimal, nothing_more, version, whole};
 use crate::diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
@@ -167,12 +166,10 @@ impl RecordReader {
         if let Some(message) = misfit {
             let (location, excerpt) = header.place;
             document.diagnostics.push(Diagnostic {
-                level: Level::Warning,
-                code: CODE,
                 location: Some(location),
-                message,
                 excerpt: Some(excerpt.labelled("begins here")),
                 help: Some(without_record()),
+                ..Diagnostic::warning(CODE, location.line, message)
             });
             return;
         }

@@ -15,7 +15,7 @@ const NONE: u32 = u32::MAX;
 
 /// The faces and corners of a mesh, once faces were divided.
 #[derive(Clone, Debug)]
-pub(super) struct Corners<'d> {
+pub(crate) struct Corners<'d> {
     document: &'d Document,
     /// The triangle of the document where each face stands.
     slots: Vec<u32>,
@@ -54,7 +54,7 @@ impl<'d> Corners<'d> {
     }
 
     /// How many texture coordinates and normals there are.
-    pub(super) fn counts(&self) -> [usize; 2] {
+    pub(crate) fn counts(&self) -> [usize; 2] {
         let [_, texture, normals] = self.document.counts();
         [
             texture + self.new_values[0].len(),
@@ -63,7 +63,7 @@ impl<'d> Corners<'d> {
     }
 
     /// The numbers of a texture coordinate (0) or a normal (1).
-    pub(super) fn value(&self, which: usize, index: u32) -> &[f64] {
+    pub(crate) fn value(&self, which: usize, index: u32) -> &[f64] {
         let known = self.document.counts()[1 + which];
         match (index as usize).checked_sub(known) {
             None => self.document.value(which, index),
@@ -75,12 +75,20 @@ impl<'d> Corners<'d> {
         self.slots.len()
     }
 
-    pub(super) fn at(&self, half_edge: usize) -> [Option<u32>; 2] {
+    /// The texture coordinate and the normal of a corner of the mesh.
+    #[inline]
+    pub(crate) fn at(&self, half_edge: usize) -> [Option<u32>; 2] {
         self.corners[half_edge].map(|index| (index != NONE).then_some(index))
     }
 
-    pub(super) fn slots(&self, triangles: usize) -> Slots {
-        Slots::sorted(&self.slots, triangles)
+    /// Whether faces and corners are those of the document.
+    pub(crate) fn is_undivided(&self) -> bool {
+        let is_same = self.face_count() == self.document.triangles().len();
+        is_same && self.new_values.iter().all(|rows| rows.len() == 0)
+    }
+
+    pub(crate) fn slots(&self) -> Slots {
+        Slots::sorted(&self.slots, self.document.triangles().len())
     }
 
     /// Follows an insertion; `class` is that of each vertex, the inserted ones included.

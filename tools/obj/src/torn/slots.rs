@@ -10,14 +10,6 @@ pub(crate) struct Slots {
 }
 
 impl Slots {
-    /// A face for each triangle, in its place.
-    pub(super) fn undivided(triangles: u32) -> Slots {
-        Slots {
-            faces: (0..triangles).collect(),
-            starts: (0..=triangles).collect(),
-        }
-    }
-
     /// Sorts faces by the triangle at which each stands. There are `triangles` triangles.
     pub(super) fn sorted(places: &[u32], triangles: usize) -> Slots {
         let mut starts = vec![0_u32; triangles + 1];

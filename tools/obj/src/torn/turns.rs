@@ -91,8 +91,7 @@ impl<'t> Turns<'t> {
         match index.checked_sub(self.torn.document.counts()[kind as usize]) {
             None => Turn::Own(index as u32),
             Some(new) => {
-                let corners = self.torn.corners.as_ref();
-                let anchor = corners.map_or(0, |corners| corners.anchors[kind as usize - 1][new]);
+                let anchor = self.torn.corners.anchors[kind as usize - 1][new];
                 Turn::Added {
                     behind: self.sections.end(kind, anchor),
                     rank: new as u64,

@@ -75,7 +75,7 @@ impl<'t> PieceWriter<'t> {
     #[must_use]
     pub fn new(torn: &'t TornDocument<'t>) -> PieceWriter<'t> {
         let document = torn.document();
-        let slots = torn.slots();
+        let slots = torn.corners.slots();
         let mut writer = PieceWriter {
             torn,
             ranks: slots.ranks(),
@@ -155,7 +155,7 @@ impl<'t> PieceWriter<'t> {
         });
         for (which, keyword) in [b"vt", b"vn"].into_iter().enumerate() {
             for &index in &used[which] {
-                out.statement(keyword, torn.value(which, index), &[])?;
+                out.statement(keyword, torn.corners.value(which, index), &[])?;
             }
         }
         let mut said = [None; KEYWORDS.len()];
@@ -232,7 +232,7 @@ impl<'t> PieceWriter<'t> {
 
     /// The texture coordinate and the normal of a corner of a piece.
     fn indices_of(&self, piece: &DerivedMesh, h: HalfEdgeId) -> [Option<u32>; 2] {
-        self.torn.corner_of(piece.corners()[h.index()].index())
+        self.torn.corners.at(piece.corners()[h.index()].index())
     }
 }
 

@@ -29,8 +29,8 @@ pub(crate) struct Prepared<'m> {
 impl<'m> Prepared<'m> {
     /// Linear, but for what is torn.
     pub(crate) fn new(torn: &TornDocument<'_>, mesh: &'m Mesh, apart: Vec<Apart>) -> Prepared<'m> {
-        let slots = torn.slots();
-        let rank = (!torn.is_undivided()).then(|| slots.ranks());
+        let is_divided = !torn.corners.is_undivided();
+        let rank = is_divided.then(|| torn.corners.slots().ranks());
         let separated = Separated::new(mesh, rank.as_deref());
         let is_same = torn.is_untouched() && separated.copies.is_empty();
         let turns = (!is_same).then(|| Turns::in_sections(torn));
@@ -53,7 +53,7 @@ impl<'m> Prepared<'m> {
     ) -> Prepared<'m> {
         let document = torn.document();
         let mut prepared = Prepared {
-            slots: torn.slots(),
+            slots: torn.corners.slots(),
             mesh_vertices: mesh.vertex_count(),
             apart,
             orders: match turns {
@@ -118,7 +118,7 @@ impl<'m> Prepared<'m> {
         apart.sort_unstable_by_key(|apart| apart.vertex);
         let new_indices = [0, 1].map(|which| {
             let order = &self.orders[1 + which];
-            let all = 0..torn.counts()[which];
+            let all = 0..torn.corners.counts()[which];
             let inserted = all.filter(|&index| torn.is_index_inserted(which, index));
             let numbers = inserted.map(|index| order.number(index as u32));
             let mut numbers: Vec<u32> = numbers.collect();
@@ -163,7 +163,7 @@ fn orders(torn: &TornDocument<'_>, turns: &Turns<'_>, separated: &Separated<'_>)
     let document = torn.document();
     let vertices = (0..torn.vertex_count()).map(|v| turns.vertex(v));
     let copies = separated.copies.iter().map(|v| turns.copy(v.index()));
-    let [textures, normals] = torn.counts();
+    let [textures, normals] = torn.corners.counts();
     let texture = (0..textures).map(|index| turns.index(Kind::Texture, index));
     let normal = (0..normals).map(|index| turns.index(Kind::Normal, index));
     [

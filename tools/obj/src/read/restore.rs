@@ -1,0 +1,135 @@
+//! Vertices as they were before a file was written: those that stand apart are put where they are, and those
+//! that were written several times, once a fan, are one again.
+
+use tearmesh::Point;
+
+use super::text::without_statements_of_vertex;
+use crate::diagnostic::Diagnostic;
+use crate::document::Document;
+use crate::record::{Apart, Record, SplitOff, is_same_point};
+use crate::store::Kind;
+
+/// Puts the vertices that stand apart where they are, by the numbers of the file, and their copies
+/// with them. One whose `v` says anything else than it did was edited since: it stays, and is said.
+pub(super) fn put_in_place(document: &mut Document, record: &mut Record, fans: &[[u32; 2]]) {
+    let stands = |document: &Document, v: u32, apart: &Apart| {
+        is_same_point(document.positions[v as usize], apart.shown)
+    };
+    for &[copy, of] in fans {
+        let place = record.apart.binary_search_by_key(&of, |apart| apart.vertex);
+        let apart = place.ok().map(|place| record.apart[place]);
+        if let Some(apart) = apart.filter(|apart| stands(document, copy, apart)) {
+            document.positions[copy as usize] = apart.is;
+        }
+    }
+    let mut edited = Vec::new();
+    record.apart.retain(|apart| {
+        let is_intact = stands(document, apart.vertex, apart);
+        if is_intact {
+            document.positions[apart.vertex as usize] = apart.is;
+        } else {
+            edited.push(apart.vertex);
+        }
+        is_intact
+    });
+    let first = edited.first().map_or(0, |&vertex| u64::from(vertex) + 1);
+    let message = format!(
+        "`v` {first} was written apart from the other side of its cut and was edited since: it stays where it is now"
+    );
+    let help = Some("its part of the record will not be written again".to_owned());
+    if let Some(warning) = warning(
+        document,
+        "W-OBJ-RECORD-APART",
+        &edited,
+        message,
+        ", and so do",
+    ) {
+        document.diagnostics.push(Diagnostic { help, ..warning });
+    }
+}
+
+/// Makes each vertex and its copies one, but for copies that were moved away: these become
+/// vertices that the last cut split off. From then on a record is in terms of the document.
+pub(super) fn join(document: &mut Document, record: &mut Record, fans: &[[u32; 2]]) {
+    if fans.is_empty() {
+        return;
+    }
+    let cut = record.last_cut().max(1);
+    let bits = |v: u32| {
+        let at = document.positions[v as usize];
+        let extras = document.extras.row(v as usize).iter().copied();
+        [at.x, at.y, at.z]
+            .into_iter()
+            .chain(extras)
+            .map(f64::to_bits)
+    };
+    let is_moved = |&&[copy, of]: &&[u32; 2]| !bits(copy).eq(bits(of));
+    let (moved, copies): (Vec<[u32; 2]>, Vec<[u32; 2]>) = fans.iter().partition(is_moved);
+    let numbers = moved
+        .first()
+        .map_or([0; 2], |moved| moved.map(|v| u64::from(v) + 1));
+    let message = format!(
+        "`v` {} was a copy of {} and has moved away from it: it is now a separate vertex",
+        numbers[0], numbers[1]
+    );
+    let vertices: Vec<u32> = moved.iter().map(|&[copy, _]| copy).collect();
+    let warning = warning(document, "W-OBJ-RECORD-MOVED", &vertices, message, ", and");
+    document.diagnostics.extend(warning);
+    document.drop_vertices(&copies.iter().map(|&[copy, _]| copy).collect::<Vec<_>>());
+    let mut ids = Vec::with_capacity(document.positions.len() + copies.len());
+    let mut gone = copies.iter().peekable();
+    let mut next = 0;
+    for v in 0..(document.positions.len() + copies.len()) as u32 {
+        match gone.next_if(|[copy, _]| *copy == v) {
+            Some(&[_, of]) => ids.push(ids[of as usize]),
+            None => {
+                ids.push(next);
+                next += 1;
+            }
+        }
+    }
+    let id = |v: u32| ids[v as usize];
+    for vertex in &mut document.polygons.vertices {
+        *vertex = id(*vertex);
+    }
+    let moved = moved
+        .iter()
+        .map(|&[vertex, from]| SplitOff { vertex, from, cut });
+    record.splits.extend(moved);
+    record.splits.sort_unstable_by_key(|split| split.vertex);
+    record.renumber(id);
+    record.copies = copies.iter().map(|&[copy, of]| [copy, id(of)]).collect();
+}
+
+/// A warning at the first of some vertices, if there are any, that says how many more there are.
+fn warning(
+    document: &Document,
+    code: &'static str,
+    vertices: &[u32],
+    message: String,
+    and: &str,
+) -> Option<Diagnostic> {
+    let line = document.line_of_vertex(*vertices.first()? as usize);
+    let more = match vertices.len() {
+        1 => String::new(),
+        many => format!("{and} {} more such", many - 1),
+    };
+    Some(Diagnostic::warning(code, line, message + &more))
+}
+
+impl Document {
+    /// Drops these vertices, which are ascending and no face names any more, with what is said
+    /// of them.
+    fn drop_vertices(&mut self, dropped: &[u32]) {
+        let is_dropped = |vertex: usize| dropped.binary_search(&(vertex as u32)).is_ok();
+        let count = self.positions.len();
+        self.extras = self.extras.staying(count, |vertex| !is_dropped(vertex));
+        let mut vertices = 0..count;
+        let stays = |_: &Point| vertices.next().is_some_and(|vertex| !is_dropped(vertex));
+        self.positions.retain(stays);
+        let count =
+            |kind: Kind, number: usize| usize::from(kind != Kind::Vertex || !is_dropped(number));
+        let passes = without_statements_of_vertex;
+        self.layout.replace(&mut self.text, count, passes);
+    }
+}
