@@ -24,7 +24,8 @@ use crate::torn::TornDocument;
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Simplified {
-    /// The simplified document; `None` if there was nothing to remove or put back.
+    /// The simplified document; `None` if there was nothing to remove or put back. Lines, and numbers of
+    /// vertices that are written several times, are known once it is written and read.
     pub document: Option<Document>,
     /// The number of inserted vertices that stay only because they were edited after the insertion.
     /// Other vertices may have to stay with them, and are not counted.
@@ -68,8 +69,7 @@ impl TornDocument<'_> {
     /// the file before the cut. Only `v` that had to be moved up before a face with new vertices, since
     /// other statements may name vertices by number, stay there.
     ///
-    /// The document is written and read again before and after: linear in the document, with memory for
-    /// two more files.
+    /// The document is written and read again first: linear in the document, with memory for one more file.
     ///
     /// # Errors
     ///
@@ -101,7 +101,10 @@ impl TornDocument<'_> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn simplified(&self, mesh: &Mesh, positions: &Positions) -> Result<Simplified, ReadError> {
-        let document = written(self, mesh, positions)?;
+        let mut bytes = Vec::new();
+        self.write_to(mesh, positions, &mut bytes, false)?;
+        let document = Document::read(&bytes[..])?;
+        drop(bytes);
         let Some(record) = document.record.as_deref() else {
             return Ok(Simplified::default());
         };
@@ -112,23 +115,12 @@ impl TornDocument<'_> {
         let is_changed = divided.any(|family| undo.restored(family).is_some());
         let is_changed = is_changed || !rest.put_back.is_empty();
         Ok(Simplified {
-            document: is_changed.then(|| rest.document()).transpose()?,
+            document: is_changed.then(|| rest.document()),
             edited: undo.edited,
             slid_back: rest.put_back.len(),
             slid_edited: undo.slid_edited(),
         })
     }
-}
-
-/// A torn document, written and read again.
-fn written(
-    torn: &TornDocument<'_>,
-    mesh: &Mesh,
-    positions: &Positions,
-) -> Result<Document, ReadError> {
-    let mut bytes = Vec::new();
-    torn.write_to(mesh, positions, &mut bytes, false)?;
-    Document::read(&bytes[..])
 }
 
 /// What stays of a document.
@@ -233,8 +225,8 @@ impl<'d> Rest<'d> {
         stays
     }
 
-    /// The document without what is removed, written and read again.
-    fn document(&self) -> Result<Document, ReadError> {
+    /// The document without what is removed.
+    fn document(&self) -> Document {
         let document = self.document;
         let stays = self.stays();
         let numbers = stays.each_ref().map(|stays| numbers(stays));
@@ -280,17 +272,13 @@ impl<'d> Rest<'d> {
         };
         let passes = without_statements_of_vertex;
         simple.layout.replace(&mut simple.text, count, passes);
-        let mesh = simple
-            .mesh()
-            .expect("the mesh before an insertion is a torn mesh");
-        let positions = Positions::new(simple.positions.iter().copied());
-        let positions = positions.expect("the reader checks coordinates");
-        written(&TornDocument::new(&simple), &mesh, &positions)
+        simple
     }
 
     /// The record of what stays, by the new numbers.
     fn record(&self, stays: &[Vec<bool>; 3], numbers: &[Vec<u32>; 3]) -> Record {
         let mut record = self.record.clone();
+        record.copies.clear(); // What is written again depends on what goes.
         let has = |vertex: u32| stays[0][vertex as usize];
         record.splits.retain(|split| has(split.vertex));
         record.inserted.retain(|inserted| has(inserted.vertex));
