@@ -130,8 +130,8 @@ pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
 pub use mesh::{
-    BuildError, Components, Defect, DerivedMesh, Faces, Fans, Invariant, Listed, Mesh, TornError,
-    Violation,
+    BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fans, Invariant, Listed, Mesh,
+    TornError, Violation,
 };
 /// The linear algebra crate that defines [`Point`] and [`Vector`], in the version used by this
 /// crate.

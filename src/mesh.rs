@@ -32,8 +32,8 @@ pub use check::{Invariant, Violation};
 pub use defect::{BuildError, Defect, Faces, Fans, Listed};
 pub use pieces::DerivedMesh;
 pub use torn::TornError;
-pub use walk::Components;
 pub(crate) use walk::UNSEEN;
+pub use walk::{Components, Corners};
 
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 

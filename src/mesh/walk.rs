@@ -36,12 +36,11 @@ impl Mesh {
     /// ```
     #[inline]
     #[must_use]
-    pub fn corners_of(
-        &self,
-        v: VertexId,
-    ) -> impl FusedIterator<Item = HalfEdgeId> + Clone + use<'_> {
-        let orbit: Orbit<'_> = Orbit::new(self, self.half_edge_of(v));
-        orbit.filter(move |&h| self.origin(h) == v)
+    pub fn corners_of(&self, v: VertexId) -> Corners<'_> {
+        Corners {
+            vertex: v,
+            orbit: Orbit::new(self, self.half_edge_of(v)),
+        }
     }
 
     /// Returns the faces of a vertex, in the order of [`Mesh::corners_of`].
@@ -209,6 +208,25 @@ impl Mesh {
             .map(HalfEdgeId::face)
     }
 }
+
+/// An iterator over the corners of a vertex: see [`Mesh::corners_of`].
+#[derive(Clone, Debug)]
+pub struct Corners<'m> {
+    vertex: VertexId,
+    orbit: Orbit<'m>,
+}
+
+impl Iterator for Corners<'_> {
+    type Item = HalfEdgeId;
+
+    #[inline]
+    fn next(&mut self) -> Option<HalfEdgeId> {
+        let (mesh, vertex) = (self.orbit.mesh, self.vertex);
+        self.orbit.find(|&h| mesh.origin(h) == vertex)
+    }
+}
+
+impl FusedIterator for Corners<'_> {}
 
 /// The corners of one orbit of ρ, in order: ahead from the first one, and where
 /// the orbit is open, then behind it. Without ghosts, ρ goes through pairs only.
