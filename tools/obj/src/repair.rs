@@ -75,10 +75,17 @@ impl Document {
             return self;
         }
         if repair == Repair::All {
-            for choose in [Document::on_the_same_vertices, Document::superfluous] {
-                let dropped = choose(&self);
-                if dropped.iter().any(|&kept| kept != STAYS) {
-                    self.drop_triangles(&dropped);
+            let on_the_same_vertices = [Reason::Duplicate, Reason::Pillow];
+            for reasons in [&on_the_same_vertices[..], &[Reason::Edge]] {
+                let mut gone = vec![false; self.triangles().len()];
+                for &reason in reasons {
+                    let kept = self.kept_instead(reason);
+                    self.report_drops(&kept, reason);
+                    let marks = gone.iter_mut().zip(kept);
+                    marks.for_each(|(gone, kept)| *gone |= kept != STAYS);
+                }
+                if gone.contains(&true) {
+                    self.drop_triangles(&gone);
                 }
             }
         }
@@ -91,62 +98,60 @@ impl Document {
         Mesh::diagnose(self.positions.len(), self.triangles(), listed, visit);
     }
 
-    /// All triangles but the first on the same three vertices.
-    fn on_the_same_vertices(&self) -> Dropped {
-        let mut dropped = vec![STAYS; self.triangles().len()];
-        self.diagnose(usize::MAX, |defect| match defect {
-            Defect::DuplicateFaces { faces, .. } => {
+    /// For each triangle that has to go the one that stays in its place, and [`STAYS`] for the others.
+    fn kept_instead(&self, reason: Reason) -> Vec<u32> {
+        let mut kept = vec![STAYS; self.triangles().len()];
+        if let Reason::Edge = reason {
+            self.crowd_out(&mut kept);
+            return kept;
+        }
+        self.diagnose(usize::MAX, |defect| match (defect, reason) {
+            (Defect::DuplicateFaces { faces, .. }, Reason::Duplicate) => {
                 let later = faces.iter().skip(1);
-                later.for_each(|face| dropped[face.index()] = faces.first().into());
+                later.for_each(|face| kept[face.index()] = faces.first().into());
             }
-            Defect::Pillow { faces, .. } => {
-                dropped[faces[1].index()] = faces[0].into();
+            (Defect::Pillow { faces, .. }, Reason::Pillow) => {
+                kept[faces[1].index()] = faces[0].into();
             }
             _ => {}
         });
-        dropped
+        kept
     }
 
-    /// The triangles for which a crowded edge has no room.
-    fn superfluous(&self) -> Dropped {
+    /// Finds the triangles for which a crowded edge has no room.
+    fn crowd_out(&self, kept: &mut [u32]) {
         // Crowded edges, ascending, each with the face that stays for each direction.
         let mut edges = Vec::new();
         self.diagnose(1, |defect| {
             if let Defect::CrowdedEdge { ends, .. } = defect {
-                push(&mut edges, (ends.map(u32::from), [None::<FaceId>; 2]));
+                push(&mut edges, (ends.map(u32::from), [STAYS; 2]));
             }
         });
-        let mut dropped = vec![STAYS; self.triangles().len()];
         if edges.is_empty() {
-            return dropped;
+            return;
         }
-        for (f, &[a, b, c]) in self.triangles().iter().enumerate() {
-            let face = FaceId::new(f).expect("I1: every face has an id");
-            // In the order of the edges, so that the first of them counts.
-            let mut crowded = [(a, b), (b, c), (c, a)].map(|(from, to)| {
+        for (f, corners) in self.triangles().iter().enumerate() {
+            // In the order of the edges, so that the first of them is named.
+            let mut crowded = sides(*corners).map(|(from, to)| {
                 let ends = [from.min(to), from.max(to)];
                 let edge = edges.binary_search_by_key(&ends, |&(ends, _)| ends);
                 (edge.ok(), usize::from(from < to))
             });
             crowded.sort_unstable();
-            let crowded = crowded
-                .into_iter()
-                .filter_map(|(edge, direction)| Some((edge?, direction)));
-            let mut earlier = crowded.clone();
-            if let Some(kept) = earlier.find_map(|(edge, direction)| edges[edge].1[direction]) {
-                dropped[f] = kept.into();
-            } else {
-                for (edge, direction) in crowded {
-                    edges[edge].1[direction] = Some(face);
-                }
+            let crowded = crowded.into_iter();
+            let crowded = crowded.filter_map(|(edge, direction)| Some((edge?, direction)));
+            let taken = crowded
+                .clone()
+                .map(|(edge, direction)| edges[edge].1[direction]);
+            match { taken }.find(|&taken| taken != STAYS) {
+                Some(earlier) => kept[f] = earlier,
+                None => crowded.for_each(|(edge, direction)| edges[edge].1[direction] = f as u32),
             }
         }
-        dropped
     }
 
-    /// Drops triangles, and says so.
-    fn drop_triangles(&mut self, dropped: &[u32]) {
-        self.report_drops(dropped);
+    fn drop_triangles(&mut self, gone: &[bool]) {
+        let stays = |triangle: usize| !gone[triangle];
         let mut polygons = Polygons::default();
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
@@ -159,14 +164,14 @@ impl Document {
             let corners = corners.map(|corner| self.polygons.corner(corner));
             let before = polygons.len();
             let all = triangulation.as_mut();
-            if dropped[triangles.clone()].iter().all(|&kept| kept == STAYS) {
+            if triangles.clone().all(stays) {
                 polygons.add(corners);
                 if let Some(all) = all {
                     all.copy_within(triangles.clone(), kept);
                 }
                 kept += triangles.len();
             } else if let Some(all) = all {
-                for triangle in triangles.filter(|&triangle| dropped[triangle] == STAYS) {
+                for triangle in triangles.filter(|&triangle| stays(triangle)) {
                     all[kept] = all[triangle];
                     let corner = |vertex| corners.clone().find(|corner| corner.vertex == vertex);
                     polygons.add(all[kept].into_iter().filter_map(corner));
@@ -187,53 +192,37 @@ impl Document {
         self.layout.replace(&mut self.text, count, <[u8]>::to_vec);
     }
 
-    fn report_drops(&mut self, dropped: &[u32]) {
-        let mut warnings = Vec::new();
-        for code in [DUPLICATE, PILLOW, EDGE] {
-            let all = dropped.iter().map(|&kept| kept as usize).enumerate();
-            let all = all.filter(|&(_, kept)| kept != STAYS as usize);
-            let all = all.filter(|&(triangle, kept)| self.reason(triangle, kept).0 == code);
-            let count = all.clone().count();
-            for (number, (triangle, kept)) in all.take(REPORTED + 1).enumerate() {
-                let line = self.line_of_triangle(triangle);
-                let message = match count - number {
-                    more if number == REPORTED => {
-                        format!("and {more} more faces are dropped (the first here)")
-                    }
-                    _ => self.why(triangle, kept),
-                };
-                warnings.push(Diagnostic::warning(code, line, message));
-            }
-        }
-        self.diagnostics.append(&mut warnings);
-    }
-
-    /// Why a triangle is dropped for another: its code, and for a crowded edge that edge. Two triangles
-    /// have all directed edges in common, or none and all reversed, or one.
-    fn reason(&self, triangle: usize, kept: usize) -> (&'static str, [u32; 2]) {
-        let [own, kept] = [triangle, kept].map(|triangle| {
-            let [a, b, c] = self.triangles()[triangle];
-            [[a, b], [b, c], [c, a]]
-        });
-        let mut shared = own.into_iter().filter(|edge| kept.contains(edge));
-        match (shared.next(), shared.next()) {
-            (None, _) => (PILLOW, own[0]),
-            (Some([a, b]), None) => (EDGE, [a.min(b), a.max(b)]),
-            (Some(_), Some(_)) => (DUPLICATE, own[0]),
+    fn report_drops(&mut self, kept: &[u32], reason: Reason) {
+        let dropped = kept.iter().zip(0..).filter(|(kept, _)| **kept != STAYS);
+        let count = dropped.clone().count();
+        for (number, (&kept, triangle)) in dropped.take(REPORTED + 1).enumerate() {
+            let line = self.line_of_triangle(triangle);
+            let message = match count - number {
+                more if number == REPORTED => {
+                    format!("and {more} more faces are dropped (the first here)")
+                }
+                _ => self.why(triangle, kept as usize, reason),
+            };
+            let warning = Diagnostic::warning(reason.code(), line, message);
+            self.diagnostics.push(warning);
         }
     }
 
-    fn why(&self, triangle: usize, kept: usize) -> String {
+    fn why(&self, triangle: usize, kept: usize, reason: Reason) -> String {
         let what = match self.polygons.corners(self.polygon_of(triangle)).len() {
             3 => "this face",
             _ => "a triangle of this face",
         };
         let line = self.line_of_triangle(kept);
-        let why = match self.reason(triangle, kept) {
-            (DUPLICATE, _) => format!("has the same vertices as one on line {line}"),
-            (PILLOW, _) => format!("lies back to back with one on line {line}"),
-            (_, ends) => {
-                let [a, b] = ends.map(|end| u64::from(end) + 1);
+        let why = match reason {
+            Reason::Duplicate => format!("has the same vertices as one on line {line}"),
+            Reason::Pillow => format!("lies back to back with one on line {line}"),
+            Reason::Edge => {
+                // They have no other edge in common, or they would have the same vertices.
+                let [one, other] = [triangle, kept].map(|face| sides(self.triangles()[face]));
+                let common = one.into_iter().find(|side| other.contains(side));
+                let (a, b) = common.expect("they run the same way");
+                let [a, b] = [a.min(b), a.max(b)].map(|end| u64::from(end) + 1);
                 format!("runs the same way as one on line {line} along the crowded edge {a}-{b}")
             }
         };
@@ -395,12 +384,27 @@ impl Document {
     }
 }
 
-/// For each triangle the one that stays in its place, or [`STAYS`]. A file of polygons has so many that a
-/// word for each is what its bound of memory leaves.
-type Dropped = Vec<u32>;
-
+/// The mark of a triangle that is not dropped.
 const STAYS: u32 = u32::MAX;
 
-const DUPLICATE: &str = "W-OBJ-REPAIR-DUPLICATE";
-const PILLOW: &str = "W-OBJ-REPAIR-PILLOW";
-const EDGE: &str = "W-OBJ-REPAIR-EDGE";
+/// Why a triangle is dropped.
+#[derive(Clone, Copy)]
+enum Reason {
+    Duplicate,
+    Pillow,
+    Edge,
+}
+
+impl Reason {
+    fn code(self) -> &'static str {
+        match self {
+            Reason::Duplicate => "W-OBJ-REPAIR-DUPLICATE",
+            Reason::Pillow => "W-OBJ-REPAIR-PILLOW",
+            Reason::Edge => "W-OBJ-REPAIR-EDGE",
+        }
+    }
+}
+
+fn sides([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
+    [(a, b), (b, c), (c, a)]
+}
