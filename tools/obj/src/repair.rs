@@ -140,10 +140,10 @@ impl Document {
             crowded.sort_unstable();
             let crowded = crowded.into_iter();
             let crowded = crowded.filter_map(|(edge, direction)| Some((edge?, direction)));
-            let taken = crowded
+            let mut taken = crowded
                 .clone()
                 .map(|(edge, direction)| edges[edge].1[direction]);
-            match { taken }.find(|&taken| taken != STAYS) {
+            match taken.find(|&taken| taken != STAYS) {
                 Some(earlier) => kept[f] = earlier,
                 None => crowded.for_each(|(edge, direction)| edges[edge].1[direction] = f as u32),
             }
