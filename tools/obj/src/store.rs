@@ -115,6 +115,10 @@ impl Column {
         push(&mut self.values, value);
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
     #[inline]
     pub(crate) fn get(&self, index: usize) -> Option<u32> {
         self.values

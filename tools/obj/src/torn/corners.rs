@@ -19,8 +19,9 @@ pub(crate) struct Corners<'d> {
     document: &'d Document,
     /// The triangle of the document where each face stands.
     slots: Vec<u32>,
-    /// The texture coordinate and the normal of each corner.
-    corners: Vec<[u32; 2]>,
+    /// The texture coordinate and the normal of each corner; empty where no corner has one, so that a file
+    /// without them takes no memory here.
+    corners: [Vec<u32>; 2],
     /// Texture coordinates and normals behind those of the document.
     new_values: [Rows; 2],
     /// For each of these, the one of the document in whose section it belongs.
@@ -34,16 +35,23 @@ type Between = (u32, [u32; 3]);
 impl<'d> Corners<'d> {
     pub(super) fn new(document: &'d Document) -> Corners<'d> {
         let count = document.triangles().len();
-        let mut corners = Vec::with_capacity(3 * count);
-        for polygon in 0..document.polygons.len() {
-            for triangle in document.polygons.triangles(polygon) {
-                for corner in 0..3 {
-                    let of_polygon = document.corner_of_polygon(triangle, corner, polygon);
-                    let indices = document.polygons.indices(of_polygon);
-                    corners.push(indices.map(|index| index.unwrap_or(NONE)));
+        let columns = [&document.polygons.texture, &document.polygons.normals];
+        let corners = columns.map(|column| {
+            let mut corners = Vec::new();
+            if column.is_empty() {
+                return corners;
+            }
+            corners.reserve_exact(3 * count);
+            for polygon in 0..document.polygons.len() {
+                for triangle in document.polygons.triangles(polygon) {
+                    corners.extend([0, 1, 2].map(|corner| {
+                        let of_polygon = document.corner_of_polygon(triangle, corner, polygon);
+                        column.get(of_polygon).unwrap_or(NONE)
+                    }));
                 }
             }
-        }
+            corners
+        });
         Corners {
             document,
             slots: (0..count as u32).collect(),
@@ -78,7 +86,12 @@ impl<'d> Corners<'d> {
     /// The texture coordinate and the normal of a corner of the mesh.
     #[inline]
     pub(crate) fn at(&self, half_edge: usize) -> [Option<u32>; 2] {
-        self.corners[half_edge].map(|index| (index != NONE).then_some(index))
+        [0, 1].map(|which| Some(self.raw(which, half_edge)).filter(|&index| index != NONE))
+    }
+
+    #[inline]
+    fn raw(&self, which: usize, half_edge: usize) -> u32 {
+        self.corners[which].get(half_edge).copied().unwrap_or(NONE)
     }
 
     /// Whether faces and corners are those of the document.
@@ -105,22 +118,26 @@ impl<'d> Corners<'d> {
             let corners = original(family.children(), &class);
             let children = family.children().iter().map(|child| child.face.index());
             families.divide(parent, corners, children);
-            let before = [0, 1, 2].map(|corner| self.corners[3 * parent + corner]);
+            let before =
+                [0, 1].map(|which| [0, 1, 2].map(|corner| self.raw(which, 3 * parent + corner)));
             for child in family.children() {
                 let face = child.face.index();
                 if face >= self.slots.len() {
                     assert_eq!(face, self.slots.len(), "new faces come without a gap");
                     self.slots.push(slot);
-                    self.corners.extend([[NONE; 2]; 3]);
+                    let some = self.corners.iter_mut().filter(|of| !of.is_empty());
+                    some.for_each(|of| of.extend([NONE; 3]));
                 }
                 for corner in 0..3 {
                     let class = class(child.vertices[corner]);
                     let source = child.sources[corner];
-                    self.corners[3 * face + corner] = [0, 1].map(|which| {
-                        let before = before.map(|corner| corner[which]);
+                    for which in [0, 1] {
                         let made = &mut made[which];
-                        self.index(source, before, class, which, made)
-                    });
+                        let index = self.index(source, before[which], class, which, made);
+                        if let Some(own) = self.corners[which].get_mut(3 * face + corner) {
+                            *own = index;
+                        }
+                    }
                 }
             }
         }
@@ -134,7 +151,7 @@ impl<'d> Corners<'d> {
         for which in 0..2 {
             let mut changes: Vec<(HalfEdgeId, [u32; 2], u32)> = Vec::new();
             for [corner, toward] in slide.along.into_iter().flatten() {
-                let ends @ [from, to] = [corner, toward].map(|h| self.corners[h.index()][which]);
+                let ends @ [from, to] = [corner, toward].map(|h| self.raw(which, h.index()));
                 if from == to || from == NONE || to == NONE {
                     continue;
                 }
@@ -157,7 +174,9 @@ impl<'d> Corners<'d> {
                 changes.push((corner, ends, index));
             }
             for &h in slide.corners {
-                let index = &mut self.corners[h.index()][which];
+                let Some(index) = self.corners[which].get_mut(h.index()) else {
+                    break;
+                };
                 let own = changes.iter().find(|(corner, ..)| *corner == h);
                 let same = || changes.iter().find(|(_, [from, _], _)| from == index);
                 if let Some(&(.., after)) = own.or_else(same) {
