@@ -75,17 +75,10 @@ impl Document {
             return self;
         }
         if repair == Repair::All {
-            let on_the_same_vertices = [Reason::Duplicate, Reason::Pillow];
-            for reasons in [&on_the_same_vertices[..], &[Reason::Edge]] {
-                let mut gone = vec![false; self.triangles().len()];
-                for &reason in reasons {
-                    let kept = self.kept_instead(reason);
-                    self.report_drops(&kept, reason);
-                    let marks = gone.iter_mut().zip(kept);
-                    marks.for_each(|(gone, kept)| *gone |= kept != STAYS);
-                }
-                if gone.contains(&true) {
-                    self.drop_triangles(&gone);
+            for choose in [Document::on_the_same_vertices, Document::superfluous] {
+                let dropped = choose(&self);
+                if dropped.iter().any(|&drop| drop != STAYS) {
+                    self.drop_triangles(&dropped);
                 }
             }
         }
@@ -98,28 +91,24 @@ impl Document {
         Mesh::diagnose(self.positions.len(), self.triangles(), listed, visit);
     }
 
-    /// For each triangle that has to go the one that stays in its place, and [`STAYS`] for the others.
-    fn kept_instead(&self, reason: Reason) -> Vec<u32> {
-        let mut kept = vec![STAYS; self.triangles().len()];
-        if let Reason::Edge = reason {
-            self.crowd_out(&mut kept);
-            return kept;
-        }
-        self.diagnose(usize::MAX, |defect| match (defect, reason) {
-            (Defect::DuplicateFaces { faces, .. }, Reason::Duplicate) => {
+    /// All triangles but the first on the same three vertices.
+    fn on_the_same_vertices(&self) -> Vec<Drop> {
+        let mut dropped = vec![STAYS; self.triangles().len()];
+        self.diagnose(usize::MAX, |defect| match defect {
+            Defect::DuplicateFaces { faces, .. } => {
                 let later = faces.iter().skip(1);
-                later.for_each(|face| kept[face.index()] = faces.first().into());
+                later.for_each(|face| dropped[face.index()] = faces.first().into());
             }
-            (Defect::Pillow { faces, .. }, Reason::Pillow) => {
-                kept[faces[1].index()] = faces[0].into();
+            Defect::Pillow { faces, .. } => {
+                dropped[faces[1].index()] = PILLOW | u32::from(faces[0]);
             }
             _ => {}
         });
-        kept
+        dropped
     }
 
-    /// Finds the triangles for which a crowded edge has no room.
-    fn crowd_out(&self, kept: &mut [u32]) {
+    /// The triangles for which a crowded edge has no room.
+    fn superfluous(&self) -> Vec<Drop> {
         // Crowded edges, ascending, each with the face that stays for each direction.
         let mut edges = Vec::new();
         self.diagnose(1, |defect| {
@@ -127,8 +116,9 @@ impl Document {
                 push(&mut edges, (ends.map(u32::from), [STAYS; 2]));
             }
         });
+        let mut dropped = vec![STAYS; self.triangles().len()];
         if edges.is_empty() {
-            return;
+            return dropped;
         }
         for (f, corners) in self.triangles().iter().enumerate() {
             // In the order of the edges, so that the first of them is named.
@@ -144,14 +134,17 @@ impl Document {
                 .clone()
                 .map(|(edge, direction)| edges[edge].1[direction]);
             match taken.find(|&taken| taken != STAYS) {
-                Some(earlier) => kept[f] = earlier,
+                Some(earlier) => dropped[f] = EDGE | earlier,
                 None => crowded.for_each(|(edge, direction)| edges[edge].1[direction] = f as u32),
             }
         }
+        dropped
     }
 
-    fn drop_triangles(&mut self, gone: &[bool]) {
-        let stays = |triangle: usize| !gone[triangle];
+    /// Drops triangles, and says so.
+    fn drop_triangles(&mut self, dropped: &[Drop]) {
+        self.report_drops(dropped);
+        let stays = |triangle: usize| dropped[triangle] == STAYS;
         let mut polygons = Polygons::default();
         // Cut in place: the memory for two of them may not be there.
         let mut triangulation = self.triangulation.take();
@@ -192,32 +185,35 @@ impl Document {
         self.layout.replace(&mut self.text, count, <[u8]>::to_vec);
     }
 
-    fn report_drops(&mut self, kept: &[u32], reason: Reason) {
-        let dropped = kept.iter().zip(0..).filter(|(kept, _)| **kept != STAYS);
-        let count = dropped.clone().count();
-        for (number, (&kept, triangle)) in dropped.take(REPORTED + 1).enumerate() {
-            let line = self.line_of_triangle(triangle);
-            let message = match count - number {
-                more if number == REPORTED => {
-                    format!("and {more} more faces are dropped (the first here)")
-                }
-                _ => self.why(triangle, kept as usize, reason),
-            };
-            let warning = Diagnostic::warning(reason.code(), line, message);
-            self.diagnostics.push(warning);
+    fn report_drops(&mut self, dropped: &[Drop]) {
+        for (marks, code) in [(0, DUPLICATE), (PILLOW, PILLOWS), (EDGE, CROWDED)] {
+            let all = dropped.iter().copied().zip(0..);
+            let all = all.filter(|&(drop, _)| drop != STAYS && drop & (PILLOW | EDGE) == marks);
+            let count = all.clone().count();
+            for (number, (drop, triangle)) in all.take(REPORTED + 1).enumerate() {
+                let line = self.line_of_triangle(triangle);
+                let message = match count - number {
+                    more if number == REPORTED => {
+                        format!("and {more} more faces are dropped (the first here)")
+                    }
+                    _ => self.why(triangle, (drop ^ marks) as usize, code),
+                };
+                let warning = Diagnostic::warning(code, line, message);
+                self.diagnostics.push(warning);
+            }
         }
     }
 
-    fn why(&self, triangle: usize, kept: usize, reason: Reason) -> String {
+    fn why(&self, triangle: usize, kept: usize, code: &str) -> String {
         let what = match self.polygons.corners(self.polygon_of(triangle)).len() {
             3 => "this face",
             _ => "a triangle of this face",
         };
         let line = self.line_of_triangle(kept);
-        let why = match reason {
-            Reason::Duplicate => format!("has the same vertices as one on line {line}"),
-            Reason::Pillow => format!("lies back to back with one on line {line}"),
-            Reason::Edge => {
+        let why = match code {
+            DUPLICATE => format!("has the same vertices as one on line {line}"),
+            PILLOWS => format!("lies back to back with one on line {line}"),
+            _ => {
                 // They have no other edge in common, or they would have the same vertices.
                 let [one, other] = [triangle, kept].map(|face| sides(self.triangles()[face]));
                 let common = one.into_iter().find(|side| other.contains(side));
@@ -384,26 +380,17 @@ impl Document {
     }
 }
 
-/// The mark of a triangle that is not dropped.
-const STAYS: u32 = u32::MAX;
+/// What becomes of a triangle: [`STAYS`], or the one that stays in its place, with a mark for the reason. A
+/// file of large polygons has so many that a word for each is what its bound of memory leaves.
+type Drop = u32;
 
-/// Why a triangle is dropped.
-#[derive(Clone, Copy)]
-enum Reason {
-    Duplicate,
-    Pillow,
-    Edge,
-}
+const STAYS: Drop = u32::MAX;
+const PILLOW: Drop = 1 << 31;
+const EDGE: Drop = 1 << 30;
 
-impl Reason {
-    fn code(self) -> &'static str {
-        match self {
-            Reason::Duplicate => "W-OBJ-REPAIR-DUPLICATE",
-            Reason::Pillow => "W-OBJ-REPAIR-PILLOW",
-            Reason::Edge => "W-OBJ-REPAIR-EDGE",
-        }
-    }
-}
+const DUPLICATE: &str = "W-OBJ-REPAIR-DUPLICATE";
+const PILLOWS: &str = "W-OBJ-REPAIR-PILLOW";
+const CROWDED: &str = "W-OBJ-REPAIR-EDGE";
 
 fn sides([a, b, c]: [u32; 3]) -> [(u32, u32); 3] {
     [(a, b), (b, c), (c, a)]
