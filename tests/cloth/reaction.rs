@@ -83,33 +83,36 @@ fn a_free_particle_lacks_what_accelerates_it() {
 
 #[test]
 fn copies_of_a_torn_link_share_its_multiplier() {
-    let (mut mesh, _) = shapes::grid(2, 2);
-    let points = (0..9).map(|i| [f64::from(i % 3), 1.5 * f64::from(i / 3), 0.0]);
-    let positions = Positions::new(points).expect("positions");
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(80.0));
-    let system: &mut System = cloth.system_mut();
-    system.set_loads(gravity(0.0)).expect("loads");
-    (0..3).chain(6..9).for_each(|v| system.hold(v));
-    cloth.step(&mut Xpbd::new(4, 4), 0.05).expect("a step");
-    let centre = v(4);
-    let faces: Vec<_> = mesh.faces_of(centre).take(3).collect();
-    let forces = mesh.half_edges();
-    let forces = forces.map(|h| force::force_n(cloth.system(), cloth.stretch(h)));
-    let forces: Vec<f64> = forces.collect();
-    assert!(forces.iter().any(|f| f.abs() > 1e-4));
-    // So each copy is as near to tearing as the link was.
-    let threshold = Threshold::Force(2.0);
-    let loads = mesh.half_edges();
-    let loads = loads.map(|h| threshold.edge_load(&mesh, &cloth, h));
-    let loads: Vec<Option<f64>> = loads.collect();
-    let mut edits = Edits::new();
-    split::vertex(&mut mesh, centre, &faces, &mut edits).expect("a split");
-    edits.replay(&mut cloth);
-    for h in mesh.half_edges() {
-        let share = [1.0, 0.5][usize::from(mesh.ghost_pair(h).is_some())];
-        let force = force::force_n(cloth.system(), cloth.stretch(h));
-        assert_eq!(force, share * forces[h.index()], "{h}");
-        let load = threshold.edge_load(&mesh, &cloth, h);
-        assert_eq!(load, loads[h.index()], "{h}");
+    // By faces, and by edges.
+    for fabric in [Fabric::new(80.0), Fabric::of_edges(80.0)] {
+        let (mut mesh, _) = shapes::grid(2, 2);
+        let points = (0..9).map(|i| [f64::from(i % 3), 1.5 * f64::from(i / 3), 0.0]);
+        let positions = Positions::new(points).expect("positions");
+        let mut cloth = cloth(&mesh, &positions, fabric);
+        let system: &mut System = cloth.system_mut();
+        system.set_loads(gravity(0.0)).expect("loads");
+        (0..3).chain(6..9).for_each(|v| system.hold(v));
+        cloth.step(&mut Xpbd::new(4, 4), 0.05).expect("a step");
+        let centre = v(4);
+        let faces: Vec<_> = mesh.faces_of(centre).take(3).collect();
+        let forces = mesh.half_edges();
+        let forces = forces.map(|h| force::force_n(cloth.system(), cloth.stretch(h)));
+        let forces: Vec<f64> = forces.collect();
+        assert!(forces.iter().any(|f| f.abs() > 1e-4));
+        // So each copy is as near to tearing as the link was.
+        let threshold = Threshold::Force(2.0);
+        let loads = mesh.half_edges();
+        let loads = loads.map(|h| threshold.edge_load(&mesh, &cloth, h));
+        let loads: Vec<Option<f64>> = loads.collect();
+        let mut edits = Edits::new();
+        split::vertex(&mut mesh, centre, &faces, &mut edits).expect("a split");
+        edits.replay(&mut cloth);
+        for h in mesh.half_edges() {
+            let share = [1.0, 0.5][usize::from(mesh.ghost_pair(h).is_some())];
+            let force = force::force_n(cloth.system(), cloth.stretch(h));
+            assert_eq!(force, share * forces[h.index()], "{h}");
+            let load = threshold.edge_load(&mesh, &cloth, h);
+            assert_eq!(load, loads[h.index()], "{h}");
+        }
     }
 }
