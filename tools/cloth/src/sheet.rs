@@ -253,7 +253,7 @@ impl Cloth {
         &mut self.system
     }
 
-    /// Returns the positions of the vertices, in metres. The slice is a [`Place`].
+    /// Returns the positions of the vertices, in metres. The slice is a [`Place`](tearmesh::Place).
     #[must_use]
     pub fn positions(&self) -> &[Point] {
         self.system.positions()
