@@ -2,8 +2,8 @@
 //!
 //! What a cut adds is written behind the statements of its kind in the section that it comes from, so
 //! that every object keeps its vertices. A section of vertices ends where a face is written (with all parts
-//! of it, if it is divided), or an `o`; so does one of texture coordinates, and one of normals. A face that comes before what it
-//! names has that moved up before it, as in all that is written (`write.rs`).
+//! of it, if it is divided), or an `o`; so does one of texture coordinates, and one of normals. A face
+//! that comes before what it names has that moved up before it, as in all that is written (`write.rs`).
 //!
 //! Numbers behind a section change when something is added to it. Faces follow. Statements that
 //! are kept without being understood do not, and so where there are some that may name a
