@@ -307,9 +307,8 @@ fn for_rays(seed: u64, count: usize, mut visit: impl FnMut(&Work, [Ray; 2])) {
         dented(shapes::tube(14, 7), &mut random),
         dented(shapes::torus(16, 10), &mut random),
     ];
-    let names = [
-        "tshirt", "dress", "pants", "robe", "sleeve", "karate", "cylinder",
-    ];
+    // The robe of that corpus has vertices where fans only touch, and is no mesh.
+    let names = ["tshirt", "dress", "pants", "sleeve", "karate", "cylinder"];
     let names = names.map(|name| format!("arcsim_{name}"));
     let garments = corpus(&names.each_ref().map(|name| &**name)).into_iter();
     all.extend(garments.map(|path| Work::new(built(&File::read(&path).surface))));
