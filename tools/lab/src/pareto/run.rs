@@ -24,8 +24,12 @@ const REFERENCE_FRACTIONS: [f64; 2] = [0.125, 0.0625];
 /// steps of Verlet's.
 const NEWTON_STEPS: f64 = 20_000.0;
 
-/// The step of references at rest by Newton's method, in seconds.
+/// The longest step of references at rest by Newton's method, in seconds.
 const REST_STEP_S: f64 = 0.02;
+
+/// The number of edges that a pull travels in such a step at most. A flat sheet has no stiffness out of its plane, so
+/// a step that takes it far from there is not solved for.
+const REST_STEP_EDGES: f64 = 100.0;
 
 /// The mass ratio of the middle particle below which references are by Verlet's method with guards. Without
 /// them, the light particle would make all steps ten times as short.
@@ -53,7 +57,8 @@ pub(super) fn plan(case: &Case, index: usize) -> Vec<Row> {
         _ if case.is_of_energy() => {}
         Until::Rest(_) => {
             add("reference-verlet", Role::Verlet, plain_s, 0.5);
-            add("reference-newton", Role::Newton, REST_STEP_S, 1.0);
+            let newton_s = REST_STEP_S.min(REST_STEP_EDGES * case.edge_s());
+            add("reference-newton", Role::Newton, newton_s, 1.0);
             add("rest", Role::Rest, plain_s, 0.5);
         }
         Until::Time(seconds) | Until::Tears(seconds) => {

@@ -9,6 +9,7 @@ use tearmesh::Point;
 use super::*;
 use crate::experiment::{Chart, Provenance, conduct, read_table, table, workers};
 use crate::method::{Family, METHODS, STEP_FRACTIONS};
+use crate::reference::Reference;
 use crate::sheet::Sheet;
 
 const UNBOUNDED: Bounds<'static> = Bounds {
@@ -121,6 +122,19 @@ fn errors_of_an_oscillator_fall_at_the_orders_of_the_methods_and_pbd_has_no_limi
     // A rigid spring does not swing, whatever its step: it snaps back, or flies apart.
     for row in rows.iter().filter(|row| row.family == Some(Family::Pbd)) {
         assert!(row.error_total.is_none_or(|error| error > 0.3), "{row:?}");
+    }
+}
+
+#[test]
+fn scenes_that_end_at_rest_begin_with_a_step_that_newton_solves() {
+    let scenes = SCENES.iter();
+    let cases = scenes.map(|scene| Case::new(scene, MeshKind::Grid, 16));
+    for case in cases.filter(|case| matches!(case.scene.until, Until::Rest(_))) {
+        let keys = run::plan(&case, 0);
+        let newton = keys.iter().find(|key| key.run == "reference-newton");
+        let dt_s = newton.expect("a second reference").dt_s;
+        let step = case.system().step(&mut Reference::to_rest(), dt_s);
+        assert!(step.is_ok(), "{}: {step:?}", case.scene.name);
     }
 }
 
