@@ -85,21 +85,27 @@ pub(super) fn groups(rows: &[Row]) -> Vec<Group<'_>> {
     groups
 }
 
-/// The method that is the cheapest at an error of 1 % most often.
+/// The methods that are the cheapest at an error of 1 % most often.
 fn title(groups: &[Group<'_>]) -> String {
     let compared = groups.iter().filter(|group| !group.observable.is_energy());
     let winners = compared.filter_map(|group| group.cheapest(TITLE_ERROR)?.row.family);
     let winners: Vec<Family> = winners.collect();
     let wins = |family: &Family| winners.iter().filter(|one| *one == family).count();
-    match Family::all().rev().max_by_key(wins) {
-        Some(best) if wins(&best) > 0 => format!(
-            "{} is the cheapest way to an error below 1 % in {} of {} panels, by edge visits",
-            best.name(),
-            wins(&best),
-            winners.len(),
-        ),
-        _ => "No method reached an error below 1 %".to_owned(),
+    let most = Family::all().map(|family| wins(&family)).max().unwrap_or(0);
+    if most == 0 {
+        return "No method reached an error below 1 %".to_owned();
     }
+    let best = Family::all().filter(|family| wins(family) == most);
+    let best: Vec<&str> = best.map(Family::name).collect();
+    let how = match best.len() {
+        1 => "is the cheapest way",
+        _ => "are each the cheapest way",
+    };
+    format!(
+        "{} {how} to an error below 1 % in {most} of {} panels, by edge visits",
+        best.join(" and "),
+        winners.len(),
+    )
 }
 
 impl Group<'_> {
