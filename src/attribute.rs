@@ -164,7 +164,7 @@ impl<I, T> Values<I, T> {
     pub fn new(values: Vec<T>) -> Self {
         Values {
             values,
-            seen: Cursor::START,
+            seen: Cursor::ASSUMED,
             of: PhantomData,
         }
     }
@@ -178,7 +178,7 @@ impl<I, T> Values<I, T> {
     /// Returns the place in the log up to which these values have been replayed.
     #[must_use]
     pub fn seen(&self) -> Cursor {
-        self.seen
+        self.seen.known()
     }
 
     /// Reserves memory for `more` values. With as many as splits make vertices, replaying these

@@ -114,7 +114,7 @@ impl<T: Blend> DrawBuffers<T> {
             empty: Vec::new(),
             changed_slots: Marks::default(),
             changed_corners: Marks::default(),
-            seen: Cursor::START,
+            seen: Cursor::ASSUMED,
         };
         let mut by_vertex: Vec<HalfEdgeId> = mesh.half_edges().collect();
         by_vertex.sort_by_key(|&h| mesh.origin(h));

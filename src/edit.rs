@@ -86,12 +86,12 @@ impl Edits {
         Self::default()
     }
 
-    /// Creates an empty log that continues another one, which ended at `cursor`. It is meant for a
-    /// mesh that was saved together with its followers and their cursors.
+    /// Creates an empty log that continues another one, which ended at `cursor`: a mesh that was edited
+    /// has one numbering of its edits.
     #[must_use]
     pub fn starting_at(cursor: Cursor) -> Self {
         Edits {
-            end: cursor,
+            end: cursor.known(),
             ..Self::default()
         }
     }
@@ -133,7 +133,8 @@ impl Edits {
     ///
     /// # Panics
     ///
-    /// If `cursor` is not a place in this log, or if records after it were cleared.
+    /// If `cursor` is not a place in this log, if records after it were cleared, or if it is that of a
+    /// follower that has seen no log yet, and a vertex slides.
     #[must_use]
     pub fn since(
         &self,
@@ -166,6 +167,13 @@ impl Edits {
              log: it followed another one. One whose values are those of this mesh begins with \
              `starting_at(edits.cursor())`"
         );
+        let slid = |record: &Record| matches!(record.edit, Edit::Slide(_));
+        assert!(
+            !(cursor.is_assumed() && self.records[skipped..].iter().any(slid)),
+            "new: this follower has seen no log, and this one slides a vertex, which values made before \
+             it must follow and values made after it must not. Replay a new follower before the first \
+             edit, or say where it begins with `starting_at`"
+        );
         (skipped..self.records.len()).map(|i| self.record(i))
     }
 
@@ -174,8 +182,9 @@ impl Edits {
     ///
     /// # Panics
     ///
-    /// If a follower has seen the records of another log, or if records that it has not seen were
-    /// cleared. The message names the cause and the method to call.
+    /// If a follower has seen the records of another log, if records that it has not seen were
+    /// cleared, or if it is new and a vertex slides: its values may be those from before or after. The
+    /// message names the cause and the method to call.
     pub fn replay<F: Followers + ?Sized>(&self, followers: &mut F) {
         followers.see(self);
     }

@@ -49,7 +49,7 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 /// assert_eq!(mesh.edges().count(), 5);
 /// # Ok::<(), tearmesh::BuildError>(())
 /// ```
-#[derive(Clone, PartialEq, Eq, Hash)]
+#[derive(Clone)]
 pub struct Mesh {
     /// The vertex at which each half-edge starts, as `u32` so that
     /// [`Mesh::indices`] costs nothing.
@@ -58,6 +58,8 @@ pub struct Mesh {
     /// For each vertex the smallest half-edge that starts there, or [`NO_HALF_EDGE`].
     /// "Smallest" makes it a function of `origin`, so an undone split leaves no trace.
     outgoing: Vec<u32>,
+    /// How many times a vertex slid. No part of what the mesh is: [`PartialEq`] leaves it out.
+    slides: u32,
 }
 
 /// How many vertices and faces a mesh has.
@@ -279,6 +281,12 @@ impl Mesh {
 
     /// Relabels the origin of a corner. For the three operations alone: the invariants that
     /// tie origins to links are theirs to restore.
+    /// Counts a slide, and returns how many there were before.
+    pub(crate) fn count_slide(&mut self) -> u32 {
+        self.slides += 1;
+        self.slides - 1
+    }
+
     #[inline]
     pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
         self.origin[h.index()] = v.to_u32();
@@ -367,6 +375,14 @@ impl Mesh {
         self.link[opposite.index()].0 &= !Link::TORN;
     }
 }
+
+impl PartialEq for Mesh {
+    fn eq(&self, other: &Mesh) -> bool {
+        self.origin == other.origin && self.link == other.link && self.outgoing == other.outgoing
+    }
+}
+
+impl Eq for Mesh {}
 
 impl std::fmt::Debug for Mesh {
     /// Counts and, for a small mesh, its triangles; never a million lines.

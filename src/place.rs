@@ -72,7 +72,7 @@ impl Positions {
             .filter(|&(_, point)| check_point(point).is_err())
             .collect();
         if unusable.is_empty() {
-            let seen = Cursor::START;
+            let seen = Cursor::ASSUMED;
             Ok(Positions { points, seen })
         } else {
             Err(PositionError { unusable })
@@ -108,7 +108,7 @@ impl Positions {
     /// Returns the place in the log up to which these positions have been replayed.
     #[must_use]
     pub fn seen(&self) -> Cursor {
-        self.seen
+        self.seen.known()
     }
 
     /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates

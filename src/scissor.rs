@@ -383,6 +383,7 @@ impl Scissor {
         edits: &mut Edits,
         is_measured: bool,
     ) -> (Cut, Option<CutReport>) {
+        edits.replay(positions); // They are in step, and from now on not new.
         let is_exact = method == CutMethod::Exact;
         let (vertices_before, first) = (mesh.vertex_count(), edits.cursor());
         let offsets = &Offsets::new(&self.strip.plane, is_exact, mesh, positions);

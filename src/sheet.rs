@@ -83,7 +83,8 @@ impl<V: Followers> Sheet<V> {
     /// Sets the values that follow the edits of this sheet. They must be values of the mesh as it is
     /// now, and have seen what the positions have seen: nothing, for those that were just made.
     #[must_use]
-    pub fn with<W: Followers>(self, values: W) -> Sheet<W> {
+    pub fn with<W: Followers>(self, mut values: W) -> Sheet<W> {
+        self.edits.replay(&mut values);
         Sheet {
             mesh: self.mesh,
             positions: self.positions,

@@ -1,7 +1,7 @@
 //! The sliding of a vertex along an edge.
 //!
 //! A straight cut may move a vertex that is almost on its plane onto it ([`Scissor::snap_move`]).
-//! The mesh does not change, but its positions and other values do. Values at the vertex are
+//! The mesh does not change but for a count of slides; its positions and other values do. Values at the vertex are
 //! interpolated along the edge, so a texture on the surface stays in place, and the rest state of a
 //! cloth still describes the same cloth. Masses do not change.
 //!
@@ -37,16 +37,17 @@ use crate::mesh::Mesh;
 /// ```
 /// use tearmesh::{shapes, slide, Edits, VertexId};
 ///
-/// let (mesh, mut positions) = shapes::grid(2, 1);
+/// let (mut mesh, mut positions) = shapes::grid(2, 1);
 /// let [v, w] = [0, 1].map(|i| VertexId::new(i).unwrap());
 /// let mut edits = Edits::new();
-/// slide::toward(&mesh, v, w, 0.25, &mut edits)?;
+/// edits.replay(&mut positions); // They are those from before the slide.
+/// slide::toward(&mut mesh, v, w, 0.25, &mut edits)?;
 /// edits.replay(&mut positions);
 /// assert_eq!(positions.at(v).x, 0.125);
 /// # Ok::<(), slide::SlideRefusal>(())
 /// ```
 pub fn toward<'e>(
-    mesh: &Mesh,
+    mesh: &mut Mesh,
     vertex: VertexId,
     toward: VertexId,
     t: f64,
@@ -78,6 +79,7 @@ pub fn toward<'e>(
         t,
         along,
         corners: &[],
+        slides_before: mesh.count_slide(),
     };
     let Edit::Slide(slide) = edits.finish(Edit::Slide(slide), 0, mesh.size()) else {
         unreachable!("a slide was finished");

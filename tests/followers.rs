@@ -8,8 +8,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    Blend, Cursor, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix, PerCorner,
-    PerFace, PerVertex, Positions, VertexId, mend, shapes, slide, split,
+    Blend, Cursor, DrawBuffers, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix,
+    PerCorner, PerFace, PerVertex, Positions, VertexId, mend, shapes, slide, split,
 };
 
 use crate::cases::cases;
@@ -127,7 +127,7 @@ impl Work {
         let h = self.half_edge();
         let (v, w) = (self.mesh.origin(h), self.mesh.target(h));
         let t = 0.01 + 0.98 * self.random.next();
-        slide::toward(&self.mesh, v, w, t, &mut self.edits).expect("an edge");
+        slide::toward(&mut self.mesh, v, w, t, &mut self.edits).expect("an edge");
         self.counts[4] += 1;
     }
 
@@ -217,6 +217,8 @@ fn followers_by_the_normal_form_keep_what_the_records_say() {
         let mut vertices = PerVertex::new(plain.vertices.clone());
         let mut corners = PerCorner::new(plain.corners.clone());
         let mut faces = PerFace::new(plain.faces.clone());
+        let ours = (&mut vertices, &mut corners, &mut faces);
+        work.edits.replay(&mut (ours, &mut positions));
         let (length, start) = (4 + work.random.below(28), work.random.below(28));
         let mut foreign = None;
         for step in 0..length {
@@ -316,22 +318,23 @@ fn a_follower_that_is_not_in_step_is_told_why() {
 }
 
 #[test]
-fn a_place_in_a_log_survives_saving_and_clearing() {
+fn a_place_in_a_log_survives_clearing() {
     let (mut mesh, mut edits) = splits_of(&[0, 1, 2]);
     let place = edits.cursor();
     assert_eq!(place.number(), 3);
     // Of this sequence of edits, on every machine.
-    let bits = u128::from_be_bytes(place.to_bytes());
-    assert_eq!(bits, 0x0000_0000_0000_0003_e3b1_7fff_d353_e395);
-    let saved = Cursor::from_bytes(place.to_bytes());
-    assert_eq!(saved, place);
+    let hash = 0xe3b1_7fff_d353_e395_u64;
+    assert_eq!(
+        format!("{place:?}"),
+        format!("Cursor {{ number: 3, hash: {hash} }}")
+    );
     let mut values = ones();
     edits.replay(&mut values);
     edits.clear();
     assert_eq!(edits.cursor(), place);
     // A session goes on where another one ended.
-    let mut resumed = Edits::starting_at(saved);
-    let mut values = PerVertex::new(values.as_slice().to_vec()).starting_at(saved);
+    let mut resumed = Edits::starting_at(place);
+    let mut values = PerVertex::new(values.as_slice().to_vec()).starting_at(place);
     let mut again = mesh.clone();
     for (mesh, edits) in [(&mut mesh, &mut edits), (&mut again, &mut resumed)] {
         split::vertex(mesh, vertex(0), &[face(3)], edits).expect("one stays");
@@ -474,6 +477,61 @@ fn lists_of_the_wrong_length_are_refused_by_every_edit() {
             }
         }
     }
+}
+
+/// A row of two squares whose first vertex slides toward the second, and its log.
+fn slid() -> (Mesh, Edits) {
+    let (mut mesh, mut edits) = (shapes::grid(2, 1).0, Edits::new());
+    slide::toward(&mut mesh, vertex(0), vertex(1), 0.25, &mut edits).expect("an edge");
+    (mesh, edits)
+}
+
+/// Of a slide their number does not tell when they were made.
+#[test]
+fn values_made_after_a_slide_do_not_slide_again() {
+    let (mesh, edits) = slid();
+    let points = vec![[0.0; 3]; mesh.vertex_count()];
+    let corners = vec![0.0; mesh.half_edge_count()];
+    let mut positions = Positions::new(points).expect("finite");
+    let mut vertices = PerVertex::new(vec![0.0; mesh.vertex_count()]);
+    let mut of_corners = PerCorner::new(corners.clone());
+    let mut buffers = DrawBuffers::new(&mesh, corners);
+    for told in [
+        panic_of(|| edits.replay(&mut positions)),
+        panic_of(|| edits.replay(&mut vertices)),
+        panic_of(|| edits.replay(&mut of_corners)),
+        panic_of(|| edits.replay(&mut buffers)),
+    ] {
+        assert!(told.starts_with("new: this follower"), "{told}");
+    }
+    let mut now = vertices.clone().starting_at(edits.cursor());
+    edits.replay(&mut now);
+    assert_eq!(now.as_slice(), vertices.as_slice());
+    // Who was there before says so, or has replayed the log when it was empty.
+    let mut said = PerVertex::new(vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]).starting_at(Cursor::START);
+    let mut there = PerVertex::new(said.as_slice().to_vec());
+    Edits::new().replay(&mut there);
+    edits.replay(&mut (&mut said, &mut there));
+    for before in [said, there] {
+        assert_eq!(before.as_slice()[..2], [0.25, 1.0]);
+    }
+}
+
+/// Of a mesh that was slid before: its log begins anew, its followers do not.
+#[test]
+fn a_slide_in_a_new_log_is_not_taken_for_an_equal_one() {
+    let (mut mesh, edits) = slid();
+    let mut values = PerVertex::new(vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]).starting_at(Cursor::START);
+    edits.replay(&mut values);
+    let mut others = Edits::new();
+    slide::toward(&mut mesh, vertex(0), vertex(1), 0.25, &mut others).expect("an edge");
+    let told = panic_of(|| others.replay(&mut values));
+    assert!(told.starts_with("foreign: "), "{told}");
+    // A log that goes on does.
+    let mut more = Edits::starting_at(edits.cursor());
+    slide::toward(&mut mesh, vertex(0), vertex(1), 0.25, &mut more).expect("an edge");
+    more.replay(&mut values);
+    assert_eq!(values.as_slice()[0], 0.25 + 0.75 * 0.25);
 }
 
 /// Panics at a call, and follows else.

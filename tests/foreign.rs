@@ -73,8 +73,9 @@ fn cases<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
         more(&mut plan, ChordEnd::Point(point));
         world.insert(&plan, quiet);
     };
-    let slide =
-        move |w: &mut World, v, toward| slide::toward(&w.mesh, v, toward, t, &mut w.edits).is_ok();
+    let slide = move |w: &mut World, v, toward| {
+        slide::toward(&mut w.mesh, v, toward, t, &mut w.edits).is_ok()
+    };
 
     let mut cases = Cases::default();
     let near = corner.face();
@@ -231,7 +232,7 @@ fn regression_foreign_ids_beside_own_ones_change_nothing() {
     let faces = [0, 9].map(|f| FaceId::new(f).expect("an id"));
     let mut edits = Edits::new();
     let split = panic_of(|| split::vertex(&mut mesh, hub, &faces, &mut edits).is_ok());
-    let slide = panic_of(|| slide::toward(&mesh, hub, foreign, 0.5, &mut edits).is_ok());
+    let slide = panic_of(|| slide::toward(&mut mesh, hub, foreign, 0.5, &mut edits).is_ok());
     assert_eq!(mesh, before, "the mesh is as it was");
     for (panic, told) in [
         (split, "I2: f9 is not a face of this mesh, which has 4"),

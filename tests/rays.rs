@@ -7,8 +7,8 @@ use std::ops::Neg as _;
 
 use tearmesh::script::Script;
 use tearmesh::{
-    COORDINATE_MAX, Cursor, CutError, CutMethod, CutReport, CutTips, Edits, Masses, Mesh, Point,
-    Positions, Ray, Scissor, ScissorError, Vector,
+    COORDINATE_MAX, Cursor, CutError, CutMethod, CutReport, CutTips, Edits, FaceId, Masses, Mesh,
+    Point, Positions, Ray, Scissor, ScissorError, Vector, VertexId, shapes, split,
 };
 
 use crate::work::Work;
@@ -239,9 +239,13 @@ fn length(v: Vector) -> f64 {
 
 fn a_refused_cut_changes_nothing(scissor: &Scissor, mesh: &Mesh, positions: &Positions) {
     let (mut after, mut edits) = (mesh.clone(), Edits::new());
+    let (mut fan, mut log) = (shapes::fan(3, true).0, Edits::new());
+    let (v, f) = (VertexId::new(0), FaceId::new(0));
+    let split = split::vertex(&mut fan, v.expect("an id"), &[f.expect("an id")], &mut log);
+    split.expect("two faces stay");
     let fewer = positions.as_slice()[1..].iter().copied();
     for refused in [
-        positions.clone().starting_at(Cursor::from_bytes([1; 16])),
+        positions.clone().starting_at(log.cursor()),
         Positions::new(fewer).expect("they were usable"),
     ] {
         let mut places = refused.clone();

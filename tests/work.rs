@@ -67,13 +67,15 @@ pub(crate) struct Work {
 impl Work {
     pub(crate) fn new((mesh, positions): (Mesh, Positions)) -> Work {
         let place = |h| positions.at(mesh.origin(h)).into();
-        Work {
+        let mut work = Work {
             masses: Masses::area(&mesh, &positions, 1.0).expect("it has an area"),
             corners: PerCorner::new(mesh.half_edges().map(place).collect()),
             edits: Edits::new(),
             mesh,
             positions,
-        }
+        };
+        work.follow();
+        work
     }
 
     /// Cuts, and checks what holds of every cut.

@@ -96,6 +96,7 @@ impl Slide<'_> {
     fn add_to(&self, hash: &mut RunningHash) {
         hash.add_pair([self.vertex.into(), self.toward.into()]);
         hash.add(self.t.to_bits());
+        hash.add(self.slides_before.into());
     }
 }
 
@@ -244,4 +245,7 @@ pub struct Slide<'e> {
     pub along: [Option<[HalfEdgeId; 2]>; 2],
     /// All corners of `vertex`, in the order of a walk around it.
     pub corners: &'e [HalfEdgeId],
+    /// How many times a vertex of the mesh had slid before. It tells a slide from an equal one, as a split
+    /// is told by the number of its new vertex.
+    pub slides_before: u32,
 }

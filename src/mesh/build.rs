@@ -79,6 +79,7 @@ fn build(vertices: usize, triangles: &[[u32; 3]]) -> Option<Mesh> {
         origin,
         link,
         outgoing,
+        slides: 0,
     };
     (every_vertex_has_one_fan(&mesh) && no_face_lies_on_another(&mesh)).then_some(mesh)
 }

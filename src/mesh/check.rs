@@ -117,6 +117,7 @@ impl Report<'_> {
             origin,
             link,
             outgoing,
+            ..
         } = self.mesh;
         let (corners, vertices) = (origin.len(), outgoing.len());
         if corners % 3 != 0 || link.len() != corners || corners > 3 * Mesh::MAX_FACES {
@@ -458,6 +459,7 @@ mod tests {
                     .collect(),
                 link: vec![Link::BOUNDARY; 6],
                 origin,
+                slides: 0,
             }
         };
         for (second, invariant) in [

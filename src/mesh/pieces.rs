@@ -93,6 +93,7 @@ impl Mesh {
             origin: vec![0; corners.len()],
             link: corners.iter().map(link).collect(),
             outgoing: Vec::new(),
+            slides: 0,
         };
         // The smallest half-edge of the orbit of each.
         let mut orbit = vec![NO_HALF_EDGE; corners.len()];

@@ -154,7 +154,7 @@ impl World {
     pub fn of(mesh: Mesh, positions: Positions) -> World {
         let masses = "a mesh with an area has masses";
         let place = |h| positions.at(mesh.origin(h)).coords.into();
-        World {
+        let mut world = World {
             area: Masses::area(&mesh, &positions, 1.0).expect(masses),
             half: Some(Masses::half(&mesh, &positions, 1.0).expect(masses)),
             indices: mesh.indices().to_vec(),
@@ -164,7 +164,10 @@ impl World {
             edits: Edits::new(),
             mesh,
             positions,
-        }
+        };
+        let begin = (&mut world.positions, &mut world.corners);
+        world.edits.replay(&mut { begin });
+        world
     }
 
     /// Applies an operation, and calls `observe` after each of its steps.
@@ -266,7 +269,7 @@ impl World {
                 let around: Vec<_> = faces.flat_map(|f| self.mesh.face_vertices(f)).collect();
                 let toward = self.among(toward, |w| any || (w != vertex && around.contains(&w)));
                 let t = f64::from(part) / 64.0;
-                let slide = slide::toward(&self.mesh, vertex, toward, t, &mut self.edits);
+                let slide = slide::toward(&mut self.mesh, vertex, toward, t, &mut self.edits);
                 let outcome = slide.map(|slide| slide.before);
                 let step = Step::Slide {
                     vertex,

@@ -73,6 +73,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 8] {
     (0..8).for_each(|v| system.hold(v));
     let total = cloth.masses().total();
     let mut edits = Edits::new();
+    edits.replay(&mut oracle);
     let mut counts = [0; 8];
     let mut grabbed: Option<usize> = None;
     for step in 0..steps {

@@ -95,7 +95,7 @@ fn divide_and_mend(
 ) {
     torn.next_cut();
     let mut edits = Edits::new();
-    slide_some(&mesh, places, &mut edits);
+    slide_some(&mut mesh, places, &mut edits);
     let mut plan = Plan::new();
     for chunk in places.chunks_exact(3).take(16) {
         let place = usize::from(u16::from_le_bytes([chunk[1], chunk[2]]));
@@ -165,7 +165,7 @@ fn keeps_what_may_name_numbers(file: &[u8]) -> bool {
 }
 
 /// Slides vertices, of which there are no copies, along edges.
-fn slide_some(mesh: &Mesh, places: &[u8], edits: &mut Edits) {
+fn slide_some(mesh: &mut Mesh, places: &[u8], edits: &mut Edits) {
     let mut copies = vec![0; mesh.vertex_count()];
     let roots = mesh.roots();
     for &root in &roots {

@@ -23,12 +23,14 @@ pub(crate) struct Work<'d> {
 
 impl<'d> Work<'d> {
     pub(crate) fn on(document: &'d Document) -> Work<'d> {
-        Work {
+        let mut work = Work {
             mesh: document.mesh().unwrap_or_else(|error| panic!("{error}")),
             positions: positions(document),
             torn: TornDocument::new(document),
             edits: Edits::new(),
-        }
+        };
+        work.follow();
+        work
     }
 
     fn follow(&mut self) {

@@ -14,7 +14,12 @@ const ALTITUDE_KEPT: f64 = 0.3;
 /// Slides the vertices of the slit that stand for crossings, as far as that does no harm; see
 /// [`Scissor::snap_move`](super::super::Scissor::snap_move). A vertex near which the plane merely
 /// passes stays: nothing is cut there.
-pub(super) fn onto_plane(trace: &Trace, mesh: &Mesh, positions: &mut Positions, edits: &mut Edits) {
+pub(super) fn onto_plane(
+    trace: &Trace,
+    mesh: &mut Mesh,
+    positions: &mut Positions,
+    edits: &mut Edits,
+) {
     let nodes = trace.nodes();
     for &Snapped {
         vertex, toward, t, ..

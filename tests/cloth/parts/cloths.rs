@@ -158,7 +158,8 @@ pub(crate) fn edit(mesh: &mut Mesh, cloth: &Cloth, edits: &mut Edits, random: &m
         3 => {
             let h = half_edge(mesh, random);
             let t = 0.01 + 0.2 * random.below(1000) as f64 / 1000.0;
-            slide::toward(mesh, mesh.origin(h), mesh.target(h), t, edits).expect("a slide");
+            let [vertex, toward] = [mesh.origin(h), mesh.target(h)];
+            slide::toward(mesh, vertex, toward, t, edits).expect("a slide");
             Done::Slide
         }
         _ => {
