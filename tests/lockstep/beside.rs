@@ -1,14 +1,8 @@
 //! What is kept beside a mesh: positions, masses, data of vertices and corners.
 
-use std::collections::BTreeMap;
+use tearmesh::{ChildFace, HalfEdgeId, Masses, Mix, PerCorner, Positions, VertexId};
 
-use tearmesh::script::World;
-use tearmesh::{
-    ChildFace, Edit, HalfEdgeId, Insert, InsertLocation, Masses, Mesh, Mix, PerCorner, PerVertex,
-    Positions, Slide, VertexId,
-};
-
-use crate::oracle::{Soup, WHOLE, between};
+use crate::oracle::{Soup, WHOLE};
 
 /// I20: positions are copied bit for bit, and nothing moves but what slides or is merged.
 pub(super) fn every_vertex_is_where_the_soup_has_it(positions: &Positions, soup: &Soup) {
@@ -82,102 +76,6 @@ pub(super) fn every_corner_is_where_its_vertex_is(corners: &PerCorner<[f64; 3]>,
     }
 }
 
-/// Numbers that have nothing to do with each other, so that no two places can be mistaken.
-fn scattered(i: usize) -> f64 {
-    ((i * 7919 + 13) % 1009) as f64 / 16.0
-}
-
-/// The places of all vertices, and a number for each.
-type Values = Vec<[f64; 4]>;
-
-fn values(positions: &Positions, numbers: &PerVertex<f64>) -> Values {
-    let points = positions.as_slice().iter().zip(numbers.as_slice());
-    points.map(|(p, &x)| [p.x, p.y, p.z, x]).collect()
-}
-
-/// Scattered values of vertices before an edit and after it, and of corners after it.
-fn scattered_values(mesh: &Mesh, edit: &Edit<'_>) -> ([Values; 2], Vec<f64>) {
-    let seen = edit.before();
-    let point = |v: VertexId| [0, 1, 2].map(|i| scattered(3 * v.index() + i));
-    let positions = Positions::new(mesh.vertices().map(point)).expect("small numbers");
-    let numbers = mesh.vertices().map(|v| scattered(v.index()));
-    let corners = mesh.half_edges().map(|h| scattered(h.index()));
-    let mut positions = positions.starting_at(seen);
-    let mut numbers = PerVertex::new(numbers.collect()).starting_at(seen);
-    let mut corners = PerCorner::new(corners.collect()).starting_at(seen);
-    let old = values(&positions, &numbers);
-    edit.pass_on(&mut positions);
-    edit.pass_on(&mut numbers);
-    edit.pass_on(&mut corners);
-    let new = values(&positions, &numbers);
-    ([old, new], corners.as_slice().to_vec())
-}
-
-/// Vertices that are new, merged or slid, and new corners, have what the record's weights give,
-/// wherever the copies of the ends have moved meanwhile; all others keep what they have.
-pub(super) fn new_values_come_from_the_right_places(mesh: &Mesh, edit: &Edit<'_>) {
-    let ([old, new], corners) = scattered_values(mesh, edit);
-    let mut was: Vec<usize> = (0..old.len()).collect();
-    let mut made: BTreeMap<usize, Vec<(VertexId, f64)>> = BTreeMap::new();
-    match edit {
-        Edit::Split(split) => was.push(split.old.index()),
-        Edit::Insert(insert) => {
-            for point in insert.points {
-                let weights = match point.at {
-                    InsertLocation::Edge { ends: [a, b], t } => vec![(a, 1.0 - t), (b, t)],
-                    InsertLocation::Face { vertices, weights } => {
-                        vertices.into_iter().zip(weights).collect()
-                    }
-                };
-                made.insert(point.vertex.index(), weights);
-                was.push(usize::MAX);
-            }
-            corners_come_from_their_faces(mesh, insert, &corners);
-        }
-        Edit::Merge(merge) => {
-            was.swap_remove(merge.gone.index());
-            let weights = vec![(merge.kept, merge.share), (merge.gone, 1.0 - merge.share)];
-            made.insert(merge.kept.index(), weights);
-        }
-        Edit::Slide(slide) => {
-            let weights = vec![(slide.vertex, 1.0 - slide.t), (slide.toward, slide.t)];
-            made.insert(slide.vertex.index(), weights);
-        }
-    }
-    assert_eq!(new.len(), was.len());
-    for (v, (new, was)) in new.iter().zip(was).enumerate() {
-        let Some(weights) = made.get(&v) else {
-            assert_eq!(*new, old[was], "{v} after {edit:?}");
-            continue;
-        };
-        for (i, x) in new.iter().enumerate() {
-            let mean: f64 = weights.iter().map(|&(v, w)| w * old[v.index()][i]).sum();
-            assert!((x - mean).abs() < 1e-9, "{v} after {edit:?}");
-        }
-    }
-}
-
-/// Of the children of divided faces; all others keep what they have.
-fn corners_come_from_their_faces(mesh: &Mesh, insert: &Insert<'_>, corners: &[f64]) {
-    let mut divided = vec![false; corners.len()];
-    for child in insert.children {
-        for (h, source) in child.face.half_edges().into_iter().zip(child.sources) {
-            let weights = weights_in_parent(child, &source);
-            let parent = child.parent.half_edges().map(|h| scattered(h.index()));
-            let mean: f64 = (0..3).map(|i| weights[i] * parent[i]).sum();
-            assert!((corners[h.index()] - mean).abs() < 1e-9, "{h} of {child:?}");
-            divided[h.index()] = true;
-        }
-    }
-    for h in mesh
-        .half_edges()
-        .map(HalfEdgeId::index)
-        .filter(|&h| !divided[h])
-    {
-        assert_eq!(corners[h], scattered(h), "{h} is of no divided face");
-    }
-}
-
 /// The weights of the corners of the parent in a corner of a child.
 pub(super) fn weights_in_parent(child: &ChildFace, source: &Mix<HalfEdgeId>) -> [f64; 3] {
     let mut weights = [0.0; 3];
@@ -194,31 +92,4 @@ pub(super) fn weights_in_parent(child: &ChildFace, source: &Mix<HalfEdgeId>) -> 
         Mix::Weighted { weights: given, .. } => weights = given,
     }
     weights
-}
-
-/// Where a vertex slides, its corners in the faces of the edge have what lies between the two ends in
-/// that face, and its other corners with the same value go with them; all others keep theirs.
-pub(super) fn corners_go_along(before: &World, after: &World, slide: &Slide<'_>) {
-    let [was, is] = [before, after].map(|world| world.corners.as_slice());
-    let ends = [slide.vertex, slide.toward].map(u32::from);
-    let faces = before.mesh.indices().as_chunks::<3>().0.iter().enumerate();
-    let along = faces.filter_map(|(f, face)| {
-        let [corner, toward] = ends.map(|end| face.iter().position(|&v| v == end));
-        let [corner, toward] = [3 * f + corner?, 3 * f + toward?];
-        Some((corner, between(was[corner], was[toward], slide.t)))
-    });
-    let along: Vec<(usize, [f64; 3])> = along.collect();
-    for (h, &v) in before.mesh.indices().iter().enumerate() {
-        let own = along.iter().find(|(corner, _)| *corner == h);
-        let alike: Vec<_> = along
-            .iter()
-            .filter(|(corner, _)| v == ends[0] && was[*corner] == was[h])
-            .collect();
-        let expected = match own {
-            Some((_, value)) => is[h] == *value,
-            None if alike.is_empty() => is[h] == was[h],
-            None => alike.iter().any(|(_, value)| is[h] == *value),
-        };
-        assert!(expected, "corner {h} went from {:?} to {:?}", was[h], is[h]);
-    }
 }

@@ -123,6 +123,10 @@ pub(super) fn changes_nothing_else(before: &Mesh, after: &Mesh, insert: &Insert<
         before.face_count() + children - families,
         "faces"
     );
+    for family in insert.families() {
+        assert_eq!(family.children()[0].face, family.parent());
+        assert!(family.children().len() > 1, "it is divided");
+    }
     for f in before.faces() {
         if insert.families().all(|family| family.parent() != f) {
             assert_eq!(

@@ -203,7 +203,6 @@ impl Model {
         assert_eq!((edit.before(), edit.after()), (place, world.edits.cursor()));
         assert_eq!(place.number() + 1, world.edits.cursor().number());
         let [before, after] = [&self.before, world];
-        beside::new_values_come_from_the_right_places(&before.mesh, &edit);
         match edit {
             Edit::Split(split) => {
                 split::changes_nothing_else(&before.mesh, &after.mesh, &split);
@@ -229,7 +228,6 @@ impl Model {
             }
             Edit::Slide(slide) => {
                 slide::changes_nothing_else(before, after, &slide);
-                beside::corners_go_along(before, after, &slide);
                 self.done.slides += 1;
             }
         }
