@@ -49,7 +49,6 @@ enum Span {
 /// What was done.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Done {
-    pub(crate) cuts: usize,
     /// Cuts that split something: by a plane alone, and of what rays see first.
     pub(crate) by_planes: usize,
     pub(crate) of_first: usize,
@@ -213,7 +212,6 @@ impl World {
             assert_eq!(now, before.as_slice(), "old vertices stay");
         }
         self.count(first);
-        self.done.cuts += 1;
         let splits = usize::from(report.splits > 0);
         match span {
             Span::All => {}

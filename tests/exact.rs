@@ -219,23 +219,6 @@ fn a_snap_that_moves_makes_the_seam_straight() {
     assert!(median < 1e-12 && moved > 150, "{median}, {moved} moved");
 }
 
-#[test]
-fn random_cuts_of_all_methods_can_be_mended() {
-    let mut random = Random(59);
-    let mut done = crate::cut_mend::Done::default();
-    for _ in 0..4000 {
-        let bytes = random.bytes(120);
-        let case = crate::cut_mend::Case::from_bytes(&bytes);
-        let result = std::panic::catch_unwind(|| case.check());
-        let Ok(one) = result else {
-            panic!("{bytes:?}: {case:?}");
-        };
-        done.by_planes += one.by_planes;
-        done.of_first += one.of_first;
-    }
-    assert!(done.by_planes >= 500 && done.of_first >= 500, "{done:?}");
-}
-
 /// Whatever was snapped: a snapped vertex stands for the crossing, also where it lies beyond a side
 /// plane itself.
 #[test]
@@ -262,31 +245,6 @@ fn snapped_slits_are_whole_and_of_the_right_length() {
         println!("snap {snap}: length off by {mean:.3} edges, {longest:.3} at most");
         // Tips move rather than leave a thin face, by less than the way through one face.
         assert!(mean < mean_max && longest < most);
-    }
-}
-
-/// A sheet folded along an edge on the plane, with both faces on one side, is touched and not
-/// cut; so is one with a strip in the plane.
-#[test]
-fn touching_is_not_cutting() {
-    let edge = vec![[0.0; 3], [0.0, 1.0, 0.0]];
-    let surface = |points: &[[f64; 3]], faces: &[[u32; 3]]| Surface {
-        points: [&edge, points].concat(),
-        faces: faces.to_vec(),
-    };
-    let fold = [[0, 1, 2], [1, 0, 3]];
-    let touched = surface(&[[1.0, 0.5, 0.5], [1.0, 0.5, -0.5]], &fold);
-    let cut = surface(&[[1.0, 0.5, 0.5], [-1.0, 0.5, -0.5]], &fold);
-    let upper = [[0.0, 1.0, 1.0], [0.0, 0.0, 1.0]];
-    let strip = surface(
-        &[&upper[..], &[[1.0, 0.5, -0.5], [1.0, 0.5, 1.5]]].concat(),
-        &[[0, 1, 2], [0, 2, 3], [1, 0, 4], [3, 2, 5]],
-    );
-    let plane = between([0.0, -1.0], [0.0, 2.0]).through(true);
-    for (surface, expected) in [(touched, [0, 0, 1]), (strip, [0, 0, 1]), (cut, [2, 0, 2])] {
-        let report = Work::of(&surface).exact(&plane);
-        let counts = [report.splits, report.vertices_inserted, report.pieces];
-        assert_eq!(counts, expected, "{report:?}");
     }
 }
 

@@ -1,11 +1,13 @@
 //! Replays what the fuzz targets of the library start from, and what they found.
 
+use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
 
 use arbitrary::{Arbitrary as _, Unstructured};
 use tearmesh::script::Script;
 
 use crate::cases::cases;
+use crate::cut_mend;
 use crate::lockstep;
 use crate::random::Random;
 use crate::rays::{Case, Outcome};
@@ -66,11 +68,20 @@ fn scripts_that_fuzzing_found_agree_with_the_oracle() {
     }
 }
 
+/// And cuts of random bytes.
 #[test]
-fn cuts_of_seeds_and_finds_can_be_mended() {
-    let cut = |bytes: Vec<u8>| crate::cut_mend::Case::from_bytes(&bytes).check().cuts;
-    let cuts: usize = seeds_and_finds("cut_mend").map(cut).sum();
-    assert!(cuts >= 20, "only {cuts} cuts");
+fn cuts_of_seeds_finds_and_random_bytes_are_mended() {
+    let mut random = Random(59);
+    let random_bytes = (0..4_000).map(|_| random.bytes(120));
+    let mut done = cut_mend::Done::default();
+    for bytes in seeds_and_finds("cut_mend").chain(random_bytes) {
+        let case = cut_mend::Case::from_bytes(&bytes);
+        let checked = catch_unwind(|| case.check());
+        let one = checked.unwrap_or_else(|_| panic!("{bytes:?}: {case:?}"));
+        done.by_planes += one.by_planes;
+        done.of_first += one.of_first;
+    }
+    assert!(done.by_planes >= 500 && done.of_first >= 500, "{done:?}");
 }
 
 /// And rays of random bytes.

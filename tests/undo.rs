@@ -6,14 +6,11 @@
 
 use std::collections::BTreeSet;
 
-use tearmesh::mend::{self, Stitch};
+use tearmesh::mend;
 use tearmesh::script::World;
-use tearmesh::{
-    CutMethod, Edit, Edits, FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Mix, Point, Positions,
-    Ray, RemovalPlan, Scissor, Vector, VertexId, shapes,
-};
+use tearmesh::{Edit, FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Mix, RemovalPlan, VertexId};
 
-use crate::cases::{cases, scripts};
+use crate::cases::scripts;
 use crate::random::Random;
 
 /// A place in a face, by the weights of its corners.
@@ -292,7 +289,7 @@ impl Plain {
 }
 
 #[test]
-fn the_input_comes_back_once_everything_is_sewn_and_before_that_what_keeps_nothing_apart_goes() {
+fn insertions_that_keep_nothing_apart_are_undone() {
     let (mut count, mut sewn, mut partly) = (0, 0, 0);
     let (mut removed, mut left, mut kept_by_value) = (0, 0, 0);
     for (seed, script) in scripts(3_000).enumerate() {
@@ -355,74 +352,4 @@ fn the_input_comes_back_once_everything_is_sewn_and_before_that_what_keeps_nothi
     );
     assert!(2 * sewn > count && partly > count && removed > count && left > count);
     assert!(10 * kept_by_value > count);
-}
-
-/// How long all tears are together, each counted once, and how many pieces there are.
-fn tears(mesh: &Mesh, at: impl Fn(VertexId) -> Point) -> (f64, usize) {
-    let torn = mesh
-        .half_edges()
-        .filter(|&h| mesh.ghost_pair(h).is_some_and(|ghost| h < ghost));
-    let length = torn.map(|h| (at(mesh.target(h)) - at(mesh.origin(h))).norm());
-    (length.sum(), mesh.components().count())
-}
-
-/// Two cuts between places on and beside the vertices of a grid, so that they run along its edges, end
-/// on them, and cross. Undoing the second leaves the first as it was, and nothing of the second.
-#[test]
-fn undoing_the_last_of_two_cuts_leaves_the_first_as_it_was() {
-    let (mut crossed, mut removed) = (0, 0);
-    for seed in 0..cases(2_000) {
-        let mut random = Random(seed);
-        let (mut mesh, mut positions) = shapes::grid(3, 3);
-        let mut plain = Plain::new(&mesh);
-        let mut edits = Edits::new();
-        let mut cut = |mesh: &mut Mesh, positions: &mut Positions, edits: &mut Edits| {
-            let mut place = || {
-                let [x, y] = [(); 2].map(|()| (15.0 * random.next()).floor() / 2.0 - 2.0);
-                Point::new(x / 3.0, y / 3.0, 1.0)
-            };
-            let rays =
-                [place(), place()].map(|place| Ray::new(place, -Vector::z()).expect("a ray"));
-            let through = random.next() < 0.3;
-            let Ok(scissor) = Scissor::new(rays[0], rays[1]) else {
-                return;
-            };
-            scissor
-                .through(through)
-                .cut(CutMethod::Exact, mesh, positions, edits)
-                .expect("in step");
-        };
-        cut(&mut mesh, &mut positions, &mut edits);
-        edits.iter().for_each(|edit| plain.follow(&edit));
-        let simplified = |plain: &Plain, mesh: &Mesh, positions: &Positions| {
-            let plan = plain.plan(mesh, |_| true, |_, _| true);
-            let (made, vertices) = plain.restored(mesh, &plan);
-            let is = tears(mesh, |v| positions.at(v));
-            let becomes = tears(&made, |v| positions.at(vertices[v.index()]));
-            let same = (is.0 - becomes.0).abs() < 1e-9 && is.1 == becomes.1;
-            assert!(same, "case {seed}: {is:?} becomes {becomes:?}");
-            made
-        };
-        let first = simplified(&plain, &mesh, &positions);
-        let (vertices, before) = (mesh.vertex_count(), edits.len());
-        cut(&mut mesh, &mut positions, &mut edits);
-        let splits = edits.iter().skip(before).filter_map(|edit| match edit {
-            Edit::Split(split) => Stitch::new(split.old, split.new),
-            _ => None,
-        });
-        let stitches: Vec<Stitch> = splits.collect();
-        mend::sew(&mut mesh, &positions, &stitches, |_| 1.0, 0.0, &mut edits).expect("one place");
-        edits.iter().for_each(|edit| plain.follow(&edit));
-        edits.replay(&mut positions);
-        removed += usize::from(mesh.vertex_count() > vertices);
-        let again = simplified(&plain, &mesh, &positions);
-        assert!(
-            again == first,
-            "case {seed}: {} faces for {}",
-            again.face_count(),
-            first.face_count()
-        );
-        crossed += usize::from(!stitches.is_empty() && vertices > 16);
-    }
-    println!("{crossed} times two cuts, of which {removed} left vertices");
 }
