@@ -63,7 +63,7 @@ impl Torn {
 }
 
 #[test]
-fn splits_and_replay_do_not_allocate_where_room_was_made() {
+fn splits_and_replay_do_not_allocate_in_reserved_room() {
     // Without room a vector has to grow, and the counter sees it.
     let mut torn = Torn::new();
     assert!(allocations(|| assert!(torn.tear() > 0)) > 0);

@@ -5,7 +5,6 @@
 //! other there.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 
 use tearmesh::{
     DerivedMesh, Edits, ExactSum, FaceId, HalfEdgeId, Mesh, Point, Positions, VertexId, shapes,
@@ -134,7 +133,8 @@ impl Whole<'_> {
         }
         assert_eq!(labels.len(), own.vertex_count(), "one for each way round");
         for &v in piece.vertices() {
-            let copies = copies_of(piece, v);
+            let is_copy = |w: &VertexId| piece.vertices()[w.index()] == v;
+            let copies: Vec<VertexId> = own.vertices().filter(is_copy).collect();
             counts.separated += usize::from(copies.len() > 1);
             let of_copies = copies.iter().flat_map(|&w| own.corners_of(w)).map(back);
             let of_copies: BTreeSet<HalfEdgeId> = of_copies.collect();
@@ -153,7 +153,7 @@ fn is_torn(mesh: &Mesh, h: usize, g: usize) -> bool {
 }
 
 #[test]
-fn pieces_of_torn_meshes_are_what_the_whole_is_there() {
+fn pieces_of_torn_meshes_match_the_whole() {
     let mut counts = Counts::default();
     for script in scripts(5_000) {
         let mut steps = 0;
@@ -175,71 +175,14 @@ fn pieces_of_torn_meshes_are_what_the_whole_is_there() {
     );
 }
 
-/// The vertices of a piece that come from one of the whole.
-fn copies_of(piece: &DerivedMesh, source: VertexId) -> Vec<VertexId> {
-    let vertices = piece.mesh().vertices();
-    vertices
-        .filter(|v| piece.vertices()[v.index()] == source)
-        .collect()
-}
-
-/// A mesh after splits of vertices by those of their faces that are in a range, all by number.
-fn split(mut mesh: Mesh, vertices: &[usize], range: Range<usize>) -> Mesh {
-    for v in vertices {
-        let v = VertexId::new(*v).expect("small");
-        let moving = mesh.faces_of(v).filter(|f| range.contains(&f.index()));
-        let moving: Vec<FaceId> = moving.collect();
-        split::vertex(&mut mesh, v, &moving, &mut Edits::new()).expect("others stay");
-    }
-    mesh
-}
-
-/// The fans A and C keep the middle vertex, and hang together elsewhere; B and D are cut off.
-#[test]
-fn a_vertex_with_fans_joined_elsewhere_becomes_several() {
-    let (whole, _) = shapes::grid(4, 4);
-    let middle = VertexId::new(12).expect("small");
-    // The faces round the middle, in order; two that are opposite are cut off altogether.
-    let round: Vec<FaceId> = whole.faces_of(middle).collect();
-    let mut mesh = whole.clone();
-    for f in [round[0], round[3]] {
-        let corners = mesh.face_vertices(f).map(VertexId::index);
-        mesh = split(mesh, &corners, f.index()..f.index() + 1);
-    }
-    let pieces = mesh.pieces(&mesh.components());
-    let faces: usize = pieces.iter().map(|piece| piece.faces().len()).sum();
-    assert_eq!(faces, mesh.face_count());
-    let large = pieces.iter().max_by_key(|piece| piece.faces().len());
-    let large = large.expect("the sheet");
-    assert_eq!(large.mesh().check(), []);
-    let last = VertexId::new(mesh.vertex_count() - 1).expect("small");
-    assert_eq!(copies_of(large, last), []);
-    let [u, v] = copies_of(large, middle)[..] else {
-        panic!("two vertices")
-    };
-    let own = large.mesh();
-    assert_eq!(own.fans(u).count() + own.fans(v).count(), 2);
-    assert_ne!(own.root(u), own.root(v));
-}
-
-/// Values beside the whole come along, each to its place, by the maps.
-#[test]
-fn the_maps_of_a_piece_lead_to_the_whole() {
-    let mesh = split(shapes::grid(2, 1).0, &[1, 4], 2..4);
-    let pieces = mesh.pieces(&mesh.components());
-    let [_, right] = &pieces[..] else {
-        panic!("two pieces")
-    };
-    let told = |ids: &dyn std::fmt::Debug| format!("{ids:?}");
-    assert_eq!(told(&right.vertices()), "[v2, v5, v6, v7]");
-    assert_eq!(told(&right.faces()), "[f2, f3]");
-    assert_eq!(told(&right.corners()), "[h6, h7, h8, h9, h10, h11]");
-}
-
 #[test]
 fn the_components_of_another_mesh_are_refused() {
     let whole = shapes::grid(2, 1).0;
-    let apart = split(whole.clone(), &[1, 4], 2..4);
+    let mut apart = whole.clone();
+    for v in [1, 4].map(|v| VertexId::new(v).expect("small")) {
+        let moving: Vec<FaceId> = apart.faces_of(v).filter(|f| f.index() > 1).collect();
+        split::vertex(&mut apart, v, &moving, &mut Edits::new()).expect("others stay");
+    }
     for (mesh, other) in [(&whole, &apart), (&apart, &whole)] {
         let pieces = std::panic::catch_unwind(|| mesh.pieces(&other.components()));
         assert!(pieces.is_err(), "as many faces, but other components");

@@ -227,7 +227,7 @@ fn straight_seams_have_the_lines_and_tips_of_the_oracle() {
 }
 
 #[test]
-fn an_end_is_its_vertex_whatever_is_done_to_the_mesh_since() {
+fn ends_of_cuts_follow_splits_and_renumbering() {
     let mut work = Work::new(shapes::grid(8, 8));
     let (cut, _) = work.cut(CutMethod::Exact, &between([0.21, 0.33], [0.58, 0.41]));
     let seen = work.edits.cursor();

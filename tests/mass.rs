@@ -16,18 +16,6 @@ fn exponent_of(number: f64) -> i32 {
 }
 
 #[test]
-fn a_flat_unit_square_weighs_its_density() {
-    for (columns, rows) in [(1, 1), (3, 5), (32, 32)] {
-        let (mesh, positions) = shapes::grid(columns, rows);
-        let masses = Masses::area(&mesh, &positions, 2.5).expect(USUAL);
-        let total = masses.total().to_f64();
-        assert!((total - 2.5).abs() < 1e-13, "{total}");
-        let halves = Masses::half(&mesh, &positions, 2.5).expect(USUAL);
-        assert_eq!(masses.total(), halves.total());
-    }
-}
-
-#[test]
 fn masses_that_cannot_be_exact_are_refused() {
     let (mesh, positions) = shapes::fan(80, true);
     let points: Vec<[f64; 3]> = positions.as_slice().iter().map(|&p| p.into()).collect();

@@ -5,12 +5,12 @@
 //! al. 2014 §V). Both sentences are held here as measurements, so that nobody makes the
 //! paper's methods kinder than they are.
 
-use tearmesh::{CutMethod, CutReport, Point, Positions, shapes};
+use tearmesh::{CutReport, shapes};
 
 use crate::oracle::straight::Surface;
 use crate::random::Random;
 use crate::surfaces::{delaunay, jittered, pieces_by_vertices, surface};
-use crate::work::{ALONG_EDGES, Work, between, scissor, triangles};
+use crate::work::{ALONG_EDGES, Work, between, triangles};
 
 /// How many random cuts each mesh gets.
 const CUTS: usize = 40;
@@ -75,35 +75,5 @@ fn the_papers_methods_are_no_kinder_than_the_paper_says() {
         assert_eq!(sum(&partition, bad), 0, "{name}");
         assert!(most(&partition, |report| report.seam_length_ratio) < 1.5);
         assert!(most(&partition, |report| report.seam_deviation_max_edges) < 1.2);
-    }
-}
-
-/// "User picks two points on the screen to define the line segment in red. It is used to
-/// cut the waving flag" (Fig. 4). The eye looks at the flag from the side.
-#[test]
-fn figure_4_a_waving_flag_is_cut_between_two_picked_points() {
-    let (mesh, flat) = shapes::grid(32, 32);
-    let wave = |p: &Point| [p.x, p.y, 0.1 * p.x * (9.0 * p.x - p.y).sin()];
-    let waving = Positions::new(flat.as_slice().iter().map(wave)).expect("finite");
-    let eye = Point::new(0.2, -0.3, 3.0);
-    let pick = |x: f64, y: f64| (eye.into(), (Point::new(x, y, 0.0) - eye).into());
-    let segment = scissor([pick(0.31, 0.2), pick(0.36, 0.8)]);
-    for method in ALONG_EDGES {
-        let mut work = Work::new((mesh.clone(), waving.clone()));
-        let (_, report) = work.cut(method, &segment);
-        // A slit: one piece still, with a hole, unless the method leaves crumbs.
-        assert_eq!((report.pieces_expected, report.lost), (1, 0));
-        let may_crumble = method == CutMethod::Alternating;
-        assert!(may_crumble || report.crumbs == 0, "{report:?}");
-        let is_separated = method != CutMethod::Uniform;
-        assert_eq!(report.separated, is_separated, "{method:?}: {report:?}");
-        assert!(report.splits > 10);
-        // Only what the segment covers on the screen was split.
-        for &p in &work.positions.as_slice()[mesh.vertex_count()..] {
-            let on_screen = eye + (p - eye) * (eye.z / (eye.z - p.z));
-            let is_along = (0.19..0.81).contains(&on_screen.y);
-            let is_near = (on_screen.x - 0.335).abs() < 0.1;
-            assert!(is_along && is_near, "{method:?}: {on_screen}");
-        }
     }
 }

@@ -167,23 +167,6 @@ fn plain(defect: &Defect) -> Fault {
 }
 
 #[test]
-fn random_triangles_are_built_as_the_oracle_says() {
-    let faces = |vertices: u32| {
-        let triangle = prop::array::uniform3(0..vertices + u32::from(vertices > 6));
-        prop::collection::vec(triangle, 0..=7)
-    };
-    let triangles = (3u32..=8).prop_flat_map(move |vertices| {
-        faces(vertices).prop_map(move |faces| Triangles {
-            vertices: vertices as usize,
-            faces,
-        })
-    });
-    for_all(&triangles, |it| {
-        building_agrees_with_the_oracle(it.vertices, &it.faces);
-    });
-}
-
-#[test]
 fn damaged_shapes_are_built_as_the_oracle_says() {
     let damage = prop::collection::vec(any::<[u8; 3]>(), 0..=3);
     let triangles = (any::<Script>(), damage).prop_map(|(script, damage)| {

@@ -1,8 +1,8 @@
 //! A sheet does what its parts do when they are held alone, and keeps them in step.
 
 use tearmesh::{
-    CutEnd, CutMethod, Edits, Masses, PerCorner, Plane, Point, Positions, Ray, Scissor, Sheet,
-    Vector, VertexId, mend, shapes, split, tear,
+    CutMethod, Edits, Masses, PerCorner, Plane, Point, Positions, Scissor, Sheet, Vector, VertexId,
+    mend, shapes, split, tear,
 };
 
 use crate::random::Random;
@@ -77,28 +77,4 @@ fn a_sheet_does_what_its_parts_do() {
         }
     }
     assert!(done.iter().all(|&done| done >= 20), "{done:?}");
-}
-
-#[test]
-fn an_end_of_a_cut_goes_on_if_it_followed_the_sheet() {
-    let (mesh, positions) = shapes::grid(8, 8);
-    let mut sheet = Sheet::new(mesh, positions);
-    let down = |x, y| Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
-    let [a, b, c] = [down(0.2, 0.3), down(0.5, 0.4), down(0.7, 0.7)].map(|ray| ray.expect("a ray"));
-    let scissor = Scissor::new(a, b).expect("two lines");
-    let cut = sheet.cut(CutMethod::Exact, &scissor).expect("in step");
-    let [_, end] = cut.ends().expect("there are rays");
-    let mut end = end.clone();
-    let v = VertexId::new(1).expect("small");
-    let face = sheet.mesh().faces_of(v).next().expect("a face");
-    sheet.split(v, &[face]).expect("it has several faces");
-    let go_on = |end: &CutEnd, sheet: &Sheet| {
-        Scissor::continued(end, c, sheet.positions()).expect("two lines")
-    };
-    let late = go_on(&end, &sheet);
-    assert!(sheet.clone().cut(CutMethod::Exact, &late).is_err(), "late");
-    sheet.edits().replay(&mut end);
-    let scissor = go_on(&end, &sheet);
-    sheet.cut(CutMethod::Exact, &scissor).expect("in step");
-    assert_eq!(sheet.mesh().boundary_loops().len(), 2);
 }
