@@ -1,6 +1,6 @@
 //! Material damping, against answers on paper.
 
-use tearmesh::{Point, Vector};
+use tearmesh::Vector;
 use tearmesh_cloth::scene::Warning;
 use tearmesh_cloth::{
     Balance, Fabric, Solver, System, Unstable, Verlet, force, recommended_step_s,
@@ -8,7 +8,7 @@ use tearmesh_cloth::{
 
 use crate::parts::cloths::{cloth, sheet};
 use crate::parts::scenes::played;
-use crate::parts::{METHODS, mechanical_j, near, on_a_line};
+use crate::parts::{METHODS, mechanical_j, method, near, on_a_line, shake};
 use crate::random::Random;
 
 /// A kilogram on a spring of 100 N/m that is held at its other end, 5 cm from rest.
@@ -54,11 +54,8 @@ fn a_damped_spring_swings_by_the_closed_answer_and_its_ratio_is_capped() {
         // What a spring of 2 c/(Δt (1 + 2θ)) would take of the step that suits.
         let (mut system, c) = (oscillator(damping_s), 2.0 * ratio * omega);
         let suits_s = recommended_step_s(&mut system);
-        near(
-            100.0 * suits_s * suits_s + 2.0 * c / 1.5 * suits_s,
-            1.3,
-            1e-12,
-        );
+        let taken = 100.0 * suits_s * suits_s + 2.0 * c / 1.5 * suits_s;
+        near(taken, 1.3, 1e-12);
     }
     let refused = oscillator(0.0).set_damping(-1.0).expect_err("no time");
     assert_eq!((refused.setting, refused.given), ("damping_s", -1.0));
@@ -71,11 +68,9 @@ fn a_hand_feels_damping_and_a_threshold_does_not() {
     let spring = system.stretches().iter().next().expect("a spring");
     system.step(&mut Verlet::new(), 1e-3).expect("a step");
     let d = system.positions()[1] - system.positions()[0];
-    let (pull, rate) = (
-        100.0 * (d.norm() - 1.0),
-        d.dot(&system.velocities()[1]) / d.norm(),
-    );
+    let pull = 100.0 * (d.norm() - 1.0);
     near(force::force_n(&system, spring), pull, 1e-12);
+    let rate = d.dot(&system.velocities()[1]) / d.norm();
     let hand = -d / d.norm() * (pull + 1.0 * rate);
     near((force::reaction_n(&system, 0) - hand).norm(), 0.0, 1e-12);
 }
@@ -90,8 +85,8 @@ fn other_methods_leave_damping_out() {
         }
         (system.positions()[1], force::reaction_n(&system, 0))
     };
-    for (name, method) in METHODS.into_iter().filter(|(name, _)| *name != "Verlet") {
-        let [damped, free] = [0.01, 0.0].map(|damping_s| swing(damping_s, &mut *method()));
+    for name in METHODS.into_iter().filter(|name| *name != "guarded") {
+        let [damped, free] = [0.01, 0.0].map(|damping_s| swing(damping_s, &mut *method(name, 10)));
         assert_eq!(damped, free, "{name}");
     }
 }
@@ -101,7 +96,6 @@ fn other_methods_leave_damping_out() {
 #[test]
 fn damped_cloth_gains_no_energy_at_the_longest_step() {
     for seed in 0..12 {
-        let mut random = Random(seed);
         let (mesh, positions) = sheet(9, 9, seed);
         let fabric = Fabric {
             damping_s: [1e-3, 1e-2, 1.0][seed as usize % 3],
@@ -110,12 +104,8 @@ fn damped_cloth_gains_no_energy_at_the_longest_step() {
         let mut cloth = cloth(&mesh, &positions, fabric);
         let system = cloth.system_mut();
         system.when_unstable(Unstable::Substep);
-        let (points, velocities) = system.state_mut();
-        for (p, v) in points.iter_mut().zip(velocities) {
-            let mut next = || random.next() - 0.5;
-            *p = Point::from(0.6 * p.coords) + 0.02 * Vector::new(next(), next(), next());
-            *v = Vector::new(next(), next(), next());
-        }
+        system.state_mut().0.iter_mut().for_each(|p| *p *= 0.6);
+        shake(system, 0.02, 1.0, &mut Random(seed));
         let dt_s = 1.999 * recommended_step_s(system);
         let before = mechanical_j(system);
         let mut most = 0.0_f64;
@@ -136,14 +126,14 @@ fn the_default_method_hardly_dissipates_by_itself_and_others_say_so() {
     let is_dissipation = |warning: &Warning| matches!(warning, Warning::Damped { .. });
     for scene in ["hang", "flag", "rip", "trouser"] {
         for method in ["verlet", "xpbd", "implicit"] {
-            let run = played(10, scene, method);
+            let run = &played(16, scene, method).run;
             let balance = run.energy_balance();
             let moving_j = balance.put_in_j() - balance.elastic_j;
             let part = -balance.made_j() / moving_j;
             let warns = Warning::after(run).iter().any(is_dissipation);
             assert_eq!(warns, part > 0.1, "{scene}, {method}: {balance:?}");
-            assert!(warns || part.abs() < 0.05, "{scene}, {method}: {balance:?}");
             assert_eq!(warns, method != "verlet", "{scene}, {method}: {balance:?}");
+            assert!(warns || part.abs() < 0.05, "{scene}: {part}");
             assert_eq!(balance.damping_j < 0.0, method == "verlet");
         }
     }

@@ -11,7 +11,7 @@ use tearmesh_cloth::scene::ensemble::{
 };
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
 
-use crate::parts::scenes::{noted, square};
+use crate::parts::scenes::{Played, noted, square};
 
 const ONE: NonZero<u32> = NonZero::<u32>::MIN;
 const TWO: NonZero<u32> = ONE.saturating_add(1);
@@ -72,10 +72,7 @@ fn a_member_is_the_same_in_any_order_and_on_any_thread() {
         // A rip is chaotic, so no two seeds tear the same length.
         assert!([0, 1, 2].iter().all(|&i| members[i].seed == i as u64 + 1));
         let (torn_m, is_whole) = gathered(members.to_vec()).numbers(TORN);
-        assert!(
-            is_whole && torn_m[0] != torn_m[1] && torn_m[1] != torn_m[2],
-            "{torn_m:?}"
-        );
+        assert!(is_whole && torn_m[0] != torn_m[1] && torn_m[1] != torn_m[2]);
     }
 }
 
@@ -108,9 +105,8 @@ fn a_disturbance_shuffles_faces_and_displaces_by_at_most_the_noise() {
     assert_eq!(sorted(&before), sorted(&after));
     let moved = before.iter().zip(&after);
     let moved = moved.filter(|(a, b)| from_smallest(a) != from_smallest(b));
-    assert!(2 * moved.count() > before.len());
     let turned = after.iter().filter(|face| !before.contains(*face));
-    assert!(2 * turned.count() > before.len());
+    assert!(2 * moved.count().min(turned.count()) > before.len());
     assert_eq!(disturbance.offsets_m.len(), mesh.vertex_count());
     let parts: Vec<f64> = disturbance.offsets_m.iter().flatten().copied().collect();
     let largest = parts.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -128,7 +124,7 @@ fn a_member_is_a_run_that_was_disturbed() {
     let Disturbance { mesh, offsets_m } = Disturbance::new(&staged.mesh, 5);
     let run = Run::new(mesh, &staged.positions, staged.scene.clone(), &staged.frame);
     let run = run.expect("a scene").in_smaller_steps(TWO);
-    let (run, log) = noted(run.displaced(|v| offsets_m[v.index()]).expect("a metre"));
+    let Played { run, log, .. } = noted(run.displaced(|v| offsets_m[v.index()]).expect("a metre"));
     let observed = member.observed.expect("a run that is done");
     let first_tear = log.first_tear().expect("a rip");
     assert_eq!(observed.first_tear_s, Some(first_tear.event.time_s));
@@ -147,27 +143,23 @@ fn an_interrupted_run_is_a_member_without_numbers() {
         ..Scene::hang(frame)
     });
     let checks = Cell::new(0_u32);
-    let count_checks = || {
-        checks.set(checks.get() + 1);
-        false
-    };
-    let whole = ensemble::member(staged.subject(), ONE, 1, &count_checks);
+    let never = || checks.replace(checks.get() + 1) == u32::MAX;
+    let whole = ensemble::member(staged.subject(), ONE, 1, &never);
     assert_eq!(whole.status, MemberStatus::Done);
     let checks_of_a_run = checks.get();
     assert!(checks_of_a_run > 10, "{checks_of_a_run}");
-    for (allowed, status) in [
-        (0, MemberStatus::Interrupted),
-        (checks_of_a_run - 1, MemberStatus::Interrupted),
-        (checks_of_a_run, MemberStatus::Done),
-    ] {
+    for allowed in [0, checks_of_a_run - 1, checks_of_a_run] {
         checks.set(0);
         let stop = || checks.replace(checks.get() + 1) >= allowed;
         let stopped = ensemble::member(staged.subject(), ONE, 1, &stop);
-        assert_eq!(stopped.status, status, "{allowed} checks");
-        assert_eq!(stopped.observed.is_some(), status == MemberStatus::Done);
+        let is_done = allowed == checks_of_a_run;
+        let status = [MemberStatus::Interrupted, MemberStatus::Done][usize::from(is_done)];
+        assert_eq!(
+            (stopped.status, stopped.observed.is_some()),
+            (status, is_done)
+        );
         let numbers = gathered(vec![whole.clone(), stopped]).numbers(TORN);
-        let count = 1 + usize::from(status == MemberStatus::Done);
-        assert_eq!(numbers, (vec![0.0; count], count == 2));
+        assert_eq!(numbers, (vec![0.0; 1 + usize::from(is_done)], is_done));
     }
 }
 

@@ -2,15 +2,13 @@
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::{
-    BlowUpSite, Collider, Constraint, Loads, Path, Pbd, Provot, StepError, StepLimit, System,
-    SystemError, Unstable, Verlet, Wind, Xpbd, frequency_bound, stable_step_s,
+    BlowUpSite, Constraint, Loads, Path, Pbd, Provot, StepError, StepLimit, System, SystemError,
+    Unstable, Verlet, Xpbd, frequency_bound, stable_step_s,
 };
 
 use crate::parts::nets::{chain, framed, row};
 use crate::parts::vibration::largest_frequency;
-use crate::parts::{
-    METHODS, gravity, limited, near, on_a_line, path, plane, pulled, residual_n, run,
-};
+use crate::parts::{blown, gravity, limited, near, on_a_line, path, pulled, residual_n, run};
 use crate::plain_verlet::PlainVerlet;
 
 #[test]
@@ -23,30 +21,23 @@ fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
     let mut system = row(1, 0.01, 40.0, 1.0, Vector::new(1.0, 0.0, 0.0));
     system.state_mut().0[1].x = 1.0 + 1e-9;
     let dt = z / 4000.0_f64.sqrt();
-    let error = system
-        .step(&mut PlainVerlet::new(), dt)
-        .expect_err("too long");
-    assert_eq!(
-        error.to_string(),
-        "dt 0.03165439937828547 s exceeds the stability limit 0.0316 s \
-         (bound of frequencies 63.2 rad/s at edge 0-1)"
-    );
+    let mut verlet = PlainVerlet::new();
+    let error = system.step(&mut verlet, dt).expect_err("too long");
+    let text = "dt 0.03165439937828547 s exceeds the stability limit 0.0316 s \
+                (bound of frequencies 63.2 rad/s at edge 0-1)";
+    assert_eq!(error.to_string(), text);
     assert_eq!(system.elapsed_s(), 0.0);
     system.when_unstable(Unstable::Substep);
-    let substeps = system
-        .clone()
-        .step(&mut PlainVerlet::new(), dt)
-        .expect("two");
-    assert_eq!(substeps, 2);
+    assert_eq!(system.clone().step(&mut verlet, dt), Ok(2));
 
     system.when_unstable(Unstable::Allow);
-    run(&mut system, PlainVerlet::new(), dt, 60);
+    run(&mut system, &mut verlet, dt, 60);
     let before = system.positions()[1].x - 1.0;
-    run(&mut system, PlainVerlet::new(), dt, 1);
+    run(&mut system, &mut verlet, dt, 1);
     near(-(system.positions()[1].x - 1.0) / before, growth, 1e-4);
     let error = (0..1000).find_map(|_| {
         let good = system.positions().to_vec();
-        let error = system.step(&mut PlainVerlet::new(), dt).err()?;
+        let error = system.step(&mut verlet, dt).err()?;
         assert_eq!(system.positions(), good, "the last good state is kept");
         Some(error)
     });
@@ -67,16 +58,11 @@ fn closing(unstable: Unstable) -> (System, f64) {
         system.stretch([1, end], 1.0, stiffness).expect("a spring");
     }
     system.hold(0);
-    let way = [
-        (0.0, [0.0, 1.0, 0.0]),
-        (1.0, [1.0, 1.0, 0.0]),
-        (2.0, [1.0, 1e-3, 0.0]),
-    ];
-    system.grab(2, path(way));
+    let way = [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 1e-3, 0.0]];
+    system.grab(2, path([(0.0, way[0]), (1.0, way[1]), (2.0, way[2])]));
     system.when_unstable(unstable);
-    system
-        .set_loads(pulled(Vector::zeros(), 1.0))
-        .expect("loads");
+    let drag = pulled(Vector::zeros(), 1.0);
+    system.set_loads(drag).expect("loads");
     (system, 1.7 / (stiffness / mass).sqrt())
 }
 
@@ -92,11 +78,9 @@ fn f1_a_step_stays_stable_while_the_configuration_gets_stiffer() {
         });
         (fastest, error, dt)
     };
+    // Led at 1 m/s.
     let (divided, error, _) = led(Unstable::Substep);
-    assert!(
-        divided < 10.0 && error.is_none(),
-        "{divided} m/s, led at 1 m/s: {error:?}"
-    );
+    assert!(divided < 10.0 && error.is_none(), "{divided} {error:?}");
     let (refused, error, dt) = led(Unstable::Refuse);
     let Some(StepError::Unstable {
         by: StepLimit::Springs(frequency),
@@ -107,10 +91,7 @@ fn f1_a_step_stays_stable_while_the_configuration_gets_stiffer() {
     };
     assert!(frequency.omega_rad_per_s * dt > 1.89 && refused < 10.0);
     let (unwatched, error, _) = led(Unstable::Allow);
-    assert!(
-        unwatched > 30.0 || error.is_some(),
-        "it does not shake: {unwatched} m/s"
-    );
+    assert!(unwatched > 30.0 || error.is_some(), "it does not shake");
 }
 
 #[test]
@@ -124,34 +105,29 @@ fn f4_the_bound_holds_is_not_far_off_and_names_the_spring_that_sets_it() {
         net.set_stiffness(id, 9.0 * stiffness).expect("a stiffness");
         let stiffer = frequency_bound(&mut net);
         assert!(stiffer.omega_rad_per_s > largest_frequency(&net));
-        assert_eq!(
-            stiffer
-                .ends
-                .map(|ends| net.stretches().between(ends[0], ends[1])),
-            Some(Some(id))
-        );
+        let [a, b] = stiffer.ends.expect("a spring");
+        assert_eq!(net.stretches().between(a, b), Some(id));
     }
 }
 
 #[test]
 fn f5_the_limiter_says_what_it_did() {
+    let stats = |mut system: System, steps: usize| {
+        let mut provot = Provot::default();
+        run(&mut system, &mut provot, 0.005, steps);
+        limited(&provot, &system)
+    };
     // A weight that pulls a soft chain beyond the limit.
-    let mut chain = row(10, 0.02, 50.0, 0.1, Vector::new(0.0, 0.0, -0.1));
+    let mut chain = row(10, 0.02, 50.0, 0.1, Vector::z() * -0.1);
     chain.set_loads(gravity(0.0)).expect("loads");
-    let mut provot = Provot::default();
-    run(&mut chain, &mut provot, 0.005, 400);
-    let stats = limited(&provot, &chain);
-    assert!(stats.passes > 400 && stats.steps_limited > 0, "{stats:?}");
-    assert!(stats.steps_infeasible == 0, "{stats:?}");
-
+    let heavy = stats(chain, 400);
+    assert!(heavy.passes > 400 && heavy.steps_limited > 0 && heavy.steps_infeasible == 0);
     // Nails 1.3 m apart, for links of one metre in all.
-    let mut taut = row(10, 0.02, 50.0, 0.1, Vector::new(0.13, 0.0, 0.0));
+    let mut taut = row(10, 0.02, 50.0, 0.1, Vector::x() * 0.13);
     taut.hold(10);
-    let mut provot = Provot::default();
-    run(&mut taut, &mut provot, 0.005, 10);
-    let stats = limited(&provot, &taut);
-    assert_eq!((stats.steps_infeasible, stats.passes), (10, 200));
-    assert!(stats.excess_max > 0.15, "{stats:?}");
+    let taut = stats(taut, 10);
+    assert_eq!((taut.steps_infeasible, taut.passes), (10, 200));
+    assert!(taut.excess_max > 0.15, "{taut:?}");
 }
 
 #[test]
@@ -162,11 +138,7 @@ fn f6_f7_pbd_depends_on_iterations_and_has_no_limit() {
         -chain.positions()[10].z
     };
     let lengths = [1, 5, 20, 200].map(|sweeps| hang(sweeps, 1.0 / 60.0, 20.0));
-    assert!(
-        lengths
-            .windows(2)
-            .all(|pair| pair[0] > pair[1] && pair[1] > 1.0)
-    );
+    assert!(lengths.is_sorted_by(|long, short| long > short && *short > 1.0));
     assert!(lengths[0] > 1.05 && lengths[1] < 1.05 && lengths[3] < 1.001);
 
     // However soft, it gets stiff as the step falls: x = g Δt² (1 − k) / (k (1 + c Δt)).
@@ -195,14 +167,10 @@ fn f8_xpbd_says_that_it_is_wrong_under_pretension() {
     let wrong = |solver: Xpbd| {
         let mut net = framed(8, 1e4, 10.0);
         run(&mut net, solver, dt, steps);
-        let sag = net.positions()[40].z;
-        (
-            residual_n(solver, &net),
-            (sag - verlet).abs() / verlet.abs(),
-        )
+        let off = (net.positions()[40].z / verlet - 1.0).abs();
+        (residual_n(solver, &net), off)
     };
-    let few = wrong(Xpbd::new(16, 1));
-    let many = wrong(Xpbd::new(1024, 1));
+    let [few, many] = [16, 1024].map(|substeps| wrong(Xpbd::new(substeps, 1)));
     assert!(few.0 > 1.0 && few.1 > 0.5, "{few:?}");
     assert!(many.0 < 0.01 * few.0 && many.1 < 0.1 * few.1, "{many:?}");
 }
@@ -217,30 +185,21 @@ fn f14_a_light_particle_shortens_the_step() {
         }
         chain.hold(0);
         let ends = frequency_bound(&mut chain).ends.expect("a spring");
-        (stable_step_s(&mut chain, 2.0), ends)
+        assert!(mass == 1.0 || ends.contains(&1), "{ends:?}");
+        stable_step_s(&mut chain, 2.0)
     });
-    assert!(
-        even.0 / light.0 > 6.0 && light.1.contains(&1),
-        "{even:?} {light:?}"
-    );
+    assert!(even / light > 6.0, "{even} {light}");
 }
 
 #[test]
 fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
-    let points = || (0..3).map(|i| Point::new(f64::from(i), 0.0, 0.0));
-    let nan = || points().chain([Point::new(0.0, f64::NAN, 0.0)]);
-    let made = |points: &mut dyn Iterator<Item = Point>, masses: &[f64]| {
-        let made = System::new(points, masses.to_vec());
-        made.expect_err("no system").to_string()
-    };
-    assert_eq!(
-        made(&mut points(), &[1.0, 0.0, 1.0]),
-        "particle 1 has the mass 0 kg, which is not positive and finite"
-    );
-    assert_eq!(
-        made(&mut nan(), &[1.0; 4]),
-        "particle 3 is at (0, NaN, 0), which is not usable"
-    );
+    let text = "particle 1 has the mass 0 kg, which is not positive and finite";
+    let nowhere = "particle 1 is at (0, NaN, 0), which is not usable";
+    for (y, mass, text) in [(0.0, 0.0, text), (f64::NAN, 1.0, nowhere)] {
+        let points = [Point::origin(), Point::new(0.0, y, 0.0)];
+        let error = System::new(points, vec![1.0, mass]).expect_err("no system");
+        assert_eq!(error.to_string(), text);
+    }
     let mut system = on_a_line([0.0, 1.0, 2.0], 1.0);
     for (ends, rest_length_m, stiffness_n_per_m) in [
         ([0, 1], 0.0, 1.0),
@@ -259,61 +218,13 @@ fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
         assert!(system.bend(ends, rest_length_m, stiffness_n_per_m).is_err());
     }
     assert!(system.stretches().is_empty());
-    let wind = Some(Wind {
-        velocity_m_per_s: Vector::x(),
-        coefficient: f64::NAN,
-    });
-    let loads = Loads {
-        wind,
-        ..Loads::default()
-    };
+    let loads = blown(Vector::x(), f64::NAN, Loads::default());
     let error = system.set_loads(loads).expect_err("no wind").to_string();
-    assert_eq!(
-        error,
-        "wind.coefficient is NaN, and has to be finite and at least 0"
-    );
+    let text = "wind.coefficient is NaN, and has to be finite and at least 0";
+    assert_eq!(error, text);
     for dt in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = system.step(&mut Verlet::new(), dt).expect_err("no step");
         assert!(matches!(error, StepError::Step { .. }), "{error}");
     }
     assert!(Path::new([(1.0, Point::origin()), (1.0, Point::origin())]).is_none());
-}
-
-#[test]
-fn loads_do_what_they_say() {
-    // Pushed down on a plane and a ball, a weight ends on them.
-    let ground = Collider::Plane(plane([0.0, 0.0, -0.3], Vector::z()));
-    let ball = Collider::Sphere {
-        centre: Point::new(0.0, 0.0, -1.0),
-        radius_m: 0.75,
-    };
-    for (collider, height) in [(ground, -0.3), (ball, -0.25)] {
-        for (_, method) in METHODS {
-            let mut weight = on_a_line([0.0], 1.0);
-            let loads = Loads {
-                colliders: vec![collider],
-                ..gravity(0.0)
-            };
-            weight.set_loads(loads).expect("loads");
-            run(&mut weight, &mut *method(), 0.01, 200);
-            near(weight.positions()[0].z, height, 1e-12);
-            assert!(weight.velocities()[0].z.abs() < 1e-12);
-            assert!(weight.counters().collider_passes >= 200);
-        }
-    }
-    // A grabbed particle is where its path is, whatever the method.
-    for (_, method) in METHODS {
-        let mut method = method();
-        let mut pair = row(1, 1.0, 10.0, 1.0, Vector::x());
-        pair.grab(0, path([(0.5, [0.0; 3]), (1.5, [0.0, 1.0, 0.0])]));
-        for _ in 0..200 {
-            pair.step(&mut *method, 0.01).expect("a step");
-            let y = (pair.elapsed_s() - 0.5).clamp(0.0, 1.0);
-            near(pair.positions()[0].y, y, 1e-12);
-        }
-        let led = pair.positions()[0];
-        pair.release(0);
-        run(&mut pair, &mut *method, 0.01, 10);
-        assert_ne!(pair.positions()[0], led);
-    }
 }

@@ -4,7 +4,6 @@ mod dense;
 mod history;
 mod kernels;
 mod matrix;
-mod orders;
 mod reports;
 mod tolerance;
 
@@ -83,13 +82,6 @@ impl Scene {
             scene.triangles.push((corners, material, stiffness));
         }
         scene
-    }
-
-    /// Indices of the rim of a sheet.
-    pub(crate) fn rim(n: u32) -> impl Iterator<Item = usize> {
-        (0..(n + 1) * (n + 1))
-            .filter(move |i| (i % (n + 1)).is_multiple_of(n) || (i / (n + 1)).is_multiple_of(n))
-            .map(|i| i as usize)
     }
 }
 

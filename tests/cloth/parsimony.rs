@@ -2,61 +2,57 @@
 //! `tools/bench`, subcommand `cloth`.
 
 use tearmesh::{CutMethod, Edits, Positions, Scissor, Vector, shapes};
-use tearmesh_cloth::scene::{Frame, Run, Scene, SwayingWind};
+use tearmesh_cloth::scene::{Run, Scene, SwayingWind};
 use tearmesh_cloth::{
-    Bending, Cloth, Collider, Counters, Fabric, FeatureVisits, Limiter, Pbd, Provot, Solver,
-    Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
+    Bending, Cloth, Collider, Counters, Fabric, FeatureVisits, Limiter, Method, Pbd, Provot,
+    Solver, Tearing, Threshold, Unstable, Verlet, Wind, Xpbd,
 };
 
 use crate::parts::cloths::cloth;
 use crate::parts::nets::chain;
 use crate::parts::scenes::{methods, play, staged};
 use crate::parts::woven::weave;
-use crate::parts::{gravity_along_y, plane, run, state};
+use crate::parts::{gravity_along_y, onto, plane, run, state};
 use crate::rk4::Rk4;
 
 /// A quarter of a second of hanging, with no more than is added.
-fn cost(method: usize, add: impl Fn(&mut Scene, &Frame)) -> (Run, Counters) {
+fn cost(method: usize, add: impl Fn(&mut Scene)) -> (Run, Counters) {
     let run = play(staged(12, |frame| {
-        let (_, solver) = methods()[method].clone();
         let mut scene = Scene {
-            solver,
+            solver: methods()[method].1.clone(),
             duration_s: 0.25,
             tearing: None,
             ..Scene::hang(frame)
         };
-        add(&mut scene, frame);
+        add(&mut scene);
         scene
     }));
     let counters = run.cloth().system().counters();
-    let FeatureVisits {
-        stretch,
-        bend,
-        triangle,
-        ..
-    } = counters.features;
-    let visits = counters.visits;
-    assert_eq!(stretch + bend + triangle, visits.project + visits.force);
+    let (features, visits) = (counters.features, counters.visits);
+    let elements = features.stretch + features.bend + features.triangle;
+    assert_eq!(elements, visits.project + visits.force);
     (run, counters)
 }
 
 #[test]
 fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
-    for (method, (name, _)) in methods().iter().enumerate() {
-        let (run, bare) = cost(method, |_, _| {});
+    for (method, name) in Method::NAMES.into_iter().enumerate() {
+        let (run, bare) = cost(method, |_| {});
         let springs = run.cloth().system().stretches().len() as u64;
-        let passes = bare.features.stretch / springs;
-        assert!(passes >= bare.substeps, "each step looks at each spring");
+        let stretch = bare.features.stretch;
+        assert!(stretch >= bare.substeps * springs && stretch % springs == 0);
         let alone = FeatureVisits {
-            stretch: passes * springs,
+            stretch,
             ..FeatureVisits::default()
         };
-        assert_eq!(bare.features, alone, "{name}");
-        assert_eq!(bare.visits.detect, 0, "{name}");
-        let passes = (bare.wind_evaluations, bare.collider_passes);
-        assert_eq!(passes, (0, 0), "{name}");
+        let others = [
+            bare.visits.detect,
+            bare.wind_evaluations,
+            bare.collider_passes,
+        ];
+        assert_eq!((bare.features, others), (alone, [0; 3]), "{name}");
 
-        let (_, windy) = cost(method, |scene, _| {
+        let (_, windy) = cost(method, |scene| {
             scene.wind = Some(SwayingWind {
                 steady: Wind {
                     velocity_m_per_s: Vector::z(),
@@ -67,38 +63,38 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
             });
         });
         let faces = run.mesh().face_count() as u64;
+        let wind = windy.features.wind;
         assert!(windy.wind_evaluations >= windy.substeps, "{name}");
         assert!(
-            windy.features.wind >= windy.wind_evaluations * faces,
+            wind >= windy.wind_evaluations * faces && wind % faces == 0,
             "{name}"
         );
-        assert_eq!(windy.features.wind % faces, 0, "{name}");
 
-        let (_, above) = cost(method, |scene, _| {
-            let floor = plane([0.0, -1e3, 0.0], Vector::y());
-            scene.colliders.push(Collider::Plane(floor));
-        });
+        let floor = Collider::Plane(plane([0.0, -1e3, 0.0], Vector::y()));
+        let (_, above) = cost(method, |scene| scene.colliders.push(floor));
+        let FeatureVisits {
+            collider,
+            wind,
+            bend,
+            ..
+        } = above.features;
         let vertices = run.mesh().vertex_count() as u64;
-        assert_eq!(above.features.collider, above.substeps * vertices, "{name}");
-        assert_eq!(
-            above.features.wind + above.features.bend + above.visits.detect,
-            0,
+        assert_eq!(collider, above.substeps * vertices, "{name}");
+        assert_eq!(wind + bend + above.visits.detect, 0, "{name}");
+
+        let stiffness_n_per_m = 1.0;
+        let springs_across = Some(Bending::Spring { stiffness_n_per_m });
+        let (bent, bending) = cost(method, |scene| scene.fabric.bend = springs_across);
+        let bends = bent.cloth().system().bends().len() as u64;
+        let visits = bending.features.bend;
+        assert!(
+            visits >= bending.substeps * bends && visits % bends == 0,
             "{name}"
         );
-
-        let (bent, bending) = cost(method, |scene, _| {
-            scene.fabric.bend = Some(Bending::Spring {
-                stiffness_n_per_m: 1.0,
-            });
-        });
-        let bends = bent.cloth().system().bends().len() as u64;
-        assert_eq!(bending.features.bend % bends, 0, "{name}");
-        assert!(bending.features.bend >= bending.substeps * bends, "{name}");
 
         // One pass over edges finds what may tear.
-        let (torn, tearing) = cost(method, |scene, _| {
-            scene.tearing = Some(Tearing::new(Threshold::Stretch(100.0)));
-        });
+        let never = Some(Tearing::new(Threshold::Stretch(100.0)));
+        let (torn, tearing) = cost(method, |scene| scene.tearing = never);
         assert_eq!(
             tearing.visits.detect,
             torn.tally().steps * springs,
@@ -112,7 +108,7 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
 #[test]
 fn a_cut_through_a_cloth_visits_no_element() {
     for fabric in [Fabric::default(), Fabric::woven(weave())] {
-        let (run, counters) = cost(2, |scene, _| scene.fabric = fabric);
+        let (run, counters) = cost(2, |scene| scene.fabric = fabric);
         let triangles = counters.features.triangle;
         assert_eq!(triangles > 0, fabric.weave.is_some());
         assert_eq!(triangles % run.mesh().face_count() as u64, 0);
@@ -172,8 +168,8 @@ fn ten_substeps_of_one_sweep_strain_less_than_one_step_of_ten_sweeps() {
         let mut cloth = hanging(64, 1e5);
         run(cloth.system_mut(), solver, 1.0 / 60.0, 90);
         let system = cloth.system();
-        let ratios = system.stretches().iter().map(|id| system.stretch_ratio(id));
-        let squares = ratios.map(|ratio| (ratio - 1.0).powi(2)).sum::<f64>();
+        let ids = system.stretches().iter();
+        let squares: f64 = ids.map(|id| (system.stretch_ratio(id) - 1.0).powi(2)).sum();
         let rms = (squares / system.stretches().len() as f64).sqrt();
         (rms, system.counters().visits.project)
     };
@@ -189,10 +185,9 @@ fn ten_substeps_of_one_sweep_strain_less_than_one_step_of_ten_sweeps() {
 #[test]
 fn a_collider_that_nothing_meets_changes_no_bit_of_a_step() {
     let mut free = hanging(12, 1e4);
-    let mut loads = free.system().loads().clone();
-    let floor = plane([0.0, -1e3, 0.0], Vector::y());
-    loads.colliders.push(Collider::Plane(floor));
     let mut above = free.clone();
+    let floor = Collider::Plane(plane([0.0, -1e3, 0.0], Vector::y()));
+    let loads = onto(floor, gravity_along_y(1.0));
     above.system_mut().set_loads(loads).expect("loads");
     for _ in 0..20 {
         for cloth in [&mut free, &mut above] {

@@ -11,11 +11,12 @@ use tearmesh::geometry::length;
 use tearmesh::{Plane, Point, Ray, Vector, VertexId};
 use tearmesh_cloth::implicit::{Method, Settings, Stats};
 use tearmesh_cloth::{
-    ConstraintId, Implicit, LimiterStats, Loads, Path, Pbd, Provot, Quality, Solver, System,
-    Unstable, Verlet, Xpbd, energy,
+    Collider, ConstraintId, Implicit, LimiterStats, Loads, Path, Pbd, Provot, Quality, Solver,
+    System, Unstable, Verlet, Wind, Xpbd, energy,
 };
 
 use crate::plain_verlet::PlainVerlet;
+use crate::random::Random;
 use crate::rk4::Rk4;
 
 /// The acceleration of gravity, in m/s².
@@ -43,7 +44,22 @@ pub(crate) fn gravity(drag_per_s: f64) -> Loads {
 /// Gravity down the y axis, as for a sheet that hangs in its own plane, and drag in 1/s; none at all
 /// if that is 0.
 pub(crate) fn gravity_along_y(drag_per_s: f64) -> Loads {
-    pulled(Vector::new(0.0, -G, 0.0), drag_per_s)
+    pulled(Vector::y() * -G, drag_per_s)
+}
+
+/// These loads, and wind.
+pub(crate) fn blown(velocity_m_per_s: Vector, coefficient: f64, loads: Loads) -> Loads {
+    let wind = Some(Wind {
+        velocity_m_per_s,
+        coefficient,
+    });
+    Loads { wind, ..loads }
+}
+
+/// These loads, and a body in the way.
+pub(crate) fn onto(collider: Collider, loads: Loads) -> Loads {
+    let colliders = vec![collider];
+    Loads { colliders, ..loads }
 }
 
 /// This gravity, and drag in 1/s; none at all if that is 0.
@@ -65,6 +81,34 @@ pub(crate) fn run(system: &mut System, mut solver: impl Solver, dt_s: f64, steps
     for _ in 0..steps {
         system.step(&mut solver, dt_s).expect("a stable step");
     }
+}
+
+/// Moves all particles by up to half of `by_m` along each axis, and pushes them by up to half of
+/// `by_m_per_s`.
+pub(crate) fn shake(system: &mut System, by_m: f64, by_m_per_s: f64, random: &mut Random) {
+    let mut any = || Vector::from_fn(|_, _| random.next() - 0.5);
+    let (points, velocities) = system.state_mut();
+    for (x, v) in points.iter_mut().zip(velocities) {
+        *x += any() * by_m;
+        *v += any() * by_m_per_s;
+    }
+}
+
+/// The largest ratio of a length to its rest length.
+pub(crate) fn longest(system: &System) -> f64 {
+    let ids = system.stretches().iter();
+    ids.map(|id| system.stretch_ratio(id)).fold(0.0, f64::max)
+}
+
+/// The largest speed of a particle, in m/s.
+pub(crate) fn fastest(system: &System) -> f64 {
+    let speeds = system.velocities().iter().map(|v| v.norm());
+    speeds.fold(0.0, f64::max)
+}
+
+/// The order at which errors fall where a step is halved.
+pub(crate) fn order([coarse, fine]: [f64; 2]) -> f64 {
+    (coarse / fine).log2()
 }
 
 /// What Provot's limiter did in all steps so far.
@@ -157,17 +201,29 @@ pub(crate) fn implicit_by_default(method: Method) -> Implicit {
     implicit_to(method, Settings::default().tolerance)
 }
 
-/// A method by name.
-pub(crate) type NamedMethod = (&'static str, fn() -> Box<dyn Solver>);
-
-/// Every method.
-pub(crate) const METHODS: [NamedMethod; 8] = [
-    ("Verlet", || Box::new(Verlet::new())),
-    ("plain Verlet", || Box::new(PlainVerlet::new())),
-    ("RK4", || Box::new(Rk4::new())),
-    ("Provot", || Box::new(Provot::default())),
-    ("Provot without a limiter", || Box::new(Provot::unlimited())),
-    ("PBD", || Box::new(Pbd::default())),
-    ("XPBD", || Box::new(Xpbd::default())),
-    ("implicit", || Box::new(Implicit::default())),
+/// Every method by its name, and Provot's with its limiter at last.
+pub(crate) const METHODS: [&str; 9] = [
+    "guarded", "Provot", "Verlet", "RK4", "Euler", "BDF2", "XPBD", "PBD", "limited",
 ];
+
+/// A method by its name: Verlet with its guards and without, sweeps for those that sweep, equations solved
+/// to rounding for those that are implicit.
+pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
+    match name {
+        "guarded" => Box::new(Verlet::new()),
+        "Provot" => Box::new(Provot::unlimited()),
+        "limited" => Box::new(Provot::default()),
+        "Verlet" => Box::new(PlainVerlet::new()),
+        "RK4" => Box::new(Rk4::new()),
+        "Euler" => Box::new(implicit(Method::BackwardEuler)),
+        "BDF2" => Box::new(implicit(Method::Bdf2)),
+        "XPBD" => Box::new(Xpbd::new(1, sweeps)),
+        "PBD" => Box::new(Pbd::new(sweeps)),
+        other => panic!("no method is called {other}"),
+    }
+}
+
+/// Whether a method is implicit.
+pub(crate) fn is_implicit(name: &str) -> bool {
+    name == "Euler" || name == "BDF2"
+}

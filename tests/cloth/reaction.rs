@@ -1,44 +1,34 @@
 //! Forces in constraints and at hands, against weights and accelerations.
 
-use tearmesh::{Edits, Positions, Vector, shapes, split};
-use tearmesh_cloth::implicit::Method;
-use tearmesh_cloth::{
-    Bending, Fabric, Loads, Pbd, Provot, Solver, System, Threshold, Verlet, Wind, Xpbd, force,
-};
+use tearmesh::{Edits, Mesh, Positions, Vector, shapes, split};
+use tearmesh_cloth::{Bending, Cloth, Fabric, System, Threshold, Xpbd, force};
 
 use crate::parts::cloths::cloth;
 use crate::parts::nets::chain;
 use crate::parts::woven::weave;
-use crate::parts::{G, gravity, implicit, near, run, v};
+use crate::parts::{G, METHODS, blown, gravity, method, near, run, shake, v};
 use crate::random::Random;
-use crate::rk4::Rk4;
 
 #[test]
 fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
-    let methods: [(&str, &mut dyn Solver, f64); 7] = [
-        ("Verlet", &mut Verlet::new(), 0.008),
-        ("RK4", &mut Rk4::new(), 0.008),
-        ("springs", &mut Provot::unlimited(), 0.008),
-        // The top link would strain by 19.6 %: the limiter carries what is above 10.
-        ("Provot", &mut Provot::default(), 0.008),
-        ("PBD", &mut Pbd::new(400), 0.02),
-        ("XPBD", &mut Xpbd::new(1, 400), 0.02),
-        ("implicit", &mut implicit(Method::BackwardEuler), 0.1),
-    ];
-    for (_name, solver, dt) in methods {
+    // The top link would strain by 19.6 %: the limiter carries what is above 10.
+    for name in METHODS {
+        let dt = match name {
+            "PBD" | "XPBD" => 0.02,
+            "Euler" | "BDF2" => 0.1,
+            _ => 0.008,
+        };
         let mut chain = chain(4.0);
-        run(&mut chain, solver, dt, (20.0 / dt) as usize);
+        let mut solver = method(name, 400);
+        run(&mut chain, &mut *solver, dt, (20.0 / dt) as usize);
         let hand = force::reaction_n(&chain, 0);
         // Ten masses hang, and the hand holds an eleventh.
         near(hand.z, 11.0 * 0.01 * G, 1e-6);
         near(hand.x.abs() + hand.y.abs(), 0.0, 1e-15);
         for i in 0..10 {
             let link = chain.stretches().between(i, i + 1).expect("a link");
-            near(
-                force::force_n(&chain, link),
-                (10 - i) as f64 * 0.01 * G,
-                1e-6,
-            );
+            let weight = (10 - i) as f64 * 0.01 * G;
+            near(force::force_n(&chain, link), weight, 1e-6);
             near(force::reaction_n(&chain, i + 1).norm(), 0.0, 1e-6);
         }
     }
@@ -57,21 +47,9 @@ fn a_free_particle_lacks_what_accelerates_it() {
     for fabric in [springs, Fabric::woven(weave())] {
         let mut cloth = cloth(&mesh, &positions, fabric);
         let system = cloth.system_mut();
-        let wind = Wind {
-            velocity_m_per_s: Vector::new(1.0, 2.0, 5.0),
-            coefficient: 0.4,
-        };
-        let loads = Loads {
-            wind: Some(wind),
-            ..gravity(0.0)
-        };
+        let loads = blown(Vector::new(1.0, 2.0, 5.0), 0.4, gravity(0.0));
         system.set_loads(loads).expect("loads");
-        let (points, velocities) = system.state_mut();
-        for (x, v) in points.iter_mut().zip(velocities) {
-            let mut next = || random.next() - 0.5;
-            *x += 0.1 * Vector::new(next(), next(), next());
-            *v = Vector::new(next(), next(), next());
-        }
+        shake(system, 0.1, 1.0, &mut random);
         let mut accelerations = Vec::new();
         force::accelerations(system, &mut accelerations);
         for (i, a) in accelerations.iter().enumerate() {
@@ -95,24 +73,23 @@ fn copies_of_a_torn_link_share_its_multiplier() {
         cloth.step(&mut Xpbd::new(4, 4), 0.05).expect("a step");
         let centre = v(4);
         let faces: Vec<_> = mesh.faces_of(centre).take(3).collect();
-        let forces = mesh.half_edges();
-        let forces = forces.map(|h| force::force_n(cloth.system(), cloth.stretch(h)));
-        let forces: Vec<f64> = forces.collect();
-        assert!(forces.iter().any(|f| f.abs() > 1e-4));
-        // So each copy is as near to tearing as the link was.
         let threshold = Threshold::Force(2.0);
-        let loads = mesh.half_edges();
-        let loads = loads.map(|h| threshold.edge_load(&mesh, &cloth, h));
-        let loads: Vec<Option<f64>> = loads.collect();
+        let felt = |mesh: &Mesh, cloth: &Cloth| -> Vec<(f64, Option<f64>)> {
+            let force = |h| force::force_n(cloth.system(), cloth.stretch(h));
+            let load = |h| threshold.edge_load(mesh, cloth, h);
+            mesh.half_edges().map(|h| (force(h), load(h))).collect()
+        };
+        let before = felt(&mesh, &cloth);
+        assert!(before.iter().any(|(force, _)| force.abs() > 1e-4));
         let mut edits = Edits::new();
         split::vertex(&mut mesh, centre, &faces, &mut edits).expect("a split");
         edits.replay(&mut cloth);
-        for h in mesh.half_edges() {
+        let now = felt(&mesh, &cloth);
+        for (h, ((force, load), before)) in mesh.half_edges().zip(now.into_iter().zip(before)) {
             let share = [1.0, 0.5][usize::from(mesh.ghost_pair(h).is_some())];
-            let force = force::force_n(cloth.system(), cloth.stretch(h));
-            assert_eq!(force, share * forces[h.index()], "{h}");
-            let load = threshold.edge_load(&mesh, &cloth, h);
-            assert_eq!(load, loads[h.index()], "{h}");
+            assert_eq!(force, share * before.0, "{h}");
+            // So each copy is as near to tearing as the link was.
+            assert_eq!(load, before.1, "{h}");
         }
     }
 }

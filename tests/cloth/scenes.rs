@@ -1,34 +1,18 @@
 //! Scenes that play: what is held stays, what is led goes where it should, what hangs does not
 //! tear, what is ripped comes apart, and nothing is lost on the way.
 
-use tearmesh::{CutMethod, Point, Ray, Vector, VertexId};
-use tearmesh_cloth::implicit::Settings;
+use std::collections::BTreeSet;
+
+use tearmesh::{CutMethod, Point, Vector, VertexId};
 use tearmesh_cloth::scene::{
     Axis, Frame, HeldVertices, Region, Run, RunError, Scene, SwayingWind, TimedCut,
 };
 use tearmesh_cloth::{
-    Collider, Limiter, Method, Path, Quality, SimulationError, StepError, Tearing, Threshold, Wind,
-    energy, force,
+    Collider, Limiter, Method, Path, Quality, StepError, Tearing, Threshold, Wind, energy, force,
 };
 
-use crate::parts::plane;
-use crate::parts::scenes::{methods, play, played, square, staged};
-
-fn v(index: usize) -> VertexId {
-    VertexId::new(index).expect("an id")
-}
-
-fn ray(x: f64, y: f64) -> Ray {
-    Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray")
-}
-
-/// The upper edge.
-fn top() -> Region {
-    Region::Patch {
-        across: [0.0, 1.0],
-        along: [1.0, 1.0],
-    }
-}
+use crate::parts::scenes::{methods, play, played, square, staged, top};
+use crate::parts::{near, plane, ray, v};
 
 /// Nothing is lost: mass to the last bit, momentum and energy to rounding.
 fn check_ledgers(run: &Run) {
@@ -42,31 +26,26 @@ fn check_ledgers(run: &Run) {
 }
 
 fn check_hanging(cells: u32, name: &str, run: &Run) {
-    let ratio = run.tally().stretch_ratio_max;
-    assert_eq!(run.tally().splits, 0, "{name} at {cells}");
-    assert!(
-        ratio < 1.3,
-        "{name} at {cells}: near its threshold, {ratio}"
-    );
+    let (splits, ratio) = (run.tally().splits, run.tally().stretch_ratio_max);
+    assert!(splits == 0 && ratio < 1.3, "{name} at {cells}: {ratio}");
 }
 
 #[test]
 fn what_merely_hangs_does_not_tear() {
     for (name, _) in methods() {
-        check_hanging(16, name, played(16, "hang", name));
-    }
-    for name in ["verlet", "xpbd"] {
-        check_hanging(32, name, played(32, "hang", name));
+        for cells in [16, 32] {
+            check_hanging(cells, name, &played(cells, "hang", name).run);
+        }
     }
 }
 
 #[test]
 #[ignore = "minutes: 256 cells a side, by XPBD; 128 by all"]
 fn what_merely_hangs_does_not_tear_however_fine() {
-    let coarse = methods().map(|(name, method)| (128, name, method));
-    for (cells, name, solver) in [(256, "xpbd", Method::xpbd())].into_iter().chain(coarse) {
+    let coarse = Method::NAMES.map(|name| (128, name));
+    for (cells, name) in [(256, "xpbd")].into_iter().chain(coarse) {
         let run = play(staged(cells, |frame| Scene {
-            solver: solver.clone(),
+            solver: Method::named(name).expect("a method"),
             duration_s: 0.75,
             ..Scene::hang(frame)
         }));
@@ -77,7 +56,7 @@ fn what_merely_hangs_does_not_tear_however_fine() {
 #[test]
 fn what_is_ripped_falls_in_pieces_and_nothing_is_lost() {
     for (name, _) in methods() {
-        let run = played(16, "rip", name);
+        let run = &played(16, "rip", name).run;
         let tally = run.tally();
         assert!(tally.splits > 10, "{name}");
         assert!(run.mesh().components().count() >= 2, "{name}");
@@ -93,7 +72,7 @@ fn what_is_ripped_falls_in_pieces_and_nothing_is_lost() {
 fn what_is_ripped_tears_on_however_fine() {
     for cells in [64, 160] {
         let mut run = staged(cells, |frame| Scene {
-            solver: Method::Implicit(Settings::default()),
+            solver: Method::implicit(),
             ..Scene::rip(frame)
         });
         while !run.is_over() && run.tally().splits < 2 * u64::from(cells) {
@@ -106,24 +85,20 @@ fn what_is_ripped_tears_on_however_fine() {
 #[test]
 fn a_flag_is_cut_in_two_and_goes_on_waving() {
     let mut run = staged(16, Scene::flag);
-    let mut after = None;
+    let mut after = Vec::new();
     while !run.is_over() {
         let before = run.elapsed_s();
         run.step().expect("a step");
         if let [cut] = run.cuts_made() {
-            let report = &cut.report;
-            assert_eq!(cut.number, 0);
-            assert!((before - 1.5).abs() <= run.step_s() / 2.0);
-            assert!(report.separated);
-            assert_eq!(run.mesh().components().count(), 2);
-            after = Some(run.cloth().positions().to_vec());
+            near(before, 1.5, run.step_s() / 2.0);
+            assert!(cut.number == 0 && cut.report.separated);
+            after = run.cloth().positions().to_vec();
         }
     }
-    let after = after.expect("a cut");
     let system = run.cloth().system();
-    let moved = |v: &usize| (system.positions()[*v] - after[*v]).norm() > 0.05;
-    let vertices = 0..after.len();
-    assert!(vertices.filter(moved).count() > after.len() / 2);
+    let ways = system.positions().iter().zip(&after);
+    let moved = ways.filter(|(now, after)| (*now - *after).norm() > 0.05);
+    assert!(moved.count() > system.positions().len() / 2);
     assert!(energy::kinetic_j(system) > 0.01);
     assert_eq!(run.mesh().components().count(), 2);
     check_ledgers(&run);
@@ -174,11 +149,9 @@ fn a_cut_is_told_of_though_its_step_fails() {
     assert!(matches!(run.cuts_made(), [cut] if cut.report.splits > 0));
     // What is held is what was held, and its copies.
     let system = run.cloth().system();
-    let held = (0..system.positions().len()).filter(|&v| system.is_held(v));
-    let held: Vec<usize> = held.collect();
-    let mut led: Vec<usize> = run.held(0).iter().map(|v| v.index()).collect();
-    led.sort_unstable();
-    assert!(held.len() > 17 && led == held, "{held:?} {led:?}");
+    let held = run.mesh().vertices().filter(|v| system.is_held(v.index()));
+    let led: BTreeSet<VertexId> = run.held(0).iter().copied().collect();
+    assert!(led.len() > 17 && held.eq(led));
     // The next step does not say it again.
     assert!(run.step().is_err() && run.cuts_made().is_empty());
 }
@@ -198,21 +171,19 @@ fn the_legs_of_trousers_pull_against_each_other() {
             largest[leg] = largest[leg].max(sign * pulls.sum::<f64>());
         }
     }
-    assert!(run.tally().splits > 4, "{:?}", run.tally());
-    assert!(
-        largest[0] > 1.0 && (0.67..1.5).contains(&(largest[0] / largest[1])),
-        "{largest:?}"
-    );
+    assert!(run.tally().splits > 4 && largest[0] > 1.0);
+    assert!((0.67..1.5).contains(&(largest[0] / largest[1])));
     check_ledgers(&run);
 }
 
 #[test]
 fn what_is_held_is_taken_led_and_let_go_in_time() {
+    let by = Vector::new(0.1, 0.2, 0.3);
     let hold = HeldVertices {
         region: Region::Vertices(vec![v(40)]),
         from_s: 0.2,
         until_s: Some(0.6),
-        moves: vec![(0.2, Vector::zeros()), (0.4, Vector::new(0.1, 0.2, 0.3))],
+        moves: vec![(0.2, Vector::zeros()), (0.4, by)],
     };
     let mut run = staged(8, |frame| Scene {
         gravity_m_per_s2: Vector::zeros(),
@@ -222,80 +193,61 @@ fn what_is_held_is_taken_led_and_let_go_in_time() {
         ..Scene::fall(frame.up)
     });
     let begun = run.cloth().positions()[40];
-    let (mut led, mut free) = (0, 0);
     while !run.is_over() {
         run.step().expect("a step");
-        let (now, at) = (run.elapsed_s(), run.cloth().positions()[40]);
+        let (now, moved) = (run.elapsed_s(), run.cloth().positions()[40] - begun);
         let dt = run.step_s();
-        if now < 0.2 - dt {
-            assert_eq!(at, begun);
-            assert!(run.held(0).is_empty());
-        } else if now > 0.2 + 2.0 * dt && now < 0.6 - dt {
+        if now > 0.2 + 2.0 * dt && now < 0.6 - dt {
             let part = ((now - 0.2) / 0.2).min(1.0);
-            let wanted = begun + Vector::new(0.1, 0.2, 0.3) * part;
-            assert!((at - wanted).norm() < 1e-9, "{now}: {at} {wanted}");
-            led += 1;
-        } else if now > 0.6 + 2.0 * dt {
-            assert!(run.held(0).is_empty());
-            free += 1;
+            near((moved - by * part).norm(), 0.0, 1e-9);
+        } else if now < 0.2 - dt || now > 0.6 + 2.0 * dt {
+            assert!(run.held(0).is_empty() && (now > 0.6 || moved.norm() == 0.0));
         }
     }
-    assert!(led > 10 && free > 10);
-    assert!((run.cloth().positions()[40] - begun).norm() > 0.01);
+    assert_ne!(run.cloth().positions()[40], begun + by, "it is free");
 }
 
 /// Two holds on one edge: while both hold, the one that took last leads, and when it ends the other
 /// holds on, in whatever order the scene has them.
 #[test]
 fn what_one_hold_lets_go_another_still_holds() {
-    let hold = |from_s, until_s, moves| HeldVertices {
+    let hold = |from_s, until_s, way: &[(f64, [f64; 3])]| HeldVertices {
         from_s,
         until_s,
-        moves,
+        moves: way.iter().map(|&(t_s, by)| (t_s, by.into())).collect(),
         ..HeldVertices::still(top())
     };
-    let up = vec![(0.0, Vector::zeros()), (0.5, Vector::new(0.0, 0.0, 0.5))];
-    let aside = vec![(0.1, Vector::zeros()), (0.2, Vector::new(0.25, 0.0, 0.0))];
-    let for_ever = HeldVertices::still(top());
-    let led_for_ever = hold(0.0, None, up);
-    let for_a_while = HeldVertices {
-        from_s: 0.1,
-        until_s: Some(0.3),
-        ..for_ever.clone()
-    };
-    let led_for_a_while = hold(0.1, Some(0.3), aside.clone());
-    let moved = |holds: Vec<HeldVertices>| {
-        let run = staged(6, |frame| Scene {
-            duration_s: 0.6,
-            holds: holds.clone(),
-            tearing: None,
-            ..Scene::fall(frame.up)
-        });
-        let begun = run.cloth().positions()[42];
-        let run = play(run);
-        assert!(run.cloth().system().is_held(42));
-        run.cloth().positions()[42] - begun
-    };
+    let up = [(0.0, [0.0; 3]), (0.5, [0.0, 0.0, 0.5])];
+    let aside = [(0.1, [0.0; 3]), (0.2, [0.25, 0.0, 0.0])];
+    let for_ever = hold(0.0, None, &[]);
+    let led_for_ever = hold(0.0, None, &up);
+    let for_a_while = hold(0.1, Some(0.3), &[]);
+    let led_for_a_while = hold(0.1, Some(0.3), &aside);
+    let soon_over = hold(0.0, Some(0.2), &[]);
+    let later_for_ever = hold(0.1, None, &aside);
     for (one, other, wanted) in [
         (&for_ever, &for_a_while, [0.0, 0.0, 0.0]),
         (&for_ever, &led_for_a_while, [0.25, 0.0, 0.0]),
         // It goes on from where it is, as the path does: 0.1 s to 0.3 s are not made up for.
         (&led_for_ever, &for_a_while, [0.0, 0.0, 0.3]),
         (&led_for_ever, &led_for_a_while, [0.25, 0.0, 0.3]),
+        // What ends first is no grip of the other's.
+        (&soon_over, &later_for_ever, [0.25, 0.0, 0.0]),
     ] {
         for holds in [[one, other], [other, one]] {
-            let moved = moved(holds.map(HeldVertices::clone).to_vec());
-            let off = (moved - Vector::from(wanted)).norm();
-            assert!(off < 0.02, "{moved:?}, {wanted:?}: {holds:?}");
+            let run = staged(6, |frame| Scene {
+                duration_s: 0.6,
+                holds: holds.map(HeldVertices::clone).to_vec(),
+                tearing: None,
+                ..Scene::fall(frame.up)
+            });
+            let begun = run.cloth().positions()[42];
+            let run = play(run);
+            assert!(run.cloth().system().is_held(42));
+            let off = run.cloth().positions()[42] - begun - Vector::from(wanted);
+            assert!(off.norm() < 0.02, "{off:?}: {holds:?}");
         }
     }
-    // What ends first is no grip of the other's.
-    let soon_over = HeldVertices {
-        until_s: Some(0.2),
-        ..for_ever
-    };
-    let off = moved(vec![soon_over, hold(0.1, None, aside)]) - Vector::new(0.25, 0.0, 0.0);
-    assert!(off.norm() < 1e-9, "{off:?}");
 }
 
 #[test]
@@ -345,16 +297,9 @@ fn a_ball_under_a_falling_cloth_is_not_entered() {
     };
     let run = play(Run::new(mesh, &positions, scene, &frame).expect("a scene"));
     let points = run.cloth().positions().iter();
-    let distances: Vec<f64> = points.clone().map(|p| (p - centre).norm()).collect();
-    assert!(distances.iter().all(|&distance| distance > 0.299));
-    assert!(
-        distances
-            .iter()
-            .filter(|&&distance| distance < 0.301)
-            .count()
-            > 5
-    );
-    assert!(points.clone().all(|p| p.z > -0.9001));
+    let away_m = |p: &Point| (p - centre).norm();
+    assert!(points.clone().all(|p| away_m(p) > 0.299 && p.z > -0.9001));
+    assert!(points.filter(|p| away_m(p) < 0.301).count() > 5);
 }
 
 /// Two edges that are led to one and a half times the distance leave no way to a limit of 1.1, and
@@ -386,18 +331,13 @@ fn methods_say_where_their_steps_fall_short() {
                 assert!((0.39..2.0).contains(&limited.excess_max), "{limited:?}");
             }
             ("pbd", Quality::Strain(rms)) => {
-                let squares = run.mesh().edges().map(|h| {
-                    let at = |v: VertexId| run.cloth().positions()[v.index()];
-                    let rest = |v: VertexId| run.cloth().rest_positions().at(v);
-                    let [a, b] = [run.mesh().origin(h), run.mesh().target(h)];
-                    ((at(b) - at(a)).norm() / (rest(b) - rest(a)).norm() - 1.0).powi(2)
-                });
-                let mean = squares.clone().sum::<f64>() / squares.count() as f64;
+                let ids = system.stretches().iter();
+                let squares = ids.map(|id| (system.stretch_ratio(id) - 1.0).powi(2));
+                let mean = squares.sum::<f64>() / system.stretches().len() as f64;
                 assert!((rms - mean.sqrt()).abs() < 1e-12 && rms > 0.2, "{rms}");
             }
-            ("xpbd", Quality::Residual(newtons)) => {
-                assert!(newtons > 1.0, "one sweep does not converge: {newtons}");
-            }
+            // One sweep does not converge.
+            ("xpbd", Quality::Residual(newtons)) => assert!(newtons > 1.0),
             ("implicit", Quality::Implicit(solved)) => {
                 assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
             }
@@ -433,55 +373,21 @@ fn scenes_that_make_no_sense_are_refused_at_once() {
     let no_moves = RunError::Moves { number: 0 };
     let same = vec![(1.0, Vector::zeros()); 2];
     type Change<'a> = &'a dyn Fn(&mut Scene);
+    let nobody = |scene: &mut Scene| scene.strengths = vec![(nowhere(), 0.5)];
+    let too_far = |scene: &mut Scene| scene.strengths = vec![(beyond(), 2.0)];
+    let standing = |scene: &mut Scene| scene.holds[0].moves = same.clone();
     let changes: [(Change<'_>, RunError); 8] = [
         (&|scene| scene.step_s = Some(0.0), no_times(0.0, 2.0)),
         (&|scene| scene.step_s = Some(1e-30), no_times(1e-30, 2.0)),
         (&|scene| scene.holds[1].region = nowhere(), none("hold", 1)),
         (&|scene| scene.holds[0].region = beyond(), no_vertex("hold")),
-        (
-            &|scene| scene.strengths = vec![(nowhere(), 0.5)],
-            none("strength", 0),
-        ),
-        (
-            &|scene| scene.strengths = vec![(beyond(), 2.0)],
-            no_vertex("strength"),
-        ),
-        (
-            &|scene| scene.holds[0].moves = same.clone(),
-            no_moves.clone(),
-        ),
+        (&nobody, none("strength", 0)),
+        (&too_far, no_vertex("strength")),
+        (&standing, no_moves.clone()),
         (&|scene| scene.holds[0].until_s = Some(0.0), no_moves),
     ];
     for (change, error) in changes {
         assert_eq!(refused(change), error);
-    }
-    let tearing = Some(Tearing::new(Threshold::Stretch(0.5)));
-    let error = refused(&|scene| scene.tearing = tearing);
-    assert!(matches!(
-        error,
-        RunError::Simulation(SimulationError::Tearing(_))
-    ));
-    let error = refused(&|scene| scene.areal_density_kg_per_m2 = 0.0);
-    assert!(matches!(
-        error,
-        RunError::Simulation(SimulationError::Cloth(_))
-    ));
-    let text = |change: &dyn Fn(&mut Scene)| refused(change).to_string();
-    let timeless = text(&|scene| scene.duration_s = f64::NAN);
-    assert!(
-        timeless.starts_with("NaN s cannot be taken in steps of 0.00"),
-        "{timeless}"
-    );
-    let drag = text(&|scene| scene.drag_per_s = -1.0);
-    assert_eq!(
-        drag,
-        "drag_per_s is -1, and has to be finite and at least 0"
-    );
-    for at_s in [f64::NAN, -1.0, f64::INFINITY] {
-        let expected = format!(
-            "cut 1 is at {at_s} s, which is not finite, negative, or before the cut before it"
-        );
-        assert_eq!(text(&|scene| scene.cuts[0].at_s = at_s), expected);
     }
     // Wind that is not usable at some time, and not in the first step.
     let swaying = |steady: f64, sway: f64, period_s: f64| SwayingWind {
@@ -493,24 +399,37 @@ fn scenes_that_make_no_sense_are_refused_at_once() {
         period_s,
     };
     let huge = 1.5e308;
-    let sways = [(huge, huge), (-huge, huge), (1.0, f64::NAN)];
-    let sways = sways.map(|(steady, sway)| {
+    for (steady, sway, period_s, named) in [
+        (huge, huge, 1.0, "wind.sway_m_per_s is 15"),
+        (-huge, huge, 1.0, "wind.sway_m_per_s is 15"),
+        (1.0, f64::NAN, 1.0, "wind.sway_m_per_s is NaN"),
+        (1.0, 1.0, 1e-320, "wind.period_s is 0.0"),
+        (1.0, 1.0, 0.0, "wind.period_s is 0"),
+        (1.0, 1.0, -1.0, "wind.period_s is -1"),
+        (1.0, 1.0, f64::INFINITY, "wind.period_s is inf"),
+        (1.0, 1.0, f64::NAN, "wind.period_s is NaN"),
+        (1.0, 0.0, -1.0, "wind.period_s is -1"),
+    ] {
+        let wind = Some(swaying(steady, sway, period_s));
+        let error = refused(&|scene| scene.wind = wind).to_string();
+        assert!(error.contains(named), "{error}");
+    }
+    let tearing = Some(Tearing::new(Threshold::Stretch(0.5)));
+    let changes: [(Change<'_>, &str); 7] = [
+        (&|scene| scene.tearing = tearing, "threshold is 0.5, and"),
         (
-            swaying(steady, sway, 1.0),
-            format!("sway_m_per_s is {sway}"),
-        )
-    });
-    let periods = [1e-320, 0.0, -1.0, f64::INFINITY, f64::NAN];
-    let periods = periods.map(|period_s| {
-        (
-            swaying(1.0, 1.0, period_s),
-            format!("period_s is {period_s}"),
-        )
-    });
-    let still = [(swaying(1.0, 0.0, -1.0), "period_s is -1".to_owned())];
-    for (wind, named) in sways.into_iter().chain(periods).chain(still) {
-        let error = text(&|scene| scene.wind = Some(wind));
-        assert!(error.contains(&format!("wind.{named}")), "{error}");
+            &|scene| scene.areal_density_kg_per_m2 = 0.0,
+            "the density 0",
+        ),
+        (&|scene| scene.duration_s = f64::NAN, "NaN s cannot be"),
+        (&|scene| scene.drag_per_s = -1.0, "drag_per_s is -1, and"),
+        (&|scene| scene.cuts[0].at_s = -1.0, "cut 1 is at -1 s, "),
+        (&|scene| scene.cuts[0].at_s = f64::NAN, "cut 1 is at NaN"),
+        (&|scene| scene.cuts[0].at_s = 1.0 / 0.0, "cut 1 is at inf"),
+    ];
+    for (change, named) in changes {
+        let error = refused(change).to_string();
+        assert!(error.starts_with(named), "{error}");
     }
 }
 

@@ -9,8 +9,8 @@ use tearmesh_cloth::{BlowUpSite, Buckling, Fabric, Implicit, StepError, System, 
 use crate::parts::cloths::cloth;
 use crate::parts::nets::row;
 use crate::parts::{
-    gravity, implicit, implicit_by_default, implicit_to, mechanical_j, on_a_line, particles,
-    solved, state,
+    gravity, implicit, implicit_by_default, implicit_to, longest, mechanical_j, on_a_line,
+    particles, run, solved, state,
 };
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
@@ -33,11 +33,6 @@ fn crumb(omega_rad_per_s: f64) -> System {
     crumb
 }
 
-fn stretched(system: &System) -> f64 {
-    let ids = system.stretches().iter();
-    ids.map(|id| system.stretch_ratio(id)).fold(0.0, f64::max)
-}
-
 /// The tangent of a step is √(1 + (ω Δt)²) times as long as the radius, and linearised forces do
 /// not feel it. A step that would stretch it by more than 15 %, or make .3 % of the energy that is in motion
 /// and that it stores, is divided, and counted.
@@ -49,29 +44,24 @@ fn a_crumb_that_spins_fast_keeps_its_size_and_makes_no_energy() {
         let mut solver = Implicit::default();
         let energy = energy::kinetic_j(&crumb);
         let tangent = (1.0 + turn * turn).sqrt();
-        let flown_j = {
-            let mut flown = crumb.clone();
-            let (points, velocities) = flown.state_mut();
-            let particles = points.iter_mut().zip(velocities);
-            particles.for_each(|(x, v)| *x += *v * dt_s);
-            energy::elastic_j(&flown)
-        };
+        let mut flown = crumb.clone();
+        let (points, velocities) = flown.state_mut();
+        let particles = points.iter_mut().zip(velocities);
+        particles.for_each(|(x, v)| *x += *v * dt_s);
+        let flown_j = energy::elastic_j(&flown);
         let is_far = tangent > 1.15 || flown_j > 0.003 * (energy + flown_j);
         let mut most = 0.0_f64;
         for step in 0..50 {
             crumb.step(&mut solver, dt_s).expect("a step");
-            most = most.max(stretched(&crumb));
+            most = most.max(longest(&crumb));
             if step == 0 {
                 let overshot = crumb.counters().overshoots == 1;
                 let parts = solved(&solver, &crumb).parts;
                 assert_eq!((overshot, parts > 1), (is_far, is_far), "{turn}");
             }
         }
-        let left = mechanical_j(&crumb) / energy;
-        assert!(
-            most <= tangent.min(1.2) * 1.001 && left < 1.0,
-            "{turn}: {most} {left}"
-        );
+        assert!(most <= tangent.min(1.2) * 1.001, "{turn}: {most}");
+        assert!(mechanical_j(&crumb) < energy, "{turn}");
     }
     // So fast that no part of the step that is tried would do.
     let mut crumb = crumb(1e3 / dt_s);
@@ -111,11 +101,12 @@ fn a_matrix_that_is_all_but_singular_throws_nothing_away() {
         let made_j = changed_j + kinetic_j(linear / dt_s) - kinetic_j(speed);
         let makes = made_j > 0.003 * (kinetic_j(speed) + changed_j.abs());
         assert_eq!(overshot, long > 1.15 * rest || makes, "{i}: {linear}");
-        if overshot {
-            assert!(y.abs() < 0.07, "{i}: {y}");
+        let off = if overshot {
+            y.abs() / 0.07
         } else {
-            assert!((y - linear).abs() < 1e-8, "{i}: {y} {linear}");
-        }
+            (y - linear).abs() / 1e-8
+        };
+        assert!(off < 1.0, "{i}: {y} {linear}");
         thrown += u32::from(overshot);
         farthest = farthest.max(linear);
     }
@@ -203,18 +194,17 @@ fn pushed_chains_never_have_more_energy_than_they_were_given() {
             pushed.state_mut().1[i] = Vector::new(push(), push(), push());
         }
         let given_j = mechanical_j(&pushed);
-        for (method, times) in METHODS
-            .into_iter()
-            .flat_map(|method| [10.0, 100.0, 1000.0].map(|times| (method, times)))
-        {
+        let times = METHODS.map(|method| [10.0, 100.0, 1000.0].map(|times| (method, times)));
+        for &(method, times) in times.as_flattened() {
             let mut chain = pushed.clone();
             let mut solver = implicit_to(method, 10.0);
-            for step in 0..300 {
-                let name = || format!("{links} links, {seed}, {method:?}, {times}, step {step}");
-                let done = chain.step(&mut solver, times * 2.0 / omega);
-                done.unwrap_or_else(|error| panic!("{}: {error}", name()));
+            for _ in 0..300 {
+                run(&mut chain, &mut solver, times * 2.0 / omega, 1);
                 let part = mechanical_j(&chain) / given_j;
-                assert!(part < 1.0, "{}: {part} of the energy", name());
+                assert!(
+                    part < 1.0,
+                    "{links} links, {seed}, {method:?}, {times}: {part}"
+                );
             }
         }
     }
@@ -229,11 +219,7 @@ fn a_step_begins_with_the_energy_that_is_there() {
             row.set_stiffness(id, 1e5).expect("a stiffness");
         }
     };
-    let go_on = |row: &mut System| {
-        for _ in 0..20 {
-            row.step(&mut Verlet::new(), 1e-3).expect("a step");
-        }
-    };
+    let go_on = |row: &mut System| run(row, Verlet::new(), 1e-3, 20);
     for (name, change) in [
         ("stiffer", stiffen as fn(&mut System)),
         ("moved by another method", go_on),

@@ -1,46 +1,20 @@
-//! Every method against every reference answer, its order, and where it blows up: each cell asserted,
-//! and all of it printed as tables by
-//!
-//! ```text
-//! cargo test --test main -- --nocapture --test-threads 1 table_of
-//! ```
+//! Every method against every reference answer, its order, and where it blows up: each cell asserted.
 
 mod blow_up;
-mod numbers;
 mod orders;
 mod references;
 mod theory;
 
-use tearmesh::{Point, Vector};
-use tearmesh_cloth::implicit::Method;
-use tearmesh_cloth::{Pbd, Provot, Solver, System, Verlet, Xpbd};
+pub(crate) use theory::bisect;
 
-use crate::parts::implicit;
+use tearmesh::{Point, Vector};
+use tearmesh_cloth::System;
+
 use crate::parts::nets::row;
 use crate::parts::woven::strip;
-use crate::plain_verlet::PlainVerlet;
-use crate::rk4::Rk4;
 
-/// The methods, in the order of the tables' columns.
-pub(crate) const METHODS: [&str; 8] = [
-    "guarded", "Provot", "Verlet", "RK4", "Euler", "BDF2", "XPBD", "PBD",
-];
-
-/// A method by its name: Verlet with its guards and without, the limiter off, sweeps for those that
-/// sweep, equations solved to rounding for those that are implicit.
-pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
-    match name {
-        "guarded" => Box::new(Verlet::new()),
-        "Provot" => Box::new(Provot::unlimited()),
-        "Verlet" => Box::new(PlainVerlet::new()),
-        "RK4" => Box::new(Rk4::new()),
-        "Euler" => Box::new(implicit(Method::BackwardEuler)),
-        "BDF2" => Box::new(implicit(Method::Bdf2)),
-        "XPBD" => Box::new(Xpbd::new(1, sweeps)),
-        "PBD" => Box::new(Pbd::new(sweeps)),
-        other => panic!("no method is called {other}"),
-    }
-}
+/// The methods of the tables: all but the limiter, which works against what is stretched.
+const METHODS: &[&str] = crate::parts::METHODS.split_at(8).0;
 
 /// What a row of springs is made of: springs, or strips of two triangles a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

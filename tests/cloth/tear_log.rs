@@ -4,9 +4,10 @@ use std::num::NonZero;
 
 use tearmesh::Vector;
 use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::{HeldVertices, Scene, TearLog};
+use tearmesh_cloth::scene::{HeldVertices, Scene};
 
-use crate::parts::scenes::{methods, noted, play, staged};
+use crate::parts::near;
+use crate::parts::scenes::{Played, play, played, staged};
 
 /// How far a hold has been led by then: straight between the points of its way.
 fn led(hold: &HeldVertices, time_s: f64) -> Vector {
@@ -25,63 +26,42 @@ fn led(hold: &HeldVertices, time_s: f64) -> Vector {
 /// forces and ways substep by substep, and knows nothing of frames.
 #[test]
 fn force_times_way_is_the_work_of_hands() {
-    for (name, solver) in methods() {
-        if matches!(solver, Method::Provot(_)) {
-            continue; // Its limiter works on what is held as well.
-        }
-        let (run, log) = noted(staged(8, |frame| Scene {
-            solver: solver.clone(),
-            ..Scene::trouser(frame)
-        }));
-        let mut worked_j = 0.0;
-        let mut since_s = 0.0;
+    // Provot's limiter works on what is held as well.
+    for name in Method::NAMES.into_iter().filter(|name| *name != "provot") {
+        let Played { run, log, .. } = played(16, "trouser", name);
+        let (mut worked_j, mut since_s) = (0.0, 0.0);
         for frame in log.hold_forces() {
             for (hold, force) in run.scene().holds.iter().zip(&frame.forces_n) {
                 worked_j += force.dot(&(led(hold, frame.end_s) - led(hold, since_s)));
             }
             since_s = frame.end_s;
         }
-        let held_j = run.energy_balance().held_j;
-        assert!(
-            (worked_j / held_j - 1.0).abs() < 0.02,
-            "{name}: {worked_j} {held_j}"
-        );
+        let part = worked_j / run.energy_balance().held_j;
+        assert!((part - 1.0).abs() < 0.02, "{name}: {part}");
         assert!(run.tally().splits > 0, "{name}");
     }
 }
 
 #[test]
 fn events_are_the_steps_in_which_something_tore() {
-    for (name, solver) in methods() {
-        let mut run = staged(10, |frame| Scene {
-            solver: solver.clone(),
-            ..Scene::rip(frame)
-        });
-        let mut log = TearLog::new(&run);
-        let mut expected = Vec::new();
-        while !run.is_over() {
-            let (splits, torn_m) = (run.tally().splits, run.torn_length_m());
-            let step = run.step().expect("a step");
-            log.note(&run, &step);
-            if run.tally().splits > splits {
-                let splits = (run.tally().splits - splits) as usize;
-                expected.push((run.elapsed_s(), splits, run.torn_length_m() - torn_m));
-            }
-        }
-        let events = log.events();
-        assert_eq!(events.len(), expected.len(), "{name}");
-        for (event, &(time_s, splits, torn_m)) in events.iter().zip(&expected) {
-            assert_eq!((event.time_s, event.splits), (time_s, splits), "{name}");
-            assert!((event.torn_m - torn_m).abs() < 1e-12, "{name}");
+    for name in Method::NAMES {
+        let Played { log, torn, .. } = played(16, "rip", name);
+        assert_eq!(log.events().len(), torn.len(), "{name}");
+        let (mut splits_before, mut before_m) = (0, 0.0);
+        for (event, &(time_s, splits, torn_m)) in log.events().iter().zip(torn) {
+            assert_eq!(event.time_s, time_s, "{name}");
+            assert_eq!(event.splits as u64, splits - splits_before, "{name}");
+            near(event.torn_m, torn_m - before_m, 1e-12);
             assert!(event.load >= 1.0);
+            (splits_before, before_m) = (splits, torn_m);
         }
         let first = log.first_tear().expect("it rips");
-        assert_eq!(first.event, events[0]);
+        assert_eq!(first.event, log.events()[0]);
         // The grip is dragged down, so what tears first is not far above it.
         let (now, rest) = (first.event.place, first.event.place_at_rest);
         assert!(now.y < rest.y + 0.01, "{name}: {now} {rest}");
         let (first_n, largest_n) = (first.force_n, log.largest_force_n());
-        let knows_forces = !matches!(solver, Method::Provot(_));
+        let knows_forces = name != "provot";
         assert_eq!([first_n.is_some(), largest_n.is_some()], [knows_forces; 2]);
         assert!(first_n <= largest_n && first_n.is_none_or(|newtons| newtons > 0.0));
     }
@@ -119,9 +99,7 @@ fn what_is_displaced_has_its_rest_as_before() {
     let by = |i: usize| Vector::new(0.01 * (i % 3) as f64, 0.0, 0.02);
     let moved = whole.displaced(|v| by(v.index())).expect("usable places");
     let now = moved.cloth().positions();
-    for (i, (before, now)) in before.iter().zip(now).enumerate() {
-        assert_eq!(*now, before + by(i));
-    }
+    assert!((0..now.len()).all(|i| now[i] == before[i] + by(i)));
     assert_eq!(moved.cloth().rest_positions().as_slice(), before);
     let began_j = moved.energy_balance().began_j;
     assert!(began_j > 0.0);

@@ -17,10 +17,10 @@ pub(crate) enum Order {
     Shuffled,
 }
 
-pub(super) const ORDERS: [Order; 3] = [Order::Mesh, Order::Reversed, Order::Shuffled];
+pub(crate) const ORDERS: [Order; 3] = [Order::Mesh, Order::Reversed, Order::Shuffled];
 
 impl Order {
-    pub(super) fn apply<T>(self, list: &mut [T]) {
+    pub(crate) fn apply<T>(self, list: &mut [T]) {
         match self {
             Order::Mesh => {}
             Order::Reversed => list.reverse(),

@@ -1,5 +1,6 @@
 //! Matrices as lists of rows, and naive code for them.
 
+use super::kernels::moved;
 use super::{Scene, forces};
 use nalgebra::{DMatrix, DVector};
 use tearmesh::Vector;
@@ -13,19 +14,13 @@ pub(super) fn jacobian(system: &System) -> Matrix {
     let mut system = system.clone();
     let n = system.positions().len();
     (0..n).for_each(|i| system.release(i));
-    let column = |c: usize| {
-        let here = system.positions()[c / 3][c % 3];
-        let mut difference = |h: f64| -> Vec<f64> {
-            let [plus, minus] = [h, -h].map(|by| {
-                system.state_mut().0[c / 3][c % 3] = here + by;
-                forces(&mut system)
-            });
-            system.state_mut().0[c / 3][c % 3] = here;
+    let column = |c: usize| -> Vec<f64> {
+        let difference = |h: f64| -> Vec<f64> {
+            let [plus, minus] = [h, -h].map(|by| forces(&mut moved(&system, c, by)));
             let pairs = plus.iter().flatten().zip(minus.iter().flatten());
             pairs.map(|(p, m)| (m - p) / (2.0 * h)).collect()
         };
-        let (coarse, fine) = (difference(2e-5), difference(1e-5));
-        let pairs = coarse.iter().zip(&fine);
+        let pairs = difference(2e-5).into_iter().zip(difference(1e-5));
         pairs
             .map(|(coarse, fine)| (4.0 * fine - coarse) / 3.0)
             .collect()

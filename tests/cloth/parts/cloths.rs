@@ -44,10 +44,8 @@ pub(crate) fn sheet(columns: u32, rows: u32, seed: u64) -> (Mesh, Positions) {
         };
         [p.x * n as f64 + off(), p.y * m as f64 + off(), 0.0].map(|x| 0.1 * x)
     });
-    (
-        mesh,
-        Positions::new(points.collect::<Vec<_>>()).expect("finite"),
-    )
+    let positions = Positions::new(points).expect("finite");
+    (mesh, positions)
 }
 
 /// Moves the particles of a cloth by a function of where they are.

@@ -3,14 +3,21 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 
-use tearmesh::{Mesh, Positions, shapes};
+use tearmesh::{HalfEdgeId, Mesh, Positions, shapes};
 use tearmesh_cloth::Method;
-use tearmesh_cloth::implicit::Settings;
-use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, TearLog};
+use tearmesh_cloth::scene::{Axis, Frame, Region, Run, Scene, TearLog};
 
 /// A square of one metre with `cells` cells per side and alternating diagonals.
 pub(crate) fn square(cells: u32) -> (Mesh, Positions) {
     shapes::grid_with_diagonals(cells, cells, |i, j| (i + j) % 2 == 0)
+}
+
+/// Its upper edge.
+pub(crate) fn top() -> Region {
+    Region::Patch {
+        across: [0.0, 1.0],
+        along: [1.0, 1.0],
+    }
 }
 
 /// A scene on a [`square`], about to begin.
@@ -32,58 +39,63 @@ pub(crate) fn play(mut run: Run) -> Run {
     run
 }
 
+/// A run that was played to its end.
+pub(crate) struct Played {
+    pub(crate) run: Run,
+    pub(crate) log: TearLog,
+    /// After each step in which something tore: the time in seconds, the splits, and the length of the tears.
+    pub(crate) torn: Vec<(f64, u64, f64)>,
+}
+
 /// Plays a run to its end, and notes what tore.
-pub(crate) fn noted(mut run: Run) -> (Run, TearLog) {
-    let mut log = TearLog::new(&run);
+pub(crate) fn noted(mut run: Run) -> Played {
+    let (mut log, mut torn) = (TearLog::new(&run), Vec::new());
     while !run.is_over() {
+        let before = run.tally().splits;
         let step = run.step().expect("a step");
         log.note(&run, &step);
+        if run.tally().splits > before {
+            torn.push((run.elapsed_s(), run.tally().splits, run.torn_length_m()));
+        }
     }
-    (run, log)
+    Played { run, log, torn }
 }
 
-/// The scene of this name that stands ready.
-fn ready(name: &str, frame: &Frame) -> Scene {
-    match name {
-        "fall" => Scene::fall(frame.up),
-        "hang" => Scene::hang(frame),
-        "flag" => Scene::flag(frame),
-        "rip" => Scene::rip(frame),
-        "trouser" => Scene::trouser(frame),
-        _ => panic!("{name} does not stand ready"),
+/// Plays a run until something tears, and returns the edge with the largest load.
+pub(crate) fn torn_first(mut run: Run) -> (Run, HalfEdgeId) {
+    loop {
+        assert!(!run.is_over(), "nothing tore");
+        let tear = run.step().expect("a step");
+        if let Some((edge, _)) = tear.worst.filter(|_| tear.splits > 0) {
+            return (run, edge);
+        }
     }
 }
 
-/// What was played of those, by cells, scene and method.
-type Played = BTreeMap<(u32, &'static str, &'static str), &'static OnceLock<Run>>;
+/// By cells, scene and method.
+type AllPlayed = BTreeMap<(u32, &'static str, &'static str), &'static OnceLock<Played>>;
 
 /// A ready scene on a [`square`] after its end, by one of [`methods`]. It is played once, whoever reads
 /// it.
-pub(crate) fn played(cells: u32, scene: &'static str, method: &'static str) -> &'static Run {
-    static PLAYED: Mutex<Played> = Mutex::new(BTreeMap::new());
-    let run = {
+pub(crate) fn played(cells: u32, scene: &'static str, method: &'static str) -> &'static Played {
+    static PLAYED: Mutex<AllPlayed> = Mutex::new(BTreeMap::new());
+    let once = {
         let mut played = PLAYED.lock().expect("nobody panics while they hold it");
         *played
             .entry((cells, scene, method))
             .or_insert_with(|| Box::leak(Box::default()))
     };
-    run.get_or_init(|| {
-        let solver = methods().into_iter().find(|(name, _)| *name == method);
-        let (_, solver) = solver.expect("a method");
-        play(staged(cells, |frame| Scene {
-            solver: solver.clone(),
-            ..ready(scene, frame)
+    once.get_or_init(|| {
+        let ready = Scene::PRESETS.iter().find(|(name, _)| *name == scene);
+        let (_, ready) = ready.expect("a scene");
+        noted(staged(cells, |frame| Scene {
+            solver: Method::named(method).expect("a method"),
+            ..ready(frame)
         }))
     })
 }
 
 /// Every method that a scene can name, by its name.
 pub(crate) fn methods() -> [(&'static str, Method); 5] {
-    [
-        ("xpbd", Method::xpbd()),
-        ("pbd", Method::pbd()),
-        ("verlet", Method::Verlet),
-        ("provot", Method::provot()),
-        ("implicit", Method::Implicit(Settings::default())),
-    ]
+    Method::NAMES.map(|name| (name, Method::named(name).expect("a method")))
 }

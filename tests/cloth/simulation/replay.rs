@@ -17,30 +17,25 @@ use super::{ALL, across, at, check, drag, hung, pass, sheet};
 use crate::parts::scenes::methods;
 use crate::parts::{ray, v};
 
-/// Everything that a simulation computed, as bits.
-fn bits(sim: &Simulation) -> (Vec<u64>, Vec<u32>) {
+/// Everything that a simulation computed, as words.
+fn words(sim: &Simulation) -> Vec<u64> {
     let system = sim.cloth().system();
     let points = system.positions().iter().flat_map(|x| [x.x, x.y, x.z]);
     let velocities = system.velocities().iter().flat_map(|v| [v.x, v.y, v.z]);
     let numbers = points.chain(velocities).chain([sim.time_s()]);
-    (
-        numbers.map(f64::to_bits).collect(),
-        sim.mesh().indices().to_vec(),
-    )
+    let indices = sim.mesh().indices().iter().map(|&index| u64::from(index));
+    numbers.map(f64::to_bits).chain(indices).collect()
 }
 
 /// Writes, reads and replays the log of a simulation of a sheet, and compares.
 fn replays(sim: &Simulation, n: u32, def: &SimulationDef) {
     let log = sim.log().expect("it is recorded");
-    let read: InputLog = log
-        .to_string()
-        .parse()
-        .expect("what was written can be read");
+    let read: InputLog = log.to_string().parse().expect("what was written");
     assert_eq!(&read, log);
     let (mesh, positions) = shapes::grid(n, n);
     let again = Simulation::replayed(mesh, &positions, def.clone(), &read, |_, _| {});
     let again = again.expect("replayed");
-    assert!(bits(&again) == bits(sim), "the same bytes");
+    assert!(words(&again) == words(sim), "the same bytes");
     assert_eq!(again.log(), Some(log));
     assert_eq!(again.open_pairs(), sim.open_pairs());
 }
@@ -93,11 +88,7 @@ fn a_run_of_verbs_has_the_bytes_that_it_had() {
         ..SimulationDef::default()
     };
     let sim = played(12, &def);
-    let (numbers, indices) = bits(&sim);
-    let words = numbers
-        .into_iter()
-        .chain(indices.into_iter().map(u64::from));
-    let hash = words.fold(0, |hash: u64, word| {
+    let hash = words(&sim).into_iter().fold(0, |hash: u64, word| {
         (hash ^ word).wrapping_mul(0x0100_0000_01b3).rotate_left(29)
     });
     assert_eq!(format!("{hash:016x}"), "ac8c2d7f5d7fe64e");
@@ -116,12 +107,8 @@ fn steps_that_failed_are_replayed_as_well() {
     sim.advance(0.1, ALL).expect_err("too long a step");
     sim.hold([v(3)]).expect("held");
     sim.advance(0.1, ALL).expect_err("too long a step");
-    assert!(
-        sim.log()
-            .expect("recorded")
-            .to_string()
-            .ends_with("\n0 failed\n0 hold 3\n0 failed\n0 end\n")
-    );
+    let log = sim.log().expect("recorded").to_string();
+    assert!(log.ends_with("\n0 failed\n0 hold 3\n0 failed\n0 end\n"));
     replays(&sim, 4, &def);
 }
 
@@ -221,17 +208,15 @@ fn verbs() -> impl Strategy<Value = Vec<Verb>> {
 
 /// Where the vertices are that are held and in no hand.
 fn held_places(sim: &Simulation, hands: &[HandId]) -> BTreeSet<[u64; 3]> {
-    let in_hands: BTreeSet<VertexId> = hands
+    let in_hands = hands
         .iter()
-        .flat_map(|&hand| sim.in_hand(hand).expect("a hand"))
-        .copied()
-        .collect();
+        .flat_map(|&hand| sim.in_hand(hand).expect("a hand"));
+    let in_hands: BTreeSet<&VertexId> = in_hands.collect();
     let system = sim.cloth().system();
     let held = sim.mesh().vertices().filter(|v| system.is_held(v.index()));
-    held.filter(|v| !in_hands.contains(v))
-        .map(|v| system.positions()[v.index()].coords.into())
-        .map(|at: [f64; 3]| at.map(f64::to_bits))
-        .collect()
+    let held = held.filter(|v| !in_hands.contains(v));
+    let bits = |v: VertexId| <[f64; 3]>::from(at(sim, v)).map(f64::to_bits);
+    held.map(bits).collect()
 }
 
 /// Does what a verb says, if it is not refused, and checks what must hold then.
@@ -248,10 +233,7 @@ fn perform(sim: &mut Simulation, hands: &mut Vec<HandId>, cuts: &mut Vec<CutId>,
         2 | 3 => hands.extend(sim.grab(vertex, 0.4 * x)),
         4 | 5 => {
             let to = Point::new(2.0 * x - 0.5, 2.0 * y - 0.5, z);
-            assert_eq!(
-                hand.is_some(),
-                hand.is_some_and(|hand| sim.lead(hand, to).is_ok())
-            );
+            assert!(hand.is_none_or(|hand| sim.lead(hand, to).is_ok()));
         }
         6 => {
             if let Some(hand) = hand {
@@ -290,13 +272,8 @@ fn perform(sim: &mut Simulation, hands: &mut Vec<HandId>, cuts: &mut Vec<CutId>,
             }
         }
     }
-    if stays {
-        assert_eq!(
-            held_places(sim, hands),
-            before,
-            "what is held stays where it is"
-        );
-    }
+    // What is held stays where it is.
+    assert!(!stays || held_places(sim, hands) == before);
     let mut taken = BTreeSet::new();
     for &hand in hands.iter() {
         let vertices = sim.in_hand(hand).expect("a hand");
