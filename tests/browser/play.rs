@@ -446,7 +446,7 @@ fn rip_and_heal(player: &mut Player<'_>) {
         .expect("a hand");
     let way = [Point::new(0.5, 0.5, 0.0), Point::new(0.5, -0.9, 0.3)];
     lead(player, &[(hand, way)], 100);
-    player.release(hand);
+    player.release(hand).expect("released");
     assert!(player.facts().tears > 40, "it rips");
     assert!(player.heal() > 40);
     lead(player, &[], 120);
@@ -485,7 +485,7 @@ fn ten_hands(player: &mut Player<'_>) {
     assert!(player.facts().tears > 40, "they rip it");
     player.heal();
     for (hand, _) in hands {
-        player.release(hand);
+        player.release(hand).expect("released");
     }
     lead(player, &[], 60);
 }

@@ -20,24 +20,26 @@ struct Module {
     /// that shows twenty files has twenty of them.
     document: Option<(ClothSource, &'static Document)>,
     player: Option<Player<'static>>,
-    positions: Vec<[f32; 3]>,
-    indices: Vec<u32>,
-    pieces: Vec<u32>,
+    /// Of each half-edge, how it hangs together with its neighbour.
+    edges: Vec<u8>,
+    /// Whether each vertex is held.
     held: Vec<u8>,
     facts: Vec<f64>,
+    /// Of each block but the text, where it is, and how many bytes it has.
+    drawn: [(usize, usize); TEXT as usize],
 }
+
+/// The faces of both sides are joined; there never was another face; the faces were torn or cut apart.
+const JOINED: u8 = 0;
+const BOUNDARY: u8 = 1;
+const TORN: u8 = 2;
 
 thread_local! {
     static MODULE: RefCell<Module> = RefCell::default();
 }
 
-/// The blocks of memory, by number.
-const POSITIONS: u32 = 0;
-const INDICES: u32 = 1;
-const PIECES: u32 = 2;
-const EDGES: u32 = 3;
-const HELD: u32 = 4;
-const FACTS: u32 = 5;
+/// The number of the block of memory with a text or a file. Those before it, from 0 on, are what [`draw`] brings
+/// up to date: positions, indices, pieces, edges, held vertices, and facts.
 const TEXT: u32 = 6;
 
 /// Makes room for a text or a file; where.
@@ -106,7 +108,7 @@ extern "C" fn advance(dt_s: f64, steps_max: u32) -> i32 {
     })
 }
 
-/// Brings the blocks of positions, faces, held vertices and facts up to date.
+/// Brings all blocks but the text up to date, until the next verb.
 #[unsafe(no_mangle)]
 extern "C" fn draw() {
     MODULE.with_borrow_mut(Module::draw);
@@ -131,10 +133,7 @@ extern "C" fn lead(hand: usize, x: f64, y: f64, z: f64) -> bool {
 /// Releases a hand.
 #[unsafe(no_mangle)]
 extern "C" fn release(hand: usize) {
-    verb((), |player| {
-        player.release(hand);
-        Ok(())
-    });
+    verb((), |player| player.release(hand));
 }
 
 /// Pins what a ray hits, or unpins it: 1 and 0, and −1 if it hits nothing.
@@ -233,13 +232,12 @@ fn verb<T>(refused: T, act: impl FnOnce(&mut Player<'static>) -> Result<T, Strin
 }
 
 fn tell(text: impl FnOnce(&Player<'static>) -> Result<Vec<u8>, String>) -> bool {
-    MODULE.with_borrow_mut(|module| {
-        let player = module.player.as_ref().ok_or("there is no cloth");
-        let told = player.map_err(str::to_owned).and_then(text);
-        let is_told = told.is_ok();
-        module.text = told.unwrap_or_else(String::into_bytes);
-        is_told
-    })
+    let told = verb(None, |player| text(player).map(Some));
+    let is_told = told.is_some();
+    if let Some(text) = told {
+        MODULE.with_borrow_mut(|module| module.text = text);
+    }
+    is_told
 }
 
 /// Puts other elements in the place of those of a block.
@@ -278,18 +276,26 @@ impl Module {
             return;
         };
         let buffers = player.draw_buffers();
-        refill(&mut self.positions, buffers.positions().iter().copied());
-        refill(&mut self.indices, buffers.indices().iter().copied());
-        refill(&mut self.pieces, buffers.pieces().iter().copied());
+        let pieces = buffers.pieces().iter().max().map_or(0, |&last| last + 1);
+        let [positions, indices, numbers] = [
+            of(buffers.positions()),
+            of(buffers.indices()),
+            of(buffers.pieces()),
+        ];
         let (sim, facts) = (player.simulation(), player.facts());
         let mesh = sim.mesh();
+        let edge = |h| match (mesh.pair(h), mesh.ghost_pair(h)) {
+            (Some(_), _) => JOINED,
+            (None, None) => BOUNDARY,
+            (None, Some(_)) => TORN,
+        };
+        refill(&mut self.edges, mesh.half_edges().map(edge));
         let held = mesh.vertices().map(|v| u8::from(player.is_held(v)));
         refill(&mut self.held, held);
-        let last_piece = self.pieces.iter().max();
-        let numbers = [
+        let counts = [
             mesh.vertex_count(),
             mesh.face_count(),
-            last_piece.map_or(0, |&last| last as usize + 1),
+            pieces as usize,
             facts.held_first,
             facts.tears,
             facts.heals,
@@ -297,26 +303,21 @@ impl Module {
             facts.left,
             sim.open_pairs(),
         ];
-        refill(&mut self.facts, numbers.map(|number| number as f64));
+        refill(&mut self.facts, counts.map(|count| count as f64));
         self.facts.extend([sim.time_s(), sim.step_s()]);
         self.facts.extend(facts.grabbed_at);
+        let [edges, held, facts] = [of(&self.edges), of(&self.held), of(&self.facts)];
+        self.drawn = [positions, indices, numbers, edges, held, facts];
     }
 
     /// Where a block is, and how many bytes it has.
     fn block(&self, block: u32) -> (usize, usize) {
-        fn of<T>(slice: &[T]) -> (usize, usize) {
-            (slice.as_ptr() as usize, size_of_val(slice))
-        }
-        let edges = self.player.as_ref().map_or(&[][..], Player::edges);
-        match block {
-            POSITIONS => of(&self.positions),
-            INDICES => of(&self.indices),
-            PIECES => of(&self.pieces),
-            EDGES => of(edges),
-            HELD => of(&self.held),
-            FACTS => of(&self.facts),
-            TEXT => of(&self.text),
-            _ => (0, 0),
-        }
+        let drawn = self.drawn.get(block as usize).copied();
+        drawn.unwrap_or_else(|| of(&self.text))
     }
+}
+
+/// Where a slice is, and how many bytes it has.
+fn of<T>(slice: &[T]) -> (usize, usize) {
+    (slice.as_ptr() as usize, size_of_val(slice))
 }

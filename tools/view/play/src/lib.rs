@@ -9,5 +9,5 @@ mod exports;
 mod player;
 mod settings;
 
-pub use player::{Edge, Facts, Player};
+pub use player::{Facts, Player};
 pub use settings::{CELLS_MAX, ClothSource, Settings, VERTICES_MAX};

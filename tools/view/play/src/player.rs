@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use tearmesh::geometry::{Plane, Point, Ray, length};
-use tearmesh::{CutLayers, Edits, HalfEdgeId, Mesh, Positions, Scissor, VertexId};
+use tearmesh::{CutLayers, Edits, Mesh, Positions, Scissor, VertexId};
 use tearmesh_cloth::scene::{Frame, Scene, SwayingWind};
 use tearmesh_cloth::{
     ClothBuffers, Collider, Event, HandId, InputLog, Loads, Simulation, SimulationDef, Tearing,
@@ -37,25 +37,11 @@ pub struct Player<'d> {
     /// Whether the wind of the scene blows, and no other.
     is_wind_of_scene: bool,
     grip_radius_m: f64,
-    /// By the number that the page knows; `None` once released.
-    hands: Vec<Option<HandId>>,
-    /// Of each half-edge, up to date with the mesh.
-    edges: Vec<Edge>,
+    /// By the number that the page knows.
+    hands: Vec<HandId>,
     /// Of all events so far.
     events_hash: u64,
     facts: Facts,
-}
-
-/// How a half-edge hangs together with its neighbour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u8)]
-pub enum Edge {
-    /// The faces of both sides are joined.
-    Joined = 0,
-    /// There never was another face.
-    Boundary = 1,
-    /// The faces of both sides were torn or cut apart.
-    Torn = 2,
 }
 
 /// What a page says of a cloth.
@@ -129,7 +115,6 @@ impl<'d> Player<'d> {
         player.torn = torn;
         player.facts.held_first = start.held.len();
         player.note_events();
-        player.edges = edges(player.sim.mesh());
         Ok(player)
     }
 
@@ -157,7 +142,6 @@ impl<'d> Player<'d> {
             is_wind_of_scene: true,
             grip_radius_m: Simulation::GRIP_RADIUS_M * size_m,
             hands: Vec::new(),
-            edges: edges(sim.mesh()),
             events_hash: FNV_BASIS,
             facts: Facts::default(),
             sim,
@@ -184,11 +168,7 @@ impl<'d> Player<'d> {
 
     /// Brings the document up to date with what was torn or sewn.
     fn follow(&mut self) {
-        let edits = self.sim.edits();
-        edits.replay(&mut self.torn);
-        if !edits.is_empty() {
-            self.edges = edges(self.sim.mesh());
-        }
+        self.sim.edits().replay(&mut self.torn);
         self.note_events();
     }
 
@@ -217,30 +197,36 @@ impl<'d> Player<'d> {
             return Ok(None);
         };
         let hand = words(self.sim.grab(picked.vertex, self.grip_radius_m))?;
-        self.hands.push(Some(hand));
+        self.hands.push(hand);
         let at = self.sim.cloth().positions()[picked.vertex.index()];
         self.facts.grabbed_at = at.into();
         Ok(Some(self.hands.len() - 1))
     }
 
-    /// Leads a hand to a point: see [`Simulation::lead`]. A hand that was released is led nowhere.
+    /// Leads a hand to a point: see [`Simulation::lead`].
     ///
     /// # Errors
     ///
     /// Why it cannot be led there, in words.
+    ///
+    /// # Panics
+    ///
+    /// If there never was such a hand.
     pub fn lead(&mut self, hand: usize, to: Point) -> Result<(), String> {
-        match self.hands.get(hand).copied().flatten() {
-            Some(hand) => words(self.sim.lead(hand, to)),
-            None => Ok(()),
-        }
+        words(self.sim.lead(self.hands[hand], to))
     }
 
-    /// Releases a hand, unless it was released before.
-    pub fn release(&mut self, hand: usize) {
-        if let Some(hand) = self.hands.get_mut(hand).and_then(Option::take) {
-            let released = self.sim.release(hand);
-            released.expect("a hand that was not released");
-        }
+    /// Releases a hand.
+    ///
+    /// # Errors
+    ///
+    /// That it was released before, in words.
+    ///
+    /// # Panics
+    ///
+    /// If there never was such a hand.
+    pub fn release(&mut self, hand: usize) -> Result<(), String> {
+        words(self.sim.release(self.hands[hand]))
     }
 
     /// Pins the vertex that a ray hits, or unpins it. Returns whether it is pinned now; `None` if the ray misses.
@@ -329,7 +315,7 @@ impl<'d> Player<'d> {
     #[must_use]
     pub fn log(&self) -> String {
         let inputs = self.sim.log().expect("every player is recorded");
-        format!("{HEAD}{}{inputs}", self.settings)
+        format!("{HEAD}{}{inputs}", self.settings.text)
     }
 
     /// Returns a digest of the bits of all positions, the faces, the roots of vertices, and all events.
@@ -346,12 +332,6 @@ impl<'d> Player<'d> {
     /// Returns what the cloth is drawn from: see [`Simulation::draw_buffers`].
     pub fn draw_buffers(&mut self) -> &ClothBuffers {
         self.sim.draw_buffers()
-    }
-
-    /// Returns how each half-edge hangs together with its neighbour.
-    #[must_use]
-    pub fn edges(&self) -> &[Edge] {
-        &self.edges
     }
 
     /// Returns what happened so far.
@@ -436,15 +416,6 @@ fn definition(scene: &Scene, settings: &Settings, frame: &Frame, is_loose: bool)
 /// Why something failed, in words.
 pub(crate) fn words<T>(done: Result<T, impl Display>) -> Result<T, String> {
     done.map_err(|error| error.to_string())
-}
-
-fn edges(mesh: &Mesh) -> Vec<Edge> {
-    let edge = |h: HalfEdgeId| match (mesh.pair(h), mesh.ghost_pair(h)) {
-        (Some(_), _) => Edge::Joined,
-        (None, None) => Edge::Boundary,
-        (None, Some(_)) => Edge::Torn,
-    };
-    mesh.half_edges().map(edge).collect()
 }
 
 /// The settings of a log, and its inputs.

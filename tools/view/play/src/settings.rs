@@ -1,6 +1,5 @@
 //! What is chosen before a cloth is let go: the cloth itself, how it is held, and how it moves and tears.
 
-use std::fmt;
 use std::str::FromStr;
 
 use tearmesh::shapes;
@@ -13,21 +12,21 @@ use tearmesh_obj::Document;
 /// ```
 /// let text = "cloth sheet 32\nscene flag\nup y\nmethod verlet\nthreshold 1.5\n";
 /// let settings: tearmesh_play::Settings = text.parse()?;
-/// assert_eq!(settings.to_string(), text);
+/// assert_eq!(settings.cloth, tearmesh_play::ClothSource::Sheet(32));
 /// # Ok::<(), String>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Settings {
     /// The cloth.
     pub cloth: ClothSource,
-    /// The name of a built-in scene.
-    pub scene: &'static str,
+    scene: fn(&Frame) -> Scene,
     /// The upward direction.
     pub up: Axis,
-    /// The name of a method.
-    pub method: &'static str,
+    method: Method,
     /// The ratio of length to rest length at which an edge tears; `None` for never.
     pub threshold: Option<f64>,
+    /// All of them, as they were read.
+    pub(crate) text: String,
 }
 
 /// Where a cloth comes from.
@@ -48,10 +47,9 @@ pub const CELLS_MAX: u32 = 128;
 impl Settings {
     /// Returns the scene for a cloth in this frame, with the chosen method.
     pub(crate) fn scene(&self, frame: &Frame) -> Scene {
-        let (_, scene) = find(&Scene::PRESETS, self.scene).expect("the name of a scene");
         Scene {
-            solver: Method::named(self.method).expect("the name of a method"),
-            ..scene(frame)
+            solver: self.method.clone(),
+            ..(self.scene)(frame)
         }
     }
 
@@ -90,24 +88,9 @@ fn sheet(cells: u32) -> String {
     text
 }
 
-fn find<T: Copy>(table: &[(&'static str, T)], name: &str) -> Option<(&'static str, T)> {
-    table.iter().find(|(known, _)| *known == name).copied()
-}
-
-impl fmt::Display for Settings {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.cloth {
-            ClothSource::Sheet(cells) => writeln!(f, "cloth sheet {cells}")?,
-            ClothSource::File(name) => writeln!(f, "cloth file {name}")?,
-        }
-        let up = Axis::NAMED.iter().find(|(_, axis)| *axis == self.up);
-        let (up, _) = up.expect("six axes are all");
-        writeln!(f, "scene {}\nup {up}\nmethod {}", self.scene, self.method)?;
-        match self.threshold {
-            Some(ratio) => writeln!(f, "threshold {ratio}"),
-            None => writeln!(f, "threshold never"),
-        }
-    }
+fn find<T: Copy>(table: &[(&str, T)], name: &str) -> Option<T> {
+    let mut named = table.iter().filter(|(known, _)| *known == name);
+    named.next().map(|(_, value)| *value)
 }
 
 impl FromStr for Settings {
@@ -131,19 +114,17 @@ impl FromStr for Settings {
         let source = file.map(ClothSource::File);
         let source = source.or(sheet.map(ClothSource::Sheet));
         let cloth = source.ok_or_else(|| unknown("cloth", cloth))?;
-        let named = Method::named(method);
         let threshold = match threshold {
             "never" => None,
             ratio => Some(ratio.parse().map_err(|_| unknown("threshold", ratio))?),
         };
         Ok(Settings {
             cloth,
-            scene: find(&Scene::PRESETS, scene)
-                .ok_or(unknown("scene", scene))?
-                .0,
-            up: find(&Axis::NAMED, up).ok_or(unknown("direction", up))?.1,
-            method: named.ok_or(unknown("method", method))?.name(),
+            scene: find(&Scene::PRESETS, scene).ok_or(unknown("scene", scene))?,
+            up: find(&Axis::NAMED, up).ok_or(unknown("direction", up))?,
+            method: Method::named(method).ok_or(unknown("method", method))?,
             threshold,
+            text: text.to_owned(),
         })
     }
 }

@@ -103,9 +103,8 @@ async function open() {
     camera.fit(seen);
   }
 
-  // Takes over where the cloth is, and its faces once they are others.
+  // Takes over where the cloth was drawn last, and its faces once they are others.
   function refresh() {
-    tried(() => cloth.wasm.draw());
     facts = cloth.facts;
     const raw = cloth.positions, { origin, side } = lattice;
     places = new Float64Array(raw.length);
@@ -206,6 +205,7 @@ async function open() {
       const was = cloth.obj();
       const splits = cloth.wasm.cut(...rays.from, ...rays.rays.flat(), isFront);
       if (splits < 0) throw new Error(cloth.text());
+      cloth.wasm.draw();
       refresh();
       if (!splits) return say("The line misses the cloth.");
       before = was;
