@@ -20,9 +20,10 @@ pub(crate) fn run(
     let unnamed = || Ok(PathBuf::from("play.html"));
     let path = page::place(args.output.as_ref(), unnamed, args.input.as_slice())?;
     let mut made = PlayPage {
+        title: "Cloth".to_owned(),
+        file: None,
         scene: args.scene.clone(),
         up: args.up.clone(),
-        ..PlayPage::default()
     };
     let mut cloth = "a sheet of 1 m".to_owned();
     if let Some(input) = &args.input {

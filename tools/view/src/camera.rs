@@ -4,7 +4,7 @@
 use std::error::Error;
 use std::fmt;
 
-use tearmesh::geometry::{cross, dot, length, max_abs};
+use tearmesh::geometry::{cross, dot, length, max_abs, sine_and_cosine};
 use tearmesh::{Point, Ray, RayError, Vector};
 
 /// A perspective camera. The point that it looks at is in the middle of its picture.
@@ -109,16 +109,6 @@ impl Camera {
         Ray::new(self.eye, (self.middle + across + upward).map(|x| x + 0.0))
     }
 
-    /// Returns the rays through two points of the picture, in pixels as for [`Camera::ray`].
-    ///
-    /// # Errors
-    ///
-    /// The first error of [`Camera::ray`].
-    pub fn pair(&self, points: [[f64; 2]; 2]) -> Result<[Ray; 2], RayError> {
-        let [one, other] = points.map(|point| self.ray(point));
-        Ok([one?, other?])
-    }
-
     /// Returns a point in the coordinates of the camera. The coordinate z is the distance in front of the
     /// eye along the direction of view, and negative behind the eye. The ratio x / z is −1 at the left edge
     /// of the picture and 1 at the right edge; y / z is −1 at the lower edge and 1 at the upper edge.
@@ -170,14 +160,10 @@ pub(crate) fn aside(v: Vector) -> Vector {
     }
 }
 
-/// The tangent of an angle in degrees, from 0 to 90: that of its half by Lambert's continued fraction,
-/// which twelve terms give to the last digits up to 45 degrees.
+/// The tangent of an angle in degrees, from 0 to 90.
 pub(crate) fn tangent(degrees: f64) -> f64 {
-    let x = degrees / 2.0 * (std::f64::consts::PI / 180.0);
-    let fraction = (1..=12).rev().map(|k| f64::from(2 * k - 1));
-    let below = fraction.fold(f64::INFINITY, |below, odd| odd - x * x / below);
-    let half = x / below;
-    2.0 * half / (1.0 - half * half)
+    let (sine, cosine) = sine_and_cosine(degrees.to_radians());
+    sine / cosine
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use tearmesh::{HalfEdgeId, Mesh, Place, Point, Vector, VertexId};
 
 use crate::camera::unit;
 use crate::palette::{self, Color};
+use crate::pieces::Pieces;
 use crate::strokes::Kind;
 
 /// The cosine of the angle between two faces from which on there is a crease, in degrees. Without an angle
@@ -60,9 +61,10 @@ impl Figure {
         texture: &[[f64; 2]],
         edges: bool,
     ) -> Figure {
+        let numbers = Pieces::default().next(mesh);
         let mut figure = Figure {
             faces: vec![[0; 3]; mesh.face_count()],
-            colors: piece_colors(mesh),
+            colors: numbers.into_iter().map(palette::piece).collect(),
             ..Figure::default()
         };
         let normals = Normals::new(mesh, place);
@@ -297,22 +299,6 @@ fn are_coincident(mesh: &Mesh, place: &(impl Place + ?Sized), [h, ghost]: [HalfE
     let [from, to] = [at(mesh.origin(h)), at(mesh.target(h))];
     let near = length(to - from) * COINCIDENT;
     length(at(mesh.target(ghost)) - from) <= near && length(at(mesh.origin(ghost)) - to) <= near
-}
-
-/// The colour of each face: that of its piece. The largest piece has the first.
-fn piece_colors(mesh: &Mesh) -> Vec<Color> {
-    let components = mesh.components();
-    let mut sizes = vec![0usize; components.count()];
-    mesh.faces().for_each(|f| sizes[components.of(f)] += 1);
-    let mut by_size: Vec<usize> = (0..sizes.len()).collect();
-    by_size.sort_by_key(|&piece| std::cmp::Reverse(sizes[piece]));
-    let mut rank = vec![0; sizes.len()];
-    by_size
-        .iter()
-        .zip(0..)
-        .for_each(|(&piece, number)| rank[piece] = number);
-    let color = |f| palette::piece(rank[components.of(f)]);
-    mesh.faces().map(color).collect()
 }
 
 #[cfg(test)]

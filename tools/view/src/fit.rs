@@ -3,6 +3,7 @@
 use tearmesh::geometry::{check_point, cross, dot, length, max_abs};
 use tearmesh::{Mesh, Place, Point, Vector};
 
+use crate::bounds::Bounds;
 use crate::camera::{Camera, CameraError, aside, tangent, unit};
 
 /// The part of the picture, across and upward, that the mesh may fill.
@@ -14,12 +15,6 @@ const DEEP: f64 = 0.4;
 
 /// The default angle of view from the lower edge of a picture to the upper edge, in degrees.
 pub const ANGLE_OF_VIEW: f64 = 35.0;
-
-/// The box of the faces of a mesh along three axes: the middle, and half of each side.
-struct Sides {
-    middle: Point,
-    halves: [f64; 3],
-}
 
 /// Places a camera so that the pieces of a mesh fit into its picture. Small pieces may be left out, so that
 /// the crumbs of a tear that fly away do not decide what is seen: the largest pieces that hold nine tenths
@@ -79,8 +74,15 @@ pub fn fit_all<'m, P: Place + ?Sized + 'm>(
     let moments = moments.into_iter();
     let shown = moments.flat_map(|(mesh, place)| large_pieces(mesh, place));
     let shown: Vec<Point> = shown.collect();
-    let sides = Sides::of(&shown, axes).ok_or(CameraError::Empty)?;
-    let backward = unit(backward(axes, sides.halves)).expect("a sum of axes with positive weights");
+    let first = *shown.first().ok_or(CameraError::Empty)?;
+    let along = shown
+        .iter()
+        .map(|&p| Point::from(axes.map(|axis| dot(p - first, axis))));
+    let bounds = Bounds::around(along).expect("there is a first point");
+    let halves = bounds.most.coords / 2.0 - bounds.least.coords / 2.0;
+    let middle = bounds.least.coords / 2.0 + bounds.most.coords / 2.0;
+    let middle = first + axes[0] * middle.x + axes[1] * middle.y + axes[2] * middle.z;
+    let backward = unit(backward(axes, halves)).expect("a sum of axes with positive weights");
     let right = unit(cross(up, backward)).expect("it is never looked straight down");
     let upward = cross(backward, right);
     let [width, height] = size;
@@ -92,7 +94,7 @@ pub fn fit_all<'m, P: Place + ?Sized + 'm>(
     let mut reach = [f64::NEG_INFINITY; 4];
     let mut nearest = f64::INFINITY;
     for &p in &shown {
-        let from = p - sides.middle;
+        let from = p - middle;
         let [x, y, z] = [dot(from, right), dot(from, upward), -dot(from, backward)];
         nearest = nearest.min(z);
         let needed = [x - wide * z, -x - wide * z, y - tall * z, -y - tall * z];
@@ -101,13 +103,13 @@ pub fn fit_all<'m, P: Place + ?Sized + 'm>(
         }
     }
     let [r, l, t, b] = reach;
-    let size_of = 2.0 * sides.halves.into_iter().fold(0.0, f64::max);
+    let size_of = 2.0 * max_abs(halves);
     // What is a point has no size, and must be seen from somewhere.
-    let least = size_of.max(max_abs(sides.middle.coords) * 1e-6);
+    let least = size_of.max(max_abs(middle.coords) * 1e-6);
     let least = if least > 0.0 { least } else { 1.0 };
     let far = ((r + l) / 2.0 / wide).max((t + b) / 2.0 / tall);
     let far = far.max(least * 0.1 - nearest);
-    let at = sides.middle + right * ((r - l) / 2.0) + upward * ((t - b) / 2.0);
+    let at = middle + right * ((r - l) / 2.0) + upward * ((t - b) / 2.0);
     Camera::new([at + backward * far, at], up, degrees, size)
 }
 
@@ -145,8 +147,8 @@ fn large_pieces(mesh: &Mesh, place: &(impl Place + ?Sized)) -> Vec<Point> {
 }
 
 /// From what is looked at towards the eye, if half of the box along these axes is so long.
-fn backward([across, up, depth]: [Vector; 3], halves: [f64; 3]) -> Vector {
-    let [a, u, d] = halves;
+fn backward([across, up, depth]: [Vector; 3], halves: Vector) -> Vector {
+    let [a, u, d] = halves.into();
     let longest = a.max(u).max(d);
     if u < a && u < d {
         // It lies flat.
@@ -157,21 +159,5 @@ fn backward([across, up, depth]: [Vector; 3], halves: [f64; 3]) -> Vector {
     } else {
         let aside = if d > DEEP * longest { 0.5 } else { 0.3 };
         depth + across * aside + up * 0.3
-    }
-}
-
-impl Sides {
-    fn of(points: &[Point], axes: [Vector; 3]) -> Option<Sides> {
-        let first = points.first()?;
-        let bounds = axes.map(|axis| {
-            let along = points.iter().map(|&p| dot(p - first, axis));
-            along.fold([0.0f64; 2], |[least, most], x| [least.min(x), most.max(x)])
-        });
-        let mut middle = *first;
-        for (axis, [least, most]) in axes.into_iter().zip(bounds) {
-            middle += axis * (least / 2.0 + most / 2.0);
-        }
-        let halves = bounds.map(|[least, most]| most / 2.0 - least / 2.0);
-        Some(Sides { middle, halves })
     }
 }

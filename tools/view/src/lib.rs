@@ -24,6 +24,7 @@ mod page;
 pub mod palette;
 mod pc2;
 mod picture;
+mod pieces;
 mod play;
 mod render;
 mod shade;

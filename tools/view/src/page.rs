@@ -7,7 +7,6 @@
 
 mod codec;
 mod motion;
-mod pieces;
 
 use std::io::{self, Write};
 
@@ -18,12 +17,12 @@ use serde_json::{Value, json};
 use tearmesh::geometry::length;
 use tearmesh::{HalfEdgeId, Mesh, Place, Point, Scissor, Vector};
 
-use self::pieces::Pieces;
 use crate::bounds::Bounds;
 use crate::camera::CameraError;
 use crate::figure::crease_cosine;
 use crate::fit::{ANGLE_OF_VIEW, fit};
 use crate::palette::{self, Color};
+use crate::pieces::Pieces;
 use crate::shade;
 
 /// An HTML page that shows a mesh at one or more moments.
@@ -54,7 +53,7 @@ pub struct Page {
     /// From the first mesh to whoever looks at it.
     look: Vector,
     facts: Vec<[String; 2]>,
-    plots: Vec<Plot>,
+    plots: Vec<Value>,
     pieces: Pieces,
     states: Vec<State>,
     shots: Vec<Shot>,
@@ -151,6 +150,10 @@ impl Page {
 
     /// Adds a diagram beside the mesh.
     pub fn plot(&mut self, plot: Plot) {
+        let line =
+            |(name, points): (String, Vec<[f64; 2]>)| json!({"name": name, "points": points});
+        let lines: Vec<Value> = plot.lines.into_iter().map(line).collect();
+        let plot = json!({"name": plot.name, "unit": plot.unit, "lines": lines});
         self.plots.push(plot);
     }
 
@@ -257,10 +260,10 @@ impl Page {
         let places = motion::write(moments, &lattice);
         let text = json!({
             "title": self.title,
-            "up": array(self.up),
-            "look": array(self.look),
+            "up": self.up.as_slice(),
+            "look": self.look.as_slice(),
             "angle": ANGLE_OF_VIEW,
-            "origin": array(lattice.origin.coords),
+            "origin": lattice.origin.coords.as_slice(),
             "side": lattice.side,
             "rate": MOMENTS_PER_S,
             "few": FILM,
@@ -268,7 +271,7 @@ impl Page {
             "faceBytes": faces.len(),
             "moments": self.moments(),
             "facts": self.facts,
-            "plots": self.plots.iter().map(plot).collect::<Vec<_>>(),
+            "plots": self.plots,
             "colors": colors(),
             "light": shade::LIGHT,
             "crease": crease_cosine(None),
@@ -293,16 +296,6 @@ impl Page {
         };
         self.shots.iter().map(told).collect()
     }
-}
-
-fn array(v: Vector) -> [f64; 3] {
-    [v.x, v.y, v.z]
-}
-
-fn plot(plot: &Plot) -> Value {
-    let line = |(name, points): &(String, Vec<[f64; 2]>)| json!({"name": name, "points": points});
-    let lines: Vec<Value> = plot.lines.iter().map(line).collect();
-    json!({"name": plot.name, "unit": plot.unit, "lines": lines})
 }
 
 /// The colours of both themes.

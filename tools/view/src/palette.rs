@@ -60,6 +60,6 @@ pub const DARK: Theme = Theme {
 /// Returns the colour of the piece with a number, counted from 0. Colours repeat after the last of
 /// [`PIECES`].
 #[must_use]
-pub fn piece(number: usize) -> Color {
-    PIECES[number % PIECES.len()]
+pub fn piece(number: u32) -> Color {
+    PIECES[number as usize % PIECES.len()]
 }

@@ -7,8 +7,7 @@ use crate::palette::Color;
 /// A picture of RGB pixels. Rows are ordered from top to bottom, and pixels in a row from left to right.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
-    width: u32,
-    height: u32,
+    size: PictureSize,
     pixels: Vec<u8>,
 }
 
@@ -74,11 +73,8 @@ impl Picture {
     pub(crate) fn new(size: PictureSize, pixels: Vec<Color>) -> Picture {
         let count = u64::from(size.width) * u64::from(size.height);
         assert_eq!(pixels.len() as u64, count, "a colour for each pixel");
-        Picture {
-            width: size.width,
-            height: size.height,
-            pixels: pixels.into_flattened(),
-        }
+        let pixels = pixels.into_flattened();
+        Picture { size, pixels }
     }
 
     /// Puts pictures of the same height beside each other, from left to right.
@@ -88,18 +84,18 @@ impl Picture {
     /// If there is no picture, or if their heights differ.
     #[must_use]
     pub fn beside(pictures: &[Picture]) -> Picture {
-        let height = pictures[0].height;
-        let is_as_high = |one: &Picture| one.height == height;
+        let height = pictures[0].height();
+        let is_as_high = |one: &Picture| one.height() == height;
         assert!(pictures.iter().all(is_as_high), "of one height");
         let rows = (0..height as usize).flat_map(|row| {
             pictures.iter().flat_map(move |one| {
-                let length = 3 * one.width as usize;
+                let length = 3 * one.width() as usize;
                 &one.pixels[row * length..(row + 1) * length]
             })
         });
+        let width = pictures.iter().map(Picture::width).sum();
         Picture {
-            width: pictures.iter().map(|one| one.width).sum(),
-            height,
+            size: PictureSize { width, height },
             pixels: rows.copied().collect(),
         }
     }
@@ -107,13 +103,13 @@ impl Picture {
     /// Returns the width, in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {
-        self.width
+        self.size.width
     }
 
     /// Returns the height, in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
-        self.height
+        self.size.height
     }
 
     /// Returns three bytes for each pixel, red, green and blue, row by row from the top left.
@@ -129,8 +125,9 @@ impl Picture {
     /// If the picture has no such pixel.
     #[must_use]
     pub fn at(&self, x: u32, y: u32) -> Color {
-        assert!(x < self.width && y < self.height, "no pixel {x}, {y}");
-        let first = 3 * (y as usize * self.width as usize + x as usize);
+        let PictureSize { width, height } = self.size;
+        assert!(x < width && y < height, "no pixel {x}, {y}");
+        let first = 3 * (y as usize * width as usize + x as usize);
         [0, 1, 2].map(|i| self.pixels[first + i])
     }
 
@@ -140,7 +137,7 @@ impl Picture {
     ///
     /// Any I/O error of `out`.
     pub fn write_png(&self, out: impl Write) -> io::Result<()> {
-        let mut encoder = png::Encoder::new(out, self.width, self.height);
+        let mut encoder = png::Encoder::new(out, self.width(), self.height());
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         let mut writer = encoder.write_header()?;

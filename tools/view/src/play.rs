@@ -15,7 +15,8 @@ use crate::shade;
 /// An HTML page on which a cloth is grabbed, ripped, cut and mended by hand. It needs no network.
 ///
 /// ```
-/// let page = tearmesh_view::PlayPage::default();
+/// let [title, scene, up] = ["Cloth", "rip", "y"].map(String::from);
+/// let page = tearmesh_view::PlayPage { title, file: None, scene, up };
 /// let mut html = Vec::new();
 /// page.write(&mut html)?;
 /// assert!(tearmesh_view::is_page(&html));
@@ -31,18 +32,6 @@ pub struct PlayPage {
     pub scene: String,
     /// The upward direction: an axis, such as `y` or `-z`.
     pub up: String,
-}
-
-impl Default for PlayPage {
-    /// Returns the page of a sheet that is held by its upper edge.
-    fn default() -> PlayPage {
-        PlayPage {
-            title: "Cloth".to_owned(),
-            file: None,
-            scene: "rip".to_owned(),
-            up: "y".to_owned(),
-        }
-    }
 }
 
 impl PlayPage {

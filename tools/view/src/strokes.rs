@@ -61,10 +61,14 @@ impl Strokes {
         let along = [to[0] - from[0], to[1] - from[1]];
         let square = along[0] * along[0] + along[1] * along[1];
         let radius = width / 2.0;
-        let rows = span(from[1].min(to[1]) - radius, from[1].max(to[1]) + radius);
+        let [columns, rows] = [0, 1].map(|axis| {
+            span(
+                from[axis].min(to[axis]) - radius,
+                from[axis].max(to[axis]) + radius,
+            )
+        });
         for row in rows.start.max(surface.rows.start)..rows.end.min(surface.rows.end) {
             let y = row as f64 + 0.5;
-            let columns = across(from, along, square, radius, y);
             for column in columns.start..columns.end.min(self.columns) {
                 let at = [column as f64 + 0.5, y];
                 let off = [at[0] - from[0], at[1] - from[1]];
@@ -135,26 +139,6 @@ fn within([a, b]: [Seen; 2], lattice: Lattice, width: f64) -> Option<[Seen; 2]> 
         if to < 1.0 { at(to) } else { b },
     ];
     (from <= to && part.iter().all(is_finite)).then_some(part)
-}
-
-/// The columns of a row in which a line may be.
-fn across(
-    from: [f64; 2],
-    along: [f64; 2],
-    square: f64,
-    radius: f64,
-    y: f64,
-) -> std::ops::Range<usize> {
-    let to = from[0] + along[0];
-    let (mut left, mut right) = (from[0].min(to) - radius, from[0].max(to) + radius);
-    if along[1] != 0.0 {
-        let middle = from[0] + (y - from[1]) * along[0] / along[1];
-        let half = radius * square.sqrt() / along[1].abs();
-        // The ends are round, and reach as far as the sides do.
-        left = left.max(middle - half);
-        right = right.min(middle + half);
-    }
-    span(left, right)
 }
 
 /// The lattice lines between two places, and one more at each side for rounding.

@@ -73,8 +73,13 @@ fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
             let message = format!("`{text}` is one point twice");
             return Err(refused(&message, "name two points"));
         }
-        let pair = camera.pair([[a, b], [c, d]]);
-        pair.map_err(|error| refused(&error.to_string(), "name points nearer to the picture"))
+        let ray = |point| {
+            let help = "name points nearer to the picture";
+            camera
+                .ray(point)
+                .map_err(|error| refused(&error.to_string(), help))
+        };
+        Ok([ray([a, b])?, ray([c, d])?])
     });
     pairs.collect()
 }

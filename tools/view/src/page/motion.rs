@@ -35,8 +35,7 @@ impl Lattice {
 
     /// From 0 to 1 in the box.
     fn part(&self, p: Point) -> [f64; 3] {
-        let from = (p - self.origin) / self.side;
-        [from.x, from.y, from.z]
+        ((p - self.origin) / self.side).into()
     }
 }
 

@@ -7,7 +7,7 @@ use tearmesh::Mesh;
 
 /// The numbers so far.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Pieces {
+pub(crate) struct Pieces {
     /// Of each face.
     numbers: Vec<u32>,
     /// The first number that no piece has had.
@@ -17,7 +17,7 @@ pub(super) struct Pieces {
 impl Pieces {
     /// The number of each face's piece in the mesh that comes next. What comes apart keeps its number where
     /// most faces are, and gets new ones elsewhere.
-    pub(super) fn next(&mut self, mesh: &Mesh) -> Vec<u32> {
+    pub(crate) fn next(&mut self, mesh: &Mesh) -> Vec<u32> {
         let components = mesh.components();
         let mut faces = vec![Vec::new(); components.count()];
         for f in mesh.faces() {
