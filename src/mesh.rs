@@ -279,14 +279,14 @@ impl Mesh {
         }
     }
 
-    /// Relabels the origin of a corner. For the three operations alone: the invariants that
-    /// tie origins to links are theirs to restore.
     /// Counts a slide, and returns how many there were before.
     pub(crate) fn count_slide(&mut self) -> u32 {
         self.slides += 1;
         self.slides - 1
     }
 
+    /// Relabels the origin of a corner. For the three operations alone: the invariants that
+    /// tie origins to links are theirs to restore.
     #[inline]
     pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
         self.origin[h.index()] = v.to_u32();

@@ -4,265 +4,161 @@
 
 mod values;
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
-use tearmesh::insert::Plan;
+use tearmesh::script::{Script, Step, World};
 use tearmesh::{
-    Blend, Cursor, DrawBuffers, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix,
-    PerCorner, PerFace, PerVertex, Positions, VertexId, mend, shapes, slide, split,
+    Blend, Cursor, DrawBuffers, Edit, Edits, FaceId, Follower, HalfEdgeId, InsertLocation, Masses,
+    Mesh, Mix, PerCorner, PerFace, PerVertex, Positions, VertexId, shapes, slide, split,
 };
 
-use crate::cases::cases;
+use crate::cases::scripts;
+use crate::foreign::panic_of;
 use crate::random::Random;
-use values::{Value, Values};
+use values::{Value, Values, between, weighted};
 
-/// How many sequences of edits there are, unless `TEARMESH_CASES` says otherwise.
-const CASES: u64 = 100_000;
-
-fn vertex(index: usize) -> VertexId {
-    VertexId::new(index).expect("I1: ids fit")
+/// A number that few others have, and corners of some vertices alike in all faces or on one side of a
+/// seam.
+fn any_values(mesh: &Mesh, random: &mut Random) -> Values {
+    let mut value = || [random.next(), random.next()];
+    let vertices: Vec<Value> = mesh.vertices().map(|_| value()).collect();
+    let sides: Vec<[Value; 2]> = vertices.iter().map(|&at| [at, value()]).collect();
+    let side = |h: HalfEdgeId| {
+        let v = mesh.origin(h).index();
+        sides[v][(v + h.face().index()) % 3 / 2]
+    };
+    Values {
+        corners: mesh.half_edges().map(side).collect(),
+        faces: (0..mesh.face_count() as u16).collect(),
+        indices: mesh.indices().to_vec(),
+        vertices,
+    }
 }
 
-fn face(index: usize) -> FaceId {
-    FaceId::new(index).expect("I1: ids fit")
+fn mixed(mix: Mix<&Value>) -> Value {
+    match mix {
+        Mix::Copy(one) => *one,
+        Mix::Between { ends: [a, b], t } => between(*a, *b, t),
+        Mix::Weighted { of, weights } => weighted(of.map(|one| *one), weights),
+    }
 }
 
-fn half_edge(index: usize) -> HalfEdgeId {
-    HalfEdgeId::new(index).expect("I1: ids fit")
+/// Values by a plain reading of the records, followers, and lists of somebody else, each with its own place
+/// in the log.
+struct Beside {
+    plain: Values,
+    lists: (PerVertex<Value>, PerCorner<Value>, PerFace<u16>),
+    positions: Positions,
+    own: Option<([Cursor; 4], Values)>,
+    /// As it was before it was cleared.
+    log: Edits,
 }
 
-/// A mesh that is split, divided, sewn and slid at random.
-struct Work {
-    mesh: Mesh,
-    edits: Edits,
-    random: Random,
-    /// How many edits there were: splits, insertions, of these with a point on a torn edge, merges
-    /// and slides.
-    counts: [usize; 5],
-}
-
-impl Work {
-    fn new(seed: u64) -> Work {
-        let mut random = Random(seed);
-        let size = 1 + random.below(3) as u32;
-        let (mesh, _) = match seed % 5 {
-            0 => shapes::fan(3 + size, seed.is_multiple_of(2)),
-            1 => shapes::tube(3 + size, size),
-            2 => shapes::octahedron(),
-            _ => shapes::grid(size, 2),
+impl Beside {
+    fn new(mesh: &Mesh, random: &mut Random) -> Beside {
+        let plain = any_values(mesh, random);
+        let point = |v: &Value| [v[0], v[1], 0.0];
+        let mut beside = Beside {
+            lists: (
+                PerVertex::new(plain.vertices.clone()),
+                PerCorner::new(plain.corners.clone()),
+                PerFace::new(plain.faces.clone()),
+            ),
+            positions: Positions::new(plain.vertices.iter().map(point)).expect("finite"),
+            plain,
+            own: None,
+            log: Edits::new(),
         };
-        Work {
-            mesh,
-            edits: Edits::new(),
-            random,
-            counts: [0; 5],
-        }
+        beside.replay();
+        beside
     }
 
-    fn half_edge(&mut self) -> HalfEdgeId {
-        let torn = |&h: &HalfEdgeId| self.mesh.ghost_pair(h).is_some();
-        let torn: Vec<HalfEdgeId> = self.mesh.half_edges().filter(torn).collect();
-        if torn.is_empty() || self.random.next() < 0.5 {
-            return half_edge(self.random.below(self.mesh.half_edge_count()));
+    fn replay(&mut self) {
+        let log = &self.log;
+        let (vertices, corners, faces) = &mut self.lists;
+        log.replay(&mut ((vertices, corners, faces), &mut self.positions));
+        let (vertices, corners, faces) = &self.lists;
+        assert_eq!(vertices.as_slice(), self.plain.vertices, "vertices");
+        assert_eq!(corners.as_slice(), self.plain.corners, "corners");
+        assert_eq!(faces.as_slice(), self.plain.faces, "faces");
+        let points = self.positions.as_slice().iter().map(|p| [p.x, p.y]);
+        assert!(points.eq(self.plain.vertices.iter().copied()), "positions");
+        if let Some(([vertices, corners, faces, indices], own)) = &mut self.own {
+            log.replay_vertices(vertices, &mut own.vertices, mixed);
+            log.replay_corners(corners, &mut own.corners, mixed);
+            log.replay_faces(faces, &mut own.faces);
+            log.replay_indices(indices, &mut own.indices);
+            assert_eq!(*own, self.plain, "lists of somebody else");
         }
-        torn[self.random.below(torn.len())]
     }
+}
 
-    fn edit(&mut self) {
-        match self.random.below(8) {
-            0..=2 => self.split(),
-            3 | 4 => self.insert(),
-            5 => self.merge(),
-            _ => self.slide(),
-        }
-    }
-
-    fn split(&mut self) {
-        let h = self.half_edge();
-        let v = self.mesh.origin(h);
-        let mut faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
-        let mask = self.random.below(1 << faces.len().min(10));
-        let mut bit = 0..;
-        faces.retain(|_| bit.next().is_some_and(|i: usize| mask >> (i % 10) & 1 == 1));
-        let done = split::vertex(&mut self.mesh, v, &faces, &mut self.edits).is_ok();
-        self.counts[0] += usize::from(done);
-    }
-
-    fn insert(&mut self) {
-        if self.mesh.face_count() > 60 {
-            return;
-        }
-        let mut plan = Plan::new();
-        let mut on_torn = false;
-        for _ in 0..=self.random.below(3) {
-            let h = self.half_edge();
-            if self.random.below(3) == 0 {
-                let weights = [0; 3].map(|_| 0.1 + self.random.next());
-                plan.in_face(h.face(), weights);
-            } else {
-                on_torn |= self.mesh.ghost_pair(h).is_some();
-                plan.on_edge(h, 0.05 + 0.9 * self.random.next());
+/// Splits, insertions, of these on torn edges, merges and slides of a log.
+fn kinds<'e>(mesh: &Mesh, edits: impl Iterator<Item = Edit<'e>>) -> [usize; 5] {
+    let mut kinds = [0; 5];
+    for edit in edits {
+        match edit {
+            Edit::Split(_) => kinds[0] += 1,
+            Edit::Insert(insert) => {
+                kinds[1] += 1;
+                let on_edge = insert.points.iter().filter(|point| {
+                    let is_copy = mesh.root(point.vertex) != point.vertex;
+                    is_copy && matches!(point.at, InsertLocation::Edge { .. })
+                });
+                kinds[2] += on_edge.count().min(1);
             }
-        }
-        if plan.apply(&mut self.mesh, &mut self.edits).is_ok() {
-            self.counts[1] += 1;
-            self.counts[2] += usize::from(on_torn);
+            Edit::Merge(_) => kinds[3] += 1,
+            Edit::Slide(_) => kinds[4] += 1,
         }
     }
-
-    fn merge(&mut self) {
-        let roots = self.mesh.roots();
-        let v = self.random.below(roots.len());
-        let copies = (0..roots.len()).filter(|&w| w != v && roots[w] == roots[v]);
-        let copies: Vec<usize> = copies.collect();
-        if let Some(&w) = copies.get(self.random.below(copies.len().max(1))) {
-            let [v, w] = [v, w].map(vertex);
-            let weights = [1.0 + self.random.next(), self.random.next()];
-            let done = mend::merge(&mut self.mesh, v, w, weights, &mut self.edits).is_ok();
-            self.counts[3] += usize::from(done);
-        }
-    }
-
-    fn slide(&mut self) {
-        let h = self.half_edge();
-        let (v, w) = (self.mesh.origin(h), self.mesh.target(h));
-        let t = 0.01 + 0.98 * self.random.next();
-        slide::toward(&mut self.mesh, v, w, t, &mut self.edits).expect("an edge");
-        self.counts[4] += 1;
-    }
-
-    /// A number that few others have, and corners of some vertices alike in all faces or on one
-    /// side of a seam.
-    fn values(&mut self) -> Values {
-        let mut value = || [self.random.next(), self.random.next()];
-        let vertices: Vec<Value> = self.mesh.vertices().map(|_| value()).collect();
-        let sides: Vec<[Value; 2]> = vertices.iter().map(|&at| [at, value()]).collect();
-        let side = |h: HalfEdgeId| {
-            let v = self.mesh.origin(h).index();
-            sides[v][(v + h.face().index()) % 3 / 2]
-        };
-        Values {
-            corners: self.mesh.half_edges().map(side).collect(),
-            faces: (0..self.mesh.face_count() as u16).collect(),
-            indices: self.mesh.indices().to_vec(),
-            vertices,
-        }
-    }
-}
-
-/// A value of another crate, which knows nothing of this one: neither `Blend` nor `Clone`.
-#[derive(Debug, PartialEq)]
-struct Foreign(Value);
-
-impl Foreign {
-    fn all(values: &[Value]) -> Vec<Foreign> {
-        values.iter().map(|&value| Foreign(value)).collect()
-    }
-
-    fn mixed(mix: Mix<&Foreign>) -> Foreign {
-        Foreign(match mix {
-            Mix::Copy(one) => one.0,
-            Mix::Between { ends: [a, b], t } => values::between(a.0, b.0, t),
-            Mix::Weighted { of, weights } => values::weighted(of.map(|one| one.0), weights),
-        })
-    }
-}
-
-/// Lists of another crate, each with its own place in the log.
-struct ForeignLists {
-    vertices: (Cursor, Vec<Foreign>),
-    corners: (Cursor, Vec<Foreign>),
-    faces: (Cursor, Vec<u16>),
-    indices: (Cursor, Vec<u32>),
-}
-
-impl ForeignLists {
-    fn of(values: &Values, seen: Cursor) -> ForeignLists {
-        ForeignLists {
-            vertices: (seen, Foreign::all(&values.vertices)),
-            corners: (seen, Foreign::all(&values.corners)),
-            faces: (seen, values.faces.clone()),
-            indices: (seen, values.indices.clone()),
-        }
-    }
-
-    fn replay(&mut self, edits: &Edits) {
-        let (seen, values) = &mut self.vertices;
-        edits.replay_vertices(seen, values, Foreign::mixed);
-        let (seen, values) = &mut self.corners;
-        edits.replay_corners(seen, values, Foreign::mixed);
-        let (seen, values) = &mut self.faces;
-        edits.replay_faces(seen, values);
-        let (seen, indices) = &mut self.indices;
-        edits.replay_indices(seen, indices);
-    }
-
-    fn assert_are(&self, values: &Values, seed: u64) {
-        assert_eq!(self.vertices.1, Foreign::all(&values.vertices), "{seed}");
-        assert_eq!(self.corners.1, Foreign::all(&values.corners), "{seed}");
-        assert_eq!(self.faces.1, values.faces, "seed {seed}: faces");
-        assert_eq!(self.indices.1, values.indices, "seed {seed}: indices");
-    }
+    kinds
 }
 
 #[test]
-fn followers_by_the_normal_form_keep_what_the_records_say() {
-    let mut counts = [0; 5];
-    let cases = cases(CASES);
-    for seed in 0..cases {
-        let mut work = Work::new(seed);
-        let mut plain = work.values();
-        let point = |v: &Value| [v[0], v[1], 0.0];
-        let mut positions = Positions::new(plain.vertices.iter().map(point)).expect("finite");
-        let mut vertices = PerVertex::new(plain.vertices.clone());
-        let mut corners = PerCorner::new(plain.corners.clone());
-        let mut faces = PerFace::new(plain.faces.clone());
-        let ours = (&mut vertices, &mut corners, &mut faces);
-        work.edits.replay(&mut (ours, &mut positions));
-        let (length, start) = (4 + work.random.below(28), work.random.below(28));
-        let mut foreign = None;
-        for step in 0..length {
-            let before = work.edits.cursor();
-            work.edit();
-            for edit in work.edits.since(before) {
-                plain.follow(&edit);
+fn followers_keep_what_the_records_say_bit_for_bit() {
+    let (mut counts, mut cases) = ([0; 5], 0);
+    for script in scripts(20_000) {
+        cases += 1;
+        let mut random = Random(cases);
+        let mut beside = None;
+        let world = script.run(|world: &World, step: &Step<'_>| {
+            let beside = beside.get_or_insert_with(|| Beside::new(&world.mesh, &mut random));
+            if *step == Step::Cleared {
+                beside.replay();
             }
-            if work.random.below(4) == 0 || step + 1 == length {
-                let ours = (&mut vertices, &mut corners, &mut faces);
-                work.edits.replay(&mut (ours, &mut positions));
-                assert_eq!(vertices.as_slice(), plain.vertices, "seed {seed}: vertices");
-                assert_eq!(corners.as_slice(), plain.corners, "seed {seed}: corners");
-                assert_eq!(faces.as_slice(), plain.faces, "seed {seed}: faces");
-                let mut points = positions.as_slice().iter().zip(&plain.vertices);
-                let is_same = points.all(|(p, v)| [p.x, p.y] == *v);
-                assert!(is_same, "seed {seed}: positions");
-                if let Some(foreign) = &mut foreign {
-                    ForeignLists::replay(foreign, &work.edits);
-                    foreign.assert_are(&plain, seed);
-                }
-                if work.random.below(3) == 0 {
-                    work.edits.clear();
-                }
+            let seen = beside.log.cursor();
+            world
+                .edits
+                .since(seen)
+                .for_each(|edit| beside.plain.follow(&edit));
+            let new = kinds(&world.mesh, world.edits.since(seen));
+            counts = std::array::from_fn(|i| counts[i] + new[i]);
+            beside.log = world.edits.clone();
+            if random.below(4) == 0 {
+                beside.replay();
             }
-            if step == start {
-                foreign = Some(ForeignLists::of(&plain, work.edits.cursor()));
+            if random.below(16) == 0 {
+                beside.own = Some(([world.edits.cursor(); 4], beside.plain.clone()));
             }
-        }
-        assert_eq!(plain.indices, work.mesh.indices(), "seed {seed}");
-        counts = std::array::from_fn(|i| counts[i] + work.counts[i]);
+        });
+        let mut beside = beside.expect("the mesh is built first");
+        beside.replay();
+        assert_eq!(beside.plain.indices, world.mesh.indices());
     }
-    let is_enough = counts.iter().all(|&count| count as u64 > cases / 4);
-    assert!(
-        is_enough,
-        "splits, insertions, torn, merges, slides: {counts:?}"
-    );
+    let least = cases as usize / 4;
+    assert!(counts.iter().all(|&count| count > least), "{counts:?}");
 }
 
-/// The hub of a fan is split by these faces, one after the other.
+/// The hub of a fan is split by a face.
+fn split_off(mesh: &mut Mesh, face: usize, edits: &mut Edits) {
+    let hub = VertexId::new(0).expect("an id");
+    let face = FaceId::new(face).expect("an id");
+    split::vertex(mesh, hub, &[face], edits).expect("others stay");
+}
+
+/// A fan whose hub is split by these faces, one after the other.
 fn splits_of(faces: &[usize]) -> (Mesh, Edits) {
     let (mut mesh, mut edits) = (shapes::fan(5, true).0, Edits::new());
-    for &f in faces {
-        split::vertex(&mut mesh, vertex(0), &[face(f)], &mut edits).expect("others stay");
+    for &face in faces {
+        split_off(&mut mesh, face, &mut edits);
     }
     (mesh, edits)
 }
@@ -270,14 +166,6 @@ fn splits_of(faces: &[usize]) -> (Mesh, Edits) {
 /// Values of the fan before any split.
 fn ones() -> PerVertex<f64> {
     PerVertex::new(vec![1.0; 6])
-}
-
-fn panic_of(act: impl FnOnce()) -> String {
-    let panic = catch_unwind(AssertUnwindSafe(act)).expect_err("a panic");
-    match panic.downcast::<String>() {
-        Ok(words) => *words,
-        Err(panic) => String::from(*panic.downcast::<&str>().expect("words")),
-    }
 }
 
 #[test]
@@ -299,7 +187,7 @@ fn a_follower_that_is_not_in_step_is_told_why() {
         ("foreign: ", &more_of_others, &seen),
     ] {
         let mut follower = values.clone();
-        let told = panic_of(|| log.replay(&mut follower));
+        let told = panic_of(|| log.replay(&mut follower)).expect("a panic");
         assert!(told.starts_with(why), "{told}");
         assert!(why != late || told.contains("starting_at(edits.cursor())"));
         assert_eq!(follower, *values, "nothing was taken in");
@@ -309,7 +197,7 @@ fn a_follower_that_is_not_in_step_is_told_why() {
     let record = edits.iter().next_back().expect("a record");
     let (grid, places) = shapes::grid(1, 1);
     let mut masses = Masses::area(&grid, &places, 1.0).expect("an area");
-    let told = panic_of(|| record.pass_on(&mut masses));
+    let told = panic_of(|| record.pass_on(&mut masses)).expect("a panic");
     assert!(told.contains("has seen 0 edits was shown edit 3"), "{told}");
     // Who is in step sees just what is new.
     edits.replay(&mut seen);
@@ -337,7 +225,7 @@ fn a_place_in_a_log_survives_clearing() {
     let mut values = PerVertex::new(values.as_slice().to_vec()).starting_at(place);
     let mut again = mesh.clone();
     for (mesh, edits) in [(&mut mesh, &mut edits), (&mut again, &mut resumed)] {
-        split::vertex(mesh, vertex(0), &[face(3)], edits).expect("one stays");
+        split_off(mesh, 3, edits);
     }
     assert_eq!(resumed.cursor(), edits.cursor());
     resumed.replay(&mut values);
@@ -347,39 +235,25 @@ fn a_place_in_a_log_survives_clearing() {
 /// Every part of a record that says something makes another log of it.
 #[test]
 fn logs_that_differ_in_one_record_have_different_cursors() {
-    let on_edge = |mesh: &mut Mesh, edits: &mut Edits, h: usize, t: f64| {
-        let mut plan = Plan::new();
-        plan.on_edge(half_edge(h), t);
-        plan.apply(mesh, edits).expect("an edge");
-    };
-    let split = |mesh: &mut Mesh, edits: &mut Edits, nth: usize| {
-        let is_shared = |h: &HalfEdgeId| mesh.faces_of(mesh.origin(*h)).count() > 1;
-        let h = mesh.half_edges().filter(is_shared).nth(nth);
-        let h = h.expect("a corner");
-        split::vertex(mesh, mesh.origin(h), &[h.face()], edits).expect("others stay");
-    };
-    let slide = |mesh: &mut Mesh, edits: &mut Edits, [v, w]: [usize; 2], t: f64| {
-        slide::toward(mesh, vertex(v), vertex(w), t, edits).expect("an edge");
-    };
-    type Make<'m> = &'m dyn Fn(&mut Mesh, &mut Edits);
-    let logs: [Make<'_>; 10] = [
-        &|_, _| {},
-        &|mesh, edits| split(mesh, edits, 0),
-        &|mesh, edits| split(mesh, edits, 1),
-        &|mesh, edits| split(mesh, edits, 2),
-        &|mesh, edits| on_edge(mesh, edits, 0, 0.5),
-        &|mesh, edits| on_edge(mesh, edits, 0, 0.25),
-        &|mesh, edits| on_edge(mesh, edits, 1, 0.5),
-        &|mesh, edits| slide(mesh, edits, [0, 1], 0.5),
-        &|mesh, edits| slide(mesh, edits, [0, 1], 0.25),
-        &|mesh, edits| slide(mesh, edits, [1, 0], 0.25),
-    ];
     let mut cursors: Vec<Cursor> = Vec::new();
-    for make in logs {
-        let (mut mesh, mut edits) = (shapes::grid(2, 2).0, Edits::new());
-        make(&mut mesh, &mut edits);
-        assert!(!cursors.contains(&edits.cursor()), "log {}", cursors.len());
-        cursors.push(edits.cursor());
+    for operation in [
+        "",
+        "split 4 0b1",
+        "split 4 0b10",
+        "split 1 0b1",
+        "insert 0 edge 0 32",
+        "insert 0 edge 0 16",
+        "insert 1 edge 0 32",
+        "slide any 0 1 32",
+        "slide any 0 1 16",
+        "slide any 1 0 16",
+    ] {
+        let script: Script = format!("grid 2 2 0\n{operation}")
+            .parse()
+            .expect("a script");
+        let cursor = script.run(|_, _| {}).edits.cursor();
+        assert!(!cursors.contains(&cursor), "{operation}");
+        cursors.push(cursor);
     }
 }
 
@@ -401,61 +275,17 @@ fn a_value_that_is_not_mixed_comes_from_the_nearest_source() {
 }
 
 #[test]
-fn families_of_faces_are_named_by_their_parent() {
-    let mut work = Work::new(3);
-    let mut plan = Plan::new();
-    plan.on_edge(half_edge(2), 0.5);
-    plan.apply(&mut work.mesh, &mut work.edits)
-        .expect("an edge");
-    let edit: Edit<'_> = work.edits.iter().next().expect("a record");
-    assert!(edit.families().count() > 0);
-    for family in edit.families() {
-        assert_eq!(family.children()[0].face, family.parent());
-        assert!(family.children().len() > 1);
-        for child in family.children() {
-            let sources = child.sources;
-            let faces = sources.map(|mix| mix.map(HalfEdgeId::face).nearest());
-            assert_eq!(faces, [family.parent(); 3]);
-        }
-    }
-}
-
-/// A log with one record for each kind of edit, and the numbers of vertices and faces before that.
-fn one_edit_of_each_kind() -> Vec<(Edits, [usize; 2])> {
-    let mut mesh = shapes::fan(5, true).0;
-    let mut edits = Edits::new();
-    type Act<'a> = &'a dyn Fn(&mut Mesh, &mut Edits);
-    let acts: [Act<'_>; 4] = [
-        &|mesh, edits| {
-            slide::toward(mesh, vertex(0), vertex(1), 0.25, edits).expect("an edge");
-        },
-        &|mesh, edits| {
-            split::vertex(mesh, vertex(0), &[face(1)], edits).expect("others stay");
-        },
-        &|mesh, edits| {
-            mend::merge(mesh, vertex(0), vertex(6), [1.0; 2], edits).expect("copies");
-        },
-        &|mesh, edits| {
-            let mut plan = Plan::new();
-            plan.in_face(face(1), [1.0; 3]);
-            plan.apply(mesh, edits).expect("a point");
-        },
-    ];
-    let log = |act: Act<'_>| {
-        let size = [mesh.vertex_count(), mesh.face_count()];
-        edits.clear();
-        act(&mut mesh, &mut edits);
-        assert_eq!(edits.len(), 1);
-        (edits.clone(), size)
-    };
-    acts.map(log).to_vec()
-}
-
-#[test]
 fn lists_of_the_wrong_length_are_refused_by_every_edit() {
-    for (edits, [vertices, faces]) in one_edit_of_each_kind() {
-        let edit = edits.iter().next().expect("one edit");
-        let start = edit.before();
+    let script = "fan 5\nslide any 0 1 16\nsplit 0 0b10\nmerge any 0 6 1 1\ninsert 3 face 0 1 1 1";
+    let script: Script = script.parse().expect("a script");
+    let mut before: Option<World> = None;
+    script.run(|world, step| {
+        let Some(before) = before.replace(world.clone()) else {
+            return;
+        };
+        let (edits, start) = (&world.edits, before.edits.cursor());
+        assert_eq!(edits.since(start).count(), 1, "{step:?}");
+        let [vertices, faces] = [before.mesh.vertex_count(), before.mesh.face_count()];
         type Replay<'e> = &'e dyn Fn(&mut Cursor, &mut Vec<u32>);
         let replays: [(usize, Replay<'_>); 4] = [
             (vertices, &|seen, list| {
@@ -470,19 +300,25 @@ fn lists_of_the_wrong_length_are_refused_by_every_edit() {
         for (right, replay) in replays {
             for length in [right - 1, right + 1, right] {
                 let (mut seen, mut list) = (start, vec![0; length]);
-                let replayed = catch_unwind(AssertUnwindSafe(|| replay(&mut seen, &mut list)));
-                assert_eq!(replayed.is_ok(), length == right, "{edit:?}: {length}");
+                let refused = panic_of(|| replay(&mut seen, &mut list)).is_some();
+                assert_eq!(refused, length != right, "{step:?}: {length}");
                 let stays = (seen, list.len()) == (start, length);
-                assert!(length == right || stays, "{edit:?}");
+                assert!(stays || length == right, "{step:?}");
             }
         }
-    }
+    });
 }
 
-/// A row of two squares whose first vertex slides toward the second, and its log.
+/// The first vertex of a row of squares slides a quarter of the way to the second.
+fn slide_once(mesh: &mut Mesh, edits: &mut Edits) {
+    let [first, second] = [0, 1].map(|v| VertexId::new(v).expect("an id"));
+    slide::toward(mesh, first, second, 0.25, edits).expect("an edge");
+}
+
+/// Two squares after that, and its log.
 fn slid() -> (Mesh, Edits) {
     let (mut mesh, mut edits) = (shapes::grid(2, 1).0, Edits::new());
-    slide::toward(&mut mesh, vertex(0), vertex(1), 0.25, &mut edits).expect("an edge");
+    slide_once(&mut mesh, &mut edits);
     (mesh, edits)
 }
 
@@ -502,6 +338,7 @@ fn values_made_after_a_slide_do_not_slide_again() {
         panic_of(|| edits.replay(&mut of_corners)),
         panic_of(|| edits.replay(&mut buffers)),
     ] {
+        let told = told.expect("a new follower of a log with a slide is refused");
         assert!(told.starts_with("new: this follower"), "{told}");
     }
     let mut now = vertices.clone().starting_at(edits.cursor());
@@ -524,12 +361,12 @@ fn a_slide_in_a_new_log_is_not_taken_for_an_equal_one() {
     let mut values = PerVertex::new(vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]).starting_at(Cursor::START);
     edits.replay(&mut values);
     let mut others = Edits::new();
-    slide::toward(&mut mesh, vertex(0), vertex(1), 0.25, &mut others).expect("an edge");
-    let told = panic_of(|| others.replay(&mut values));
+    slide_once(&mut mesh, &mut others);
+    let told = panic_of(|| others.replay(&mut values)).expect("a panic");
     assert!(told.starts_with("foreign: "), "{told}");
     // A log that goes on does.
     let mut more = Edits::starting_at(edits.cursor());
-    slide::toward(&mut mesh, vertex(0), vertex(1), 0.25, &mut more).expect("an edge");
+    slide_once(&mut mesh, &mut more);
     more.replay(&mut values);
     assert_eq!(values.as_slice()[0], 0.25 + 0.75 * 0.25);
 }
@@ -548,32 +385,44 @@ impl Follower for Fails {
     }
 }
 
+/// A value of another crate, which knows nothing of this one: neither `Blend` nor `Clone`.
+struct Foreign(f64);
+
 /// What panics half way may have changed some values and not others: that is told, not guessed.
 #[test]
 fn after_a_panic_half_way_the_next_replay_says_so() {
     let (_, edits) = splits_of(&[0, 1, 2]);
-    let (mut seen, mut list) = (Cursor::START, vec![1.0; 6]);
+    let mut seen = Cursor::START;
+    let mut list: Vec<Foreign> = [1.0; 6].map(Foreign).into();
+    let nearest = |mix: Mix<&Foreign>| Foreign(mix.nearest().0);
     let mut calls = 0;
-    let mix = |mix: Mix<&f64>| {
+    let mix = |mix: Mix<&Foreign>| {
         calls += 1;
         assert!(calls < 2, "{}", "a mix fails");
-        *mix.nearest()
+        nearest(mix)
     };
-    let told = panic_of(|| edits.replay_vertices(&mut seen, &mut list, mix));
-    assert_eq!(told, "a mix fails");
-    let again = panic_of(|| edits.replay_vertices(&mut seen, &mut list, |mix| *mix.nearest()));
-
-    let mut fails = Fails(ones(), 0);
-    let told = panic_of(|| edits.replay(&mut fails));
-    assert_eq!(told, "a follower fails");
-    let of_follower = panic_of(|| edits.replay(&mut fails));
-
+    let mut told = vec![
+        panic_of(|| edits.replay_vertices(&mut seen, &mut list, mix)),
+        panic_of(|| edits.replay_vertices(&mut seen, &mut list, nearest)),
+    ];
     let first = edits.iter().next().expect("three splits");
-    let mut fails = Fails(ones(), 1);
-    let told = panic_of(|| first.pass_on(&mut fails));
-    assert_eq!(told, "a follower fails");
-    let of_record = panic_of(|| edits.replay(&mut fails.0));
-    for told in [again, of_follower, of_record] {
-        assert!(told.starts_with("half way: "), "{told}");
+    for of_record in [false, true] {
+        let mut fails = Fails(ones(), usize::from(of_record));
+        told.push(panic_of(|| match of_record {
+            true => first.pass_on(&mut fails),
+            false => edits.replay(&mut fails),
+        }));
+        told.push(panic_of(|| edits.replay(&mut fails.0)));
+    }
+    let told: Vec<String> = told
+        .into_iter()
+        .map(|told| told.expect("a panic"))
+        .collect();
+    for (panic, again) in ["a mix fails", "a follower fails", "a follower fails"]
+        .iter()
+        .zip(told.chunks(2))
+    {
+        assert_eq!(again[0], *panic);
+        assert!(again[1].starts_with("half way: "), "{}", again[1]);
     }
 }
