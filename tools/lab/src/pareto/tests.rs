@@ -130,7 +130,7 @@ fn scenes_that_end_at_rest_begin_with_a_step_that_newton_solves() {
     let scenes = SCENES.iter();
     let cases = scenes.map(|scene| Case::new(scene, MeshKind::Grid, 16));
     for case in cases.filter(|case| matches!(case.scene.until, Until::Rest(_))) {
-        let keys = run::plan(&case, 0);
+        let keys = plan(&case, 0);
         let newton = keys.iter().find(|key| key.run == "reference-newton");
         let dt_s = newton.expect("a second reference").dt_s;
         let step = case.system().step(&mut Reference::to_rest(), dt_s);
