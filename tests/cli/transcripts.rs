@@ -17,13 +17,13 @@ use crate::harness::{Folder, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0x48ea_f530_e125_e8a2),
-    ("tear.txt", 0x938d_40c8_7b04_a40b),
+    ("README.md", 0x40b7_8119_e45c_828e),
+    ("tear.txt", 0xf049_a767_d039_50a6),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0xd656_22f5_60a7_529a;
+const DIGEST: u64 = 0xe8ed_55e3_1f71_600d;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

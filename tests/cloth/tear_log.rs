@@ -4,10 +4,10 @@ use std::num::NonZero;
 
 use tearmesh::Vector;
 use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::{HeldVertices, Scene};
+use tearmesh_cloth::scene::{HeldVertices, Region, Run, Scene, TearLog};
 
 use crate::parts::near;
-use crate::parts::scenes::{Played, play, played, staged};
+use crate::parts::scenes::{Played, methods, play, played, staged};
 
 /// How far a hold has been led by then: straight between the points of its way.
 fn led(hold: &HeldVertices, time_s: f64) -> Vector {
@@ -39,6 +39,61 @@ fn force_times_way_is_the_work_of_hands() {
         let part = worked_j / run.energy_balance().held_j;
         assert!((part - 1.0).abs() < 0.02, "{name}: {part}");
         assert!(run.tally().splits > 0, "{name}");
+    }
+}
+
+/// What one hold of all that is held exerts is the change of the momentum of the rest, less gravity and drag:
+/// no spring is looked at.
+#[test]
+fn peak_and_mean_forces_are_what_changes_the_momentum() {
+    let all_held = |frame: &_| Scene {
+        holds: vec![HeldVertices {
+            moves: vec![(0.2, Vector::zeros()), (0.5, Vector::new(0.0, 0.3, 0.1))],
+            ..HeldVertices::still(Region::Near {
+                at: [0.5, 1.0],
+                radius: 0.3,
+            })
+        }],
+        duration_s: 0.6,
+        ..Scene::hang(frame)
+    };
+    for (name, solver) in methods().into_iter().filter(|(name, _)| *name != "provot") {
+        let mut run = staged(8, |frame| Scene {
+            solver: solver.clone(),
+            ..all_held(frame)
+        });
+        let mut log = TearLog::new(&run);
+        let (gravity, drag) = (run.scene().gravity_m_per_s2, run.scene().drag_per_s);
+        let momentum = |run: &Run| -> (Vector, Vector) {
+            let system = run.cloth().system();
+            let free = (0..system.masses().len()).filter(|&i| !system.is_held(i));
+            let of_free = free.map(|i| system.velocities()[i] * system.masses()[i]);
+            let weight = system.masses().iter().map(|&m| gravity * m).sum();
+            (of_free.sum(), weight)
+        };
+        let (mut peak_n, mut largest_n) = (0.0_f64, 0.0_f64);
+        let (mut sum, mut since_s) = (Vector::zeros(), 0.0);
+        while !run.is_over() {
+            let (before, weight) = momentum(&run);
+            let (start_s, frames) = (run.elapsed_s(), log.hold_forces().len());
+            let step = run.step().expect("a step");
+            log.note(&run, &step);
+            let (after, _) = momentum(&run);
+            let dt_s = run.elapsed_s() - start_s;
+            let force = (after - before) / dt_s + (before + after) * (0.5 * drag) - weight;
+            peak_n = peak_n.max(force.norm());
+            sum += force * dt_s;
+            if log.hold_forces().len() > frames {
+                let end_s = run.elapsed_s();
+                largest_n = largest_n.max((sum / (end_s - since_s)).norm());
+                (sum, since_s) = (Vector::zeros(), end_s);
+            }
+        }
+        let known = [log.peak_force_n(), log.largest_force_n()].map(|force| force.expect(name));
+        for (known, own) in known.into_iter().zip([peak_n, largest_n]) {
+            assert!((known / own - 1.0).abs() < 0.01, "{name}: {known} {own}");
+        }
+        assert!(peak_n > 1.05 * largest_n, "{name}: {peak_n} {largest_n}");
     }
 }
 

@@ -177,6 +177,9 @@ pub(crate) struct Tear {
     /// Not said by Provot's method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) largest_force_n: Option<f64>,
+    /// The same in a single step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) peak_force_n: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) first_tear: Option<FirstTear>,
     /// The steps in which something tore.

@@ -203,6 +203,7 @@ impl Play<'_> {
                 features: summary::features(&run),
             },
             largest_force_n: records.tear_log.largest_force_n(),
+            peak_force_n: records.tear_log.peak_force_n(),
             first_tear: first_tear.map(|first| report::FirstTear {
                 time_s: first.event.time_s,
                 place: first.event.place,

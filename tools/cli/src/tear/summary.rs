@@ -131,11 +131,19 @@ pub(super) fn cost(features: &[report::FeatureCost]) -> String {
 pub(super) fn first_tear(tear_log: &TearLog) -> Option<String> {
     let first = tear_log.first_tear()?;
     let rest: [f64; 3] = first.event.place_at_rest.into();
-    let forces = first.force_n.zip(tear_log.largest_force_n());
-    let forces = forces.map_or(String::new(), |(then_n, most_n)| {
-        let [then, most] = [then_n, most_n].map(three_digits);
-        format!(", where a hold bears {then} N; at most {most} N")
-    });
+    let forces = [
+        first.force_n,
+        tear_log.largest_force_n(),
+        tear_log.peak_force_n(),
+    ];
+    let forces = match forces.map(|force| force.map(three_digits)) {
+        [Some(then), Some(most), Some(peak)] => {
+            format!(
+                ", where a hold bears {then} N; at most {most} N, and {peak} N in a single step"
+            )
+        }
+        _ => String::new(),
+    };
     let (time, place) = (short(first.event.time_s), rest.map(three_digits).join(","));
     let words = format!("first tear: after {time} s at {place} of the cloth at rest{forces}");
     Some(words)

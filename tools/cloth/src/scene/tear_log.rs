@@ -86,6 +86,8 @@ pub struct TearLog {
     events: Vec<TearEvent>,
     /// The largest force at the first tear; `None` if the method does not know its forces.
     first_n: Option<f64>,
+    /// The largest force of a single step.
+    peak_n: f64,
     frames: Vec<HoldForces>,
     /// Whether each hold is led, or all count since none is.
     counts: Vec<bool>,
@@ -108,6 +110,7 @@ impl TearLog {
         TearLog {
             events: Vec::new(),
             first_n: (!matches!(run.scene().solver, Method::Provot(_))).then_some(0.0),
+            peak_n: 0.0,
             frames: Vec::new(),
             counts: holds.iter().map(|hold| !has_led || is_led(hold)).collect(),
             recent: VecDeque::new(),
@@ -164,6 +167,7 @@ impl TearLog {
             held.map(|v| force::reaction_n(system, v.index())).sum()
         };
         let forces: Vec<Vector> = (0..self.sum.len()).map(at).collect();
+        self.peak_n = self.peak_n.max(self.largest(|hold| forces[hold]));
         for (sum, force) in self.sum.iter_mut().zip(&forces) {
             *sum += *force * seconds;
         }
@@ -215,6 +219,13 @@ impl TearLog {
         let frames = self.frames.iter();
         let largest = frames.map(|frame| self.largest(|hold| frame.forces_n[hold]));
         Some(largest.fold(self.first_n?, f64::max))
+    }
+
+    /// Returns the largest force at a single hold in any step, in newtons, by the rule of
+    /// [`TearLog::largest_force_n`]. It depends on the step, and on vibrations that a frame averages out.
+    #[must_use]
+    pub fn peak_force_n(&self) -> Option<f64> {
+        self.first_n.map(|_| self.peak_n)
     }
 
     fn largest(&self, of: impl Fn(usize) -> Vector) -> f64 {
