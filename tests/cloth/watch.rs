@@ -213,6 +213,7 @@ fn a_step_that_is_refused_leaves_the_state_and_the_balance_as_they_were() {
 }
 
 /// Provot's limiter, by way of a step that is taken, and then a failure.
+#[derive(Debug)]
 struct Late;
 
 impl Solver for Late {
@@ -229,6 +230,7 @@ impl Solver for Late {
 }
 
 /// A method of the caller's, which changes something and gives up.
+#[derive(Debug)]
 struct Rash(fn(&mut System, f64));
 
 impl Solver for Rash {

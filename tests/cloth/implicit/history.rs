@@ -87,6 +87,7 @@ fn a_step_that_is_far_longer_than_the_last_begins_again() {
 }
 
 /// BDF2 in two parts a step, of which the second can be made to fail.
+#[derive(Debug)]
 struct Halves {
     bdf2: Implicit,
     calls: u32,

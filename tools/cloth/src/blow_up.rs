@@ -29,19 +29,19 @@ pub enum BlowUpSite {
 
 impl BlowUpSite {
     /// The length of what became too long, as a multiple of its rest length.
-    pub(crate) fn stretch_ratio(&self) -> Option<f64> {
+    pub(crate) fn stretch_ratio(&self) -> f64 {
         match *self {
             BlowUpSite::Constraint(_, ratio)
             | BlowUpSite::Bend(_, ratio)
-            | BlowUpSite::Triangle(_, ratio) => Some(ratio),
-            BlowUpSite::Particle(_) | BlowUpSite::Beyond(_) | BlowUpSite::Unknown => None,
+            | BlowUpSite::Triangle(_, ratio) => ratio,
+            BlowUpSite::Particle(_) | BlowUpSite::Beyond(_) | BlowUpSite::Unknown => f64::NAN,
         }
     }
 }
 
 impl fmt::Display for BlowUpSite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ratio = Digits(self.stretch_ratio().unwrap_or(f64::NAN));
+        let ratio = Digits(self.stretch_ratio());
         match *self {
             BlowUpSite::Particle(particle) => write!(f, "particle {particle} is not finite"),
             BlowUpSite::Beyond(particle) => {

@@ -9,13 +9,11 @@
 //! All data of the constraints is stored here in columns, including what a step leaves behind in
 //! them. It stays with its constraint when constraints are added or removed, or get another end.
 
-use std::fmt;
-
 use crate::damping;
 use crate::incidence::{Incidence, room_for};
 
-/// The id of a constraint within its family, displayed as `c7`. It is stable until the constraint
-/// is removed; a later constraint may then reuse it.
+/// The id of a constraint within its family. It is stable until the constraint is removed; a later
+/// constraint may then reuse it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ConstraintId(pub(crate) u32);
 
@@ -24,12 +22,6 @@ impl ConstraintId {
     #[must_use]
     pub const fn index(self) -> usize {
         self.0 as usize
-    }
-}
-
-impl fmt::Display for ConstraintId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "c{}", self.0)
     }
 }
 
@@ -167,20 +159,18 @@ impl Constraints {
         }
     }
 
-    pub(crate) fn remember(&mut self, id: ConstraintId, memory: Memory) {
-        let (colour, i) = self.slot(id);
-        let colour = &mut self.colours[colour];
-        colour.multipliers[i] = memory.multiplier;
-        colour.ratios[i] = memory.ratio;
+    pub(crate) fn add(&mut self, constraint: Constraint) -> ConstraintId {
+        self.add_with(constraint, Memory::default())
     }
 
-    pub(crate) fn add(&mut self, constraint: Constraint) -> ConstraintId {
+    /// Adds a constraint that remembers what another one does.
+    pub(crate) fn add_with(&mut self, constraint: Constraint, memory: Memory) -> ConstraintId {
         let id = self.free.pop().unwrap_or_else(|| {
             self.slots.push([NONE; 2]);
             self.lists.push();
             self.slots.len() as u32 - 1
         });
-        self.attach(id, constraint, Memory::default());
+        self.attach(id, constraint, memory);
         ConstraintId(id)
     }
 
@@ -209,6 +199,14 @@ impl Constraints {
         let colour = &mut self.colours[colour];
         colour.stiffness[i] = stiffness_n_per_m;
         colour.compliance[i] = 1.0 / stiffness_n_per_m;
+    }
+
+    /// Changes the stiffness of a constraint, and the force that it remembers in proportion.
+    pub(crate) fn stiffen(&mut self, id: ConstraintId, stiffness_n_per_m: f64) {
+        let (colour, i) = self.slot(id);
+        let colour = &mut self.colours[colour];
+        colour.multipliers[i] *= stiffness_n_per_m / colour.stiffness[i];
+        self.set_stiffness(id, stiffness_n_per_m);
     }
 
     pub(crate) fn set_rest_length(&mut self, id: ConstraintId, rest_length_m: f64) {
@@ -247,7 +245,7 @@ impl Constraints {
 
     fn slot(&self, id: ConstraintId) -> (usize, usize) {
         let [colour, i] = self.slots[id.index()];
-        assert_ne!(colour, NONE, "{id} is a constraint");
+        assert_ne!(colour, NONE, "{id:?} is a constraint");
         (colour as usize, i as usize)
     }
 
@@ -303,11 +301,12 @@ impl Colour {
     fn reserve(&mut self, count: usize) {
         room_for(&mut self.ids, count);
         room_for(&mut self.ends, count);
-        let numbers = [&mut self.rest, &mut self.stiffness, &mut self.compliance];
-        let others = [&mut self.damping, &mut self.multipliers, &mut self.ratios];
-        for column in numbers.into_iter().chain(others) {
-            room_for(column, count);
-        }
+        room_for(&mut self.rest, count);
+        room_for(&mut self.stiffness, count);
+        room_for(&mut self.compliance, count);
+        room_for(&mut self.damping, count);
+        room_for(&mut self.multipliers, count);
+        room_for(&mut self.ratios, count);
     }
 
     fn push(&mut self, id: u32, constraint: Constraint, memory: Memory) {
@@ -355,9 +354,13 @@ mod tests {
         for &(id, ends) in expected {
             assert_eq!(constraints.get(id).ends, ends);
             for end in ends {
-                assert!(constraints.of(end).any(|of| of == id), "{id} at {end}");
+                assert!(constraints.of(end).any(|of| of == id), "{id:?} at {end}");
                 let same = |&of: &ConstraintId| constraints.slot(of).0 == constraints.slot(id).0;
-                assert_eq!(constraints.of(end).filter(same).count(), 1, "{id} at {end}");
+                assert_eq!(
+                    constraints.of(end).filter(same).count(),
+                    1,
+                    "{id:?} at {end}"
+                );
             }
         }
         let listed: usize = (0..=constraints.lists.last_particle())

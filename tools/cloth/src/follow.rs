@@ -37,18 +37,13 @@ impl Cloth {
         self.reweigh(new);
         for link in split.torn {
             let id = self.stretch(link.stayed);
-            let mut copy = self.system.model.stretch.get(id);
-            let mut memory = self.system.model.stretch.memory(id);
+            let stretch = &mut self.system.model.stretch;
             if self.fabric.halves_copies() {
-                copy.stiffness_n_per_m *= 0.5;
-                memory.multiplier *= 0.5;
-                let half = copy.stiffness_n_per_m;
-                self.system.model.stretch.set_stiffness(id, half);
-                self.system.model.stretch.remember(id, memory);
+                stretch.stiffen(id, 0.5 * stretch.get(id).stiffness_n_per_m);
             }
+            let mut copy = stretch.get(id);
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
-            let copied = self.system.model.stretch.add(copy);
-            self.system.model.stretch.remember(copied, memory);
+            let copied = stretch.add_with(copy, stretch.memory(id));
             self.stretch_of.join([link.stayed; 2], id);
             self.stretch_of.join([link.moved; 2], copied);
             self.measure_membrane(id);
@@ -185,17 +180,11 @@ impl Cloth {
         }
         room.pieces
             .sort_unstable_by_key(|piece| (piece.ends, piece.half_edge));
-        let children = insert.children.iter();
-        let half_edges = children.map(|child| 3 * child.face.index() + 3);
-        let half_edges = half_edges.fold(self.stretch_of.ids.len(), usize::max);
-        self.stretch_of.ids.resize(half_edges, NO_BEND);
-        self.system.model.faces.resize(half_edges, 0);
-        if !self.bend_of.ids.is_empty() {
-            self.bend_of.ids.resize(half_edges, NO_BEND);
-        }
         for child in insert.children {
+            let faces = &mut self.system.model.faces;
+            faces.resize(faces.len().max(3 * child.face.index() + 3), 0);
             for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {
-                self.system.model.faces[h.index()] = v.index() as u32;
+                faces[h.index()] = v.index() as u32;
                 if let Some(bend) = self.bend_of.ids.get_mut(h.index()) {
                     *bend = NO_BEND;
                 }
@@ -247,30 +236,21 @@ impl Cloth {
 
     /// An edge that was there stays; what is across it may be another vertex.
     fn keep(&mut self, edge: &[Piece]) {
-        let id = edge[0].stretch;
+        let (id, bend) = (edge[0].stretch, edge[0].bend);
         let renamed = self.stretch_of.edges[id.index()].map(|h| {
             let mut pieces = edge.iter();
             let piece = pieces.find(|piece| piece.half_edge_before == h);
             piece.map_or(h, |piece| piece.half_edge)
         });
         self.stretch_of.join(renamed, id);
-        for piece in edge {
-            let id = piece.bend;
-            if id == NO_BEND {
-                continue;
+        if bend != NO_BEND {
+            for piece in edge.iter().filter(|piece| piece.apex_before != piece.apex) {
+                let bends = &mut self.system.model.bend;
+                bends.repoint(bend, piece.apex_before, piece.apex);
             }
-            if piece.apex_before != piece.apex {
-                let bend = &mut self.system.model.bend;
-                bend.repoint(id, piece.apex_before, piece.apex);
-            }
-            self.bend_of.ids[piece.half_edge.index()] = id;
-            for h in &mut self.bend_of.edges[id.index()] {
-                if *h == piece.half_edge_before {
-                    *h = piece.half_edge;
-                }
-            }
+            self.bend_of.join(renamed, bend);
+            self.measure_bend(edge[0].half_edge);
         }
-        self.measure_bend(edge[0].half_edge);
     }
 
     /// A part of a divided edge, or a new edge inside a face.

@@ -117,13 +117,11 @@ impl Guard {
     /// Makes room for so many particles, and springs between them.
     pub(crate) fn reserve(&mut self, particles: usize, springs: usize) {
         self.carry.reserve(particles, springs);
-        let sums = [&mut self.sums, &mut self.dampers, &mut self.rates];
-        for list in sums
-            .into_iter()
-            .chain([&mut self.vector, &mut self.product])
-        {
-            room_for(list, particles);
-        }
+        room_for(&mut self.sums, particles);
+        room_for(&mut self.dampers, particles);
+        room_for(&mut self.rates, particles);
+        room_for(&mut self.vector, particles);
+        room_for(&mut self.product, particles);
     }
 
     /// The system is another one.

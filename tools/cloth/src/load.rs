@@ -59,14 +59,11 @@ impl Loads {
     /// Refuses the first number that cannot be used.
     pub(crate) fn check(&self) -> Result<(), SettingError> {
         let finite = |setting, v: Vector| {
-            let unusable = v.iter().copied().find(|x| !x.is_finite());
-            let given = unusable.unwrap_or(0.0);
-            SettingError::unless(unusable.is_none(), setting, given, "finite")
+            let check = |&x: &f64| SettingError::unless(x.is_finite(), setting, x, "finite");
+            v.iter().try_for_each(check)
         };
-        finite(
-            "gravity_m_per_s2",
-            self.gravity_m_per_s2.unwrap_or_default(),
-        )?;
+        let gravity = self.gravity_m_per_s2.unwrap_or_default();
+        finite("gravity_m_per_s2", gravity)?;
         SettingError::unless_positive("drag_per_s", self.drag_per_s.unwrap_or(0.0))?;
         if let Some(wind) = self.wind {
             finite("wind.velocity_m_per_s", wind.velocity_m_per_s)?;

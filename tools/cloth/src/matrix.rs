@@ -125,38 +125,18 @@ impl Hessian {
         self.off.resize(self.pairs.len(), Block::ZERO);
     }
 
-    /// Adds the second derivative of a force along the line between two particles: `k` to both
-    /// diagonal blocks, and −`k` off the diagonal. `k` must be symmetric.
+    /// Adds a block at row `i`, column `j`, of the pair with this kind and number. If both are equal, it is added
+    /// to the diagonal, and the pair is ignored.
     #[inline]
-    pub(crate) fn add_pair(&mut self, pair: (usize, usize), ends: [u32; 2], k: &Block) {
-        for end in ends {
-            let sum = &mut self.diagonal[end as usize];
-            *sum = sum.plus(1.0, k);
-        }
-        let sum = self.slot_mut(pair);
-        *sum = sum.plus(-1.0, k);
-    }
-
-    /// The block of a constraint's pair, given by its kind and number.
-    fn slot_mut(&mut self, (kind, number): (usize, usize)) -> &mut Block {
-        &mut self.off[self.slots[kind][number] as usize]
-    }
-
-    /// Adds a block at row `i`, column `j`. If both are equal, it is added to the diagonal, and
-    /// `pair` is ignored.
-    #[inline]
-    pub(crate) fn add(&mut self, pair: (usize, usize), [i, j]: [u32; 2], block: &Block) {
-        if i == j {
-            let sum = &mut self.diagonal[i as usize];
-            *sum = sum.plus(1.0, block);
-        } else {
-            let sum = self.slot_mut(pair);
-            *sum = if i < j {
-                sum.plus(1.0, block)
-            } else {
-                sum.plus(1.0, &block.transposed())
-            };
-        }
+    pub(crate) fn add(&mut self, (kind, number): (usize, usize), [i, j]: [u32; 2], block: &Block) {
+        let sum = match i == j {
+            true => &mut self.diagonal[i as usize],
+            false => &mut self.off[self.slots[kind][number] as usize],
+        };
+        *sum = match i <= j {
+            true => sum.plus(1.0, block),
+            false => sum.plus(1.0, &block.transposed()),
+        };
     }
 
     /// Returns the sum of the diagonal, which is no less than the largest eigenvalue unless one is negative.
@@ -297,9 +277,12 @@ impl Pcg {
                 *b = Vector::zeros();
             }
         }
-        let solution = [&mut self.delta, &mut self.preconditioned];
-        let of_directions = [&mut self.direction, &mut self.product];
-        for vectors in solution.into_iter().chain(of_directions) {
+        for vectors in [
+            &mut self.delta,
+            &mut self.preconditioned,
+            &mut self.direction,
+            &mut self.product,
+        ] {
             vectors.clear();
             vectors.resize(n, Vector::zeros());
         }

@@ -165,7 +165,7 @@ impl Method {
             let dt_s = step_s / f64::from(xpbd.substeps.max(1));
             let tau = dt_s * dt_s / (1.0 + dt_s * drag_per_s) * sum / count;
             let left = tau / (1.0 + tau);
-            tau / 2.0 * power(left / 2.0, xpbd.sweeps.max(1) - 1)
+            (1..xpbd.sweeps).fold(tau / 2.0, |extra, _| extra * (left / 2.0))
         };
         let mut shorter_s = step_s;
         while extra(shorter_s) > Softness::TOLERABLE {
@@ -201,18 +201,6 @@ pub(crate) fn speed_m_per_s(fabric: &Fabric, density_kg_per_m2: f64) -> f64 {
 /// diffusion.
 fn reach(sweeps: u32, fraction: f64) -> f64 {
     (f64::from(sweeps.max(1)) * fraction).sqrt()
-}
-
-fn power(mut base: f64, mut exponent: u32) -> f64 {
-    let mut power = 1.0;
-    while exponent > 0 {
-        if exponent % 2 == 1 {
-            power *= base;
-        }
-        base *= base;
-        exponent /= 2;
-    }
-    power
 }
 
 /// The excess softness of a cloth compared with its fabric: the result of

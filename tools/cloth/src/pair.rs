@@ -239,7 +239,10 @@ impl Pairs<'_> {
                     let (block, dropped) =
                         block(d, self.stiffness(rest, stiffness, length(d)), clamp);
                     clamped += u64::from(dropped);
-                    to.add_pair((kind, id as usize), ends.map(|end| end as u32), &block);
+                    let (pair, [a, b]) = ((kind, id as usize), ends.map(|end| end as u32));
+                    to.add(pair, [a, a], &block);
+                    to.add(pair, [b, b], &block);
+                    to.add(pair, [a, b], &Block::ZERO.plus(-1.0, &block));
                 }
             }
         }

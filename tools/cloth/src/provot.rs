@@ -19,7 +19,7 @@ use crate::system::{Recorded, SettingError, System};
 /// first order and takes one force evaluation per step. Springs are stable up to ω Δt = 2, and wind
 /// alone up to λ Δt = 2.
 #[must_use]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Provot {
     /// Infinite without a limiter.
     limiter: Limiter,
@@ -42,12 +42,6 @@ impl Default for Limiter {
             stretch_ratio_max: 1.1,
             passes_max: 20,
         }
-    }
-}
-
-impl Default for Provot {
-    fn default() -> Provot {
-        Provot::new(Limiter::default())
     }
 }
 

@@ -93,17 +93,12 @@ impl SwayingWind {
     /// itself.
     pub(super) fn check(&self) -> Result<(), SettingError> {
         SettingError::unless_above_0("wind.period_s", self.period_s)?;
-        let parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
-        let beyond =
-            |(u, sway): &(&f64, &f64)| u.is_finite() && !(u.abs() + sway.abs()).is_finite();
-        let unusable = parts.filter(beyond).map(|(_, sway)| *sway).next();
-        let (field, given) = ("wind.sway_m_per_s", unusable.unwrap_or(0.0));
-        SettingError::unless(
-            unusable.is_none(),
-            field,
-            given,
-            "such that it is finite at all times",
-        )
+        let mut parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
+        parts.try_for_each(|(u, &sway)| {
+            let holds = !u.is_finite() || (u.abs() + sway.abs()).is_finite();
+            let allowed = "such that it is finite at all times";
+            SettingError::unless(holds, "wind.sway_m_per_s", sway, allowed)
+        })
     }
 }
 

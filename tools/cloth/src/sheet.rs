@@ -159,9 +159,12 @@ impl Cloth {
         for h in mesh.edges() {
             let ends = [mesh.origin(h), mesh.target(h)];
             let edge = [h, mesh.pair(h).unwrap_or(h)];
-            let stiffness = fabric.stretch_n_per_m() * fabric.share(mesh, h);
-            let constraint = cloth.constraint(ends, stiffness)?;
-            let id = cloth.system.model.stretch.add(constraint);
+            let rest_length_m = cloth.checked_length(ends)?;
+            let id = cloth.system.model.stretch.add(Constraint {
+                ends: ends.map(VertexId::index),
+                rest_length_m,
+                stiffness_n_per_m: fabric.stretch_n_per_m() * fabric.share(mesh, h),
+            });
             cloth.stretch_of.join(edge, id);
             cloth.measure_membrane(id);
         }
@@ -172,7 +175,7 @@ impl Cloth {
             for h in mesh.edges() {
                 if let Some(pair) = mesh.pair(h) {
                     let apexes = [h, pair].map(|h| mesh.origin(h.prev()));
-                    cloth.constraint(apexes, 0.0)?;
+                    cloth.checked_length(apexes)?;
                     let id = cloth.bend_across([h, pair]);
                     let (field, given) = bend.number();
                     let made = SettingError::unless(id.is_some(), field, given, "less");
@@ -184,24 +187,12 @@ impl Cloth {
         Ok(cloth)
     }
 
-    fn constraint(
-        &self,
-        ends: [VertexId; 2],
-        stiffness_n_per_m: f64,
-    ) -> Result<Constraint, ClothError> {
-        let rest_length_m = self.rest_length(ends.map(VertexId::index));
-        if rest_length_m > 0.0 && rest_length_m.is_finite() {
-            Ok(Constraint {
-                ends: ends.map(VertexId::index),
-                rest_length_m,
-                stiffness_n_per_m,
-            })
-        } else {
-            Err(ClothError::Length {
-                ends,
-                given: rest_length_m,
-            })
-        }
+    /// The length of a constraint between two vertices.
+    fn checked_length(&self, ends: [VertexId; 2]) -> Result<f64, ClothError> {
+        let given = self.rest_length(ends.map(VertexId::index));
+        let is_usable = given > 0.0 && given.is_finite();
+        let error = ClothError::Length { ends, given };
+        is_usable.then_some(given).ok_or(error)
     }
 
     /// Makes room for all splits that can follow, of which each leaves every vertex a face, so that
@@ -320,12 +311,8 @@ impl Cloth {
         // Faces without area have no stiffness, but a compliance must be finite.
         let stiffness = stiffness.max(modulus_n_per_m * f64::EPSILON);
         let stretch = &mut self.system.model.stretch;
-        let before = stretch.get(id).stiffness_n_per_m;
-        if stiffness != before {
-            let mut memory = stretch.memory(id);
-            memory.multiplier *= stiffness / before;
-            stretch.remember(id, memory);
-            stretch.set_stiffness(id, stiffness);
+        if stiffness != stretch.get(id).stiffness_n_per_m {
+            stretch.stiffen(id, stiffness);
         }
     }
 

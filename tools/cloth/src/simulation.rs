@@ -25,8 +25,6 @@ pub use heal::Wounds;
 pub use log::{InputLog, LogError};
 pub use report::{CutId, Event, Picked, Reached};
 
-use std::fmt;
-
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
     Cut, CutError, CutMethod, CutReport, Edit, Edits, Masses, Mesh, Mix, PerVertex, PositionError,
@@ -71,6 +69,7 @@ use crate::tearing::{Tear, TearReport};
 /// assert!(sim.events().any(healed));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[derive(Debug)]
 pub struct Simulation {
     pub(crate) mesh: Mesh,
     pub(crate) edits: Edits,
@@ -689,12 +688,4 @@ const UNTEARABLE: f64 = 1e12;
 
 fn word(v: VertexId) -> u64 {
     u32::from(v).into()
-}
-
-impl fmt::Debug for Simulation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Simulation")
-            .field("mesh", &self.mesh)
-            .finish_non_exhaustive()
-    }
 }

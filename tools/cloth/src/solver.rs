@@ -16,6 +16,7 @@ use crate::system::error::SettingError;
 /// use tearmesh_cloth::{Failure, Solver, System};
 ///
 /// /// Particles that fly straight on.
+/// #[derive(Debug)]
 /// struct Inertia;
 ///
 /// impl Solver for Inertia {
@@ -28,7 +29,7 @@ use crate::system::error::SettingError;
 ///     }
 /// }
 /// ```
-pub trait Solver {
+pub trait Solver: fmt::Debug {
     /// Advances positions and velocities by `dt_s` seconds. Colliders act afterwards.
     ///
     /// # Errors

@@ -74,14 +74,9 @@ fn check(system: &System, solver: &dyn Solver, dt_s: f64) -> Result<(), StepErro
         return Err(StepError::Step { given_s: dt_s });
     }
     solver.check().map_err(StepError::Setting)?;
-    let ratio = system.model.stretch_ratio_max;
-    SettingError::unless(
-        ratio > 0.0,
-        "stretch_ratio_max",
-        ratio,
-        "finite and above 0",
-    )
-    .map_err(StepError::Setting)?;
+    let (setting, given) = ("stretch_ratio_max", system.model.stretch_ratio_max);
+    SettingError::unless(given > 0.0, setting, given, "finite and above 0")
+        .map_err(StepError::Setting)?;
     if solver.abilities().takes_all_forces {
         return Ok(());
     }

@@ -172,21 +172,14 @@ impl System {
     /// Makes room for so many particles and stretch constraints in all, and for steps of them.
     pub(crate) fn reserve(&mut self, particles: usize, stretches: usize) {
         let (model, scratch) = (&mut self.model, &mut self.scratch);
-        for points in [
-            &mut self.positions,
-            &mut scratch.positions,
-            &mut scratch.before,
-        ] {
-            room_for(points, particles);
-        }
-        let vectors = [&mut self.velocities, &mut scratch.velocities];
-        for vectors in vectors.into_iter().chain([&mut scratch.accelerations]) {
-            room_for(vectors, particles);
-        }
-        if model.loads.wind.is_some() {
-            room_for(&mut scratch.predicted, particles);
-            room_for(&mut scratch.areas, particles);
-        }
+        room_for(&mut self.positions, particles);
+        room_for(&mut self.velocities, particles);
+        room_for(&mut scratch.positions, particles);
+        room_for(&mut scratch.velocities, particles);
+        room_for(&mut scratch.accelerations, particles);
+        room_for(&mut scratch.before, particles);
+        room_for(&mut scratch.predicted, particles);
+        room_for(&mut scratch.areas, particles);
         room_for(&mut model.masses, particles);
         room_for(&mut model.inverse_masses, particles);
         room_for(&mut model.held, particles);
@@ -215,12 +208,8 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        self.connect(
-            |model| &mut model.stretch,
-            ends,
-            rest_length_m,
-            stiffness_n_per_m,
-        )
+        let given = self.checked(ends, rest_length_m, stiffness_n_per_m)?;
+        Ok(self.model.stretch.add(given))
     }
 
     /// Adds a bend constraint and returns its id. It is a spring between two particles that are
@@ -240,12 +229,8 @@ impl System {
         rest_length_m: f64,
         stiffness_n_per_m: f64,
     ) -> Result<ConstraintId, SystemError> {
-        self.connect(
-            |model| &mut model.bend,
-            ends,
-            rest_length_m,
-            stiffness_n_per_m,
-        )
+        let given = self.checked(ends, rest_length_m, stiffness_n_per_m)?;
+        Ok(self.model.bend.add(given))
     }
 
     /// Sets the law by which all bend constraints buckle, present and future ones; `None` makes
@@ -317,13 +302,13 @@ impl System {
         index
     }
 
-    fn connect(
+    /// A constraint that can be added.
+    fn checked(
         &mut self,
-        family: fn(&mut Model) -> &mut Constraints,
         ends: [usize; 2],
         rest_length_m: f64,
         stiffness_n_per_m: f64,
-    ) -> Result<ConstraintId, SystemError> {
+    ) -> Result<Constraint, SystemError> {
         self.is_no_cloth();
         let given = Constraint {
             ends,
@@ -331,9 +316,8 @@ impl System {
             stiffness_n_per_m,
         };
         check_constraint(given, self.positions.len())?;
-        let id = family(&mut self.model).add(given);
         self.rebuilt();
-        Ok(id)
+        Ok(given)
     }
 
     fn is_no_cloth(&self) {

@@ -152,13 +152,11 @@ impl Solver for Pbd {
     }
 
     fn check(&self) -> Result<(), SettingError> {
-        for (setting, given) in [
-            ("stiffness", self.stiffness),
-            ("bend_stiffness", self.bend_stiffness),
-        ] {
-            SettingError::unless((0.0..=1.0).contains(&given), setting, given, "from 0 to 1")?;
-        }
-        Ok(())
+        let check = |setting, given: f64| {
+            SettingError::unless((0.0..=1.0).contains(&given), setting, given, "from 0 to 1")
+        };
+        check("stiffness", self.stiffness)?;
+        check("bend_stiffness", self.bend_stiffness)
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {

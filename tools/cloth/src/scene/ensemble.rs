@@ -7,6 +7,7 @@
 //!
 //! [`member`] plays one of them. Its caller decides which, in which order and on which threads.
 
+use std::error::Error;
 use std::num::NonZero;
 
 use tearmesh::geometry::Vector;
@@ -191,7 +192,10 @@ pub fn member(
     Member {
         seed,
         status,
-        why: observed.as_ref().err().cloned().unwrap_or_default(),
+        why: observed
+            .as_ref()
+            .err()
+            .map_or_else(String::new, ToString::to_string),
         observed: observed.ok().flatten(),
     }
 }
@@ -202,28 +206,22 @@ fn observe(
     step_divisor: NonZero<u32>,
     seed: u64,
     stop: &dyn Fn() -> bool,
-) -> Result<Option<Observed>, String> {
+) -> Result<Option<Observed>, Box<dyn Error>> {
     if stop() {
         return Ok(None);
     }
     let Disturbance { mesh, offsets_m } = Disturbance::new(subject.mesh, seed);
-    let run = Run::new(
-        mesh,
-        subject.positions,
-        subject.scene.clone(),
-        subject.frame,
-    );
-    let run = run.map_err(|error| error.to_string())?;
+    let scene = subject.scene.clone();
+    let run = Run::new(mesh, subject.positions, scene, subject.frame)?;
     let run = run.in_smaller_steps(step_divisor);
-    let run = run.displaced(|v| offsets_m[v.index()]);
-    let mut run = run.map_err(|error| error.to_string())?;
+    let mut run = run.displaced(|v| offsets_m[v.index()])?;
     let torn_before_m = run.torn_length_m();
     let mut tear_log = TearLog::new(&run);
     while !run.is_over() {
         if stop() {
             return Ok(None);
         }
-        let tear = run.step().map_err(|error| error.to_string())?;
+        let tear = run.step()?;
         tear_log.note(&run, &tear);
     }
     let first_tear = tear_log.first_tear();

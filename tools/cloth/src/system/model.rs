@@ -101,16 +101,11 @@ impl Model {
             bend.map(|(ends, ratio)| BlowUpSite::Bend(ends, ratio)),
             triangle.map(|(corners, ratio)| BlowUpSite::Triangle(corners, ratio)),
         ];
-        let ratio = BlowUpSite::stretch_ratio;
-        let longer = |most, one| {
-            if ratio(&one) > ratio(&most) {
-                one
-            } else {
-                most
-            }
-        };
-        let longest = sites.into_iter().flatten().reduce(longer);
-        longest.filter(|site| site.stretch_ratio() > Some(ratio_max))
+        // Of those that are as long the first one counts.
+        let by_ratio =
+            |a: &BlowUpSite, b: &BlowUpSite| a.stretch_ratio().total_cmp(&b.stretch_ratio());
+        let longest = sites.into_iter().flatten().rev().max_by(by_ratio);
+        longest.filter(|site| site.stretch_ratio() > ratio_max)
     }
 
     /// Visits springs that together are as stiff as all constraints, or stiffer, in every direction and in
