@@ -209,30 +209,3 @@ fn pushed_chains_never_have_more_energy_than_they_were_given() {
         }
     }
 }
-
-/// The elastic energy that a step left is that of the next one's beginning, unless something has changed.
-#[test]
-fn a_step_begins_with_the_energy_that_is_there() {
-    let stiffen = |row: &mut System| {
-        let ids: Vec<_> = row.stretches().iter().collect();
-        for id in ids {
-            row.set_stiffness(id, 1e5).expect("a stiffness");
-        }
-    };
-    let go_on = |row: &mut System| run(row, Verlet::new(), 1e-3, 20);
-    for (name, change) in [
-        ("stiffer", stiffen as fn(&mut System)),
-        ("moved by another method", go_on),
-    ] {
-        let mut row = row(4, 0.01, 100.0, 0.1, Vector::x() * 0.11);
-        row.state_mut().1[4] = Vector::x() * 5.0;
-        let mut solver = Implicit::default();
-        row.step(&mut solver, 1e-3).expect("a step");
-        change(&mut row);
-        let mut anew = row.clone();
-        row.step(&mut solver, 1e-3).expect("a step");
-        anew.step(&mut Implicit::default(), 1e-3).expect("a step");
-        assert_eq!(row.positions(), anew.positions(), "{name}");
-        assert_eq!(row.counters().overshoots, anew.counters().overshoots);
-    }
-}

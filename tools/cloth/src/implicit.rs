@@ -207,7 +207,6 @@ impl Implicit {
         }
         self.history.note(system, &self.reached, &self.velocities);
         self.history.time_step_s = dt_s;
-        self.history.stored_j = (system.changes, to_j);
         system.positions.copy_from_slice(&self.reached);
         system.velocities.copy_from_slice(&self.velocities);
         self.stats.parts += 1;
@@ -331,11 +330,8 @@ impl Implicit {
     fn makes_energy(&mut self, system: &mut System, to_j: f64) -> bool {
         let (x, v) = (&system.positions, &system.velocities);
         let (model, weights) = (&system.model, system.model.weights());
-        let known_j = self.history.elastic_j(x, system.changes);
-        let from_j = known_j.unwrap_or_else(|| {
-            model.count_visits(1, &mut system.counters);
-            model.elastic_j(x)
-        });
+        model.count_visits(1, &mut system.counters);
+        let from_j = model.elastic_j(x);
         let moved = &mut self.shift;
         refill(moved, self.reached.iter().zip(x).map(|(to, x)| to - x));
         let pulls = &mut self.pcg.b;
@@ -450,8 +446,6 @@ struct History {
     positions: Vec<Point>,
     velocities: Vec<Vector>,
     time_step_s: f64,
-    /// How often the system was changed until then, and the elastic energy that the step left, in joules.
-    stored_j: (u64, f64),
 }
 
 impl History {
@@ -465,12 +459,6 @@ impl History {
             is_known && (self.positions == x || moving.any(|i| self.positions[i] == x[i]));
         let ratio = dt_s / self.time_step_s;
         (leads_here && ratio <= 1.0 + std::f64::consts::SQRT_2).then_some(ratio)
-    }
-
-    /// The elastic energy at these positions, if the last step left it there.
-    fn elastic_j(&self, x: &[Point], changes: u64) -> Option<f64> {
-        let (until, stored_j) = self.stored_j;
-        (until == changes && self.positions == x).then_some(stored_j)
     }
 
     /// Notes what a step reaches from where a system is.

@@ -159,7 +159,6 @@ fn go_back(system: &mut System, failure: Failure) -> StepError {
     system.model.recorded = Recorded::Nothing;
     let multipliers = system.model.multipliers_mut();
     multipliers.for_each(|lambda| *lambda = 0.0);
-    system.changes += 1;
     error
 }
 

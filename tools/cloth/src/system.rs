@@ -62,8 +62,6 @@ pub struct System {
     pub(crate) contact_j: Option<f64>,
     /// What material damping took in all, in joules.
     pub(crate) damped_j: f64,
-    /// How often the state was changed but by a step.
-    pub(crate) changes: u64,
 }
 
 /// Room for a step, so that none allocates.
@@ -165,7 +163,6 @@ impl System {
             unstable: Unstable::default(),
             contact_j: None,
             damped_j: 0.0,
-            changes: 0,
         }
     }
 
@@ -315,7 +312,12 @@ impl System {
             rest_length_m,
             stiffness_n_per_m,
         };
-        check_constraint(given, self.positions.len())?;
+        let [a, b] = ends;
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        let numbers = positive(rest_length_m) && positive(stiffness_n_per_m);
+        if !(numbers && a != b && a.max(b) < self.positions.len()) {
+            return Err(SystemError::Constraint { given });
+        }
         self.rebuilt();
         Ok(given)
     }
@@ -337,31 +339,6 @@ impl System {
     pub(crate) fn touched(&mut self) {
         self.scratch.is_fresh = false;
         self.guard.is_known = false;
-        self.changes += 1;
-    }
-
-    /// Changes the stiffness of a stretch constraint, in N/m.
-    ///
-    /// # Errors
-    ///
-    /// [`SystemError::Constraint`] if the stiffness is not positive and finite.
-    ///
-    /// # Panics
-    ///
-    /// If there is no such constraint.
-    pub fn set_stiffness(
-        &mut self,
-        id: ConstraintId,
-        stiffness_n_per_m: f64,
-    ) -> Result<(), SystemError> {
-        let given = Constraint {
-            stiffness_n_per_m,
-            ..self.model.stretch.get(id)
-        };
-        check_constraint(given, self.positions.len())?;
-        self.model.stretch.set_stiffness(id, stiffness_n_per_m);
-        self.rebuilt();
-        Ok(())
     }
 
     /// Removes a stretch constraint, as when a link of a chain tears. A later constraint may reuse
@@ -432,14 +409,13 @@ impl System {
     pub fn set_loads(&mut self, loads: Loads) -> Result<(), SettingError> {
         loads.check()?;
         self.scratch.is_fresh = false;
-        self.changes += 1;
         self.model.loads = loads;
         Ok(())
     }
 
     /// Damps the stretch constraints with this time τ in seconds; zero for no damping, which is the
     /// default. A constraint of stiffness k exerts c dl/dt besides, where c is τ k, and no more than gives it a
-    /// damping ratio of [`Fabric::DAMPING_RATIO_MAX`](crate::Fabric::DAMPING_RATIO_MAX). Methods that do not
+    /// damping ratio of a tenth. Methods that do not
     /// damp ([`Abilities::damps`](crate::Abilities::damps)) leave it out.
     ///
     /// # Errors
@@ -490,7 +466,6 @@ impl System {
         self.keep();
         self.scratch.is_fresh = false;
         self.model.recorded = Recorded::Nothing;
-        self.changes += 1;
         (&mut self.positions, &mut self.velocities)
     }
 
@@ -591,12 +566,4 @@ impl System {
             scratch.velocities.clone_from(&self.velocities);
         }
     }
-}
-
-fn check_constraint(given: Constraint, particles: usize) -> Result<(), SystemError> {
-    let [a, b] = given.ends;
-    let positive = |x: f64| x > 0.0 && x.is_finite();
-    let numbers = positive(given.rest_length_m) && positive(given.stiffness_n_per_m);
-    let holds = numbers && a != b && a.max(b) < particles;
-    holds.then_some(()).ok_or(SystemError::Constraint { given })
 }

@@ -9,7 +9,6 @@ use crate::fabric::Stretch;
 use crate::force;
 use crate::incidence::room_for;
 use crate::sheet::Cloth;
-use crate::system::Recorded;
 
 /// The state of tearing of a cloth: the strength of each vertex, and the tips of its tears.
 ///
@@ -22,11 +21,6 @@ pub struct Tear {
     /// Where a tear may run on, and the direction across it at rest: zero for vertices that are no
     /// tips.
     tips: PerVertex<Vector>,
-    /// Whether there ever was one.
-    has_tips: bool,
-    /// From where on an edge may tear, with what that depends on: the number of changes of the
-    /// system, and what its method records.
-    bound: Option<((u64, Recorded), Option<f64>)>,
     due: Vec<Due>,
     torn: Vec<Torn>,
     seen: Cursor,
@@ -87,8 +81,6 @@ impl Tear {
             strengths: PerVertex::new(vec![1.0; count]).starting_at(seen),
             tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(seen),
             seen,
-            has_tips: false,
-            bound: None,
             due: Vec::new(),
             torn: Vec::new(),
             ahead: Vec::new(),
@@ -124,7 +116,6 @@ impl Tear {
         for (v, strength) in (0..).map_while(VertexId::new).zip(strengths) {
             *self.strengths.at_mut(v) = strength;
         }
-        self.bound = None;
     }
 
     /// Makes room for all splits that can follow ([`Cloth::reserve`]), so that they allocate nothing.
@@ -243,15 +234,8 @@ impl Tear {
 
     /// Finds the edges that tear, the worst first: the first half of [`apply`](Tear::apply).
     pub(crate) fn find(&mut self, mesh: &Mesh, cloth: &mut Cloth) -> TearReport {
-        let of = (cloth.system().changes, cloth.system().model.recorded);
-        let bound = match self.bound {
-            Some((known, bound)) if known == of => bound,
-            _ => {
-                let threshold = self.tearing.threshold;
-                threshold.ratio_from(cloth, self.least_strength())
-            }
-        };
-        self.bound = Some((of, bound));
+        let bound = self.tearing.threshold;
+        let bound = bound.ratio_from(cloth, self.least_strength());
         cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
         let mut due = std::mem::take(&mut self.due);
         due.clear();
@@ -287,10 +271,7 @@ impl Tear {
     fn least_strength(&self) -> f64 {
         let strengths = self.strengths.as_slice().iter();
         let least = strengths.fold(f64::INFINITY, |least, &strength| least.min(strength));
-        match self.tearing.weakening {
-            Some(factor) if self.has_tips => least * factor,
-            _ => least,
-        }
+        least * self.tearing.weakening.unwrap_or(1.0)
     }
 
     /// The vertex that the rule splits, of those that do not bear the load.
@@ -334,7 +315,6 @@ impl Tear {
         let tips = along_plane(cloth, vertex, &plane, &self.ahead);
         for tip in tips.take(if is_whole { 2 } else { 1 }) {
             *self.tips.at_mut(tip) = across;
-            self.has_tips = true;
         }
         length_m
     }

@@ -4,7 +4,7 @@ use tearmesh::geometry::{Vector, cross, dot};
 use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
-use crate::constraint::{Constraint, ConstraintId};
+use crate::constraint::{Colour, ConstraintId};
 use crate::force;
 use crate::sheet::Cloth;
 use crate::system::{Recorded, System};
@@ -73,21 +73,20 @@ impl Threshold {
     /// How many times as long as at rest any edge is at least that has this load, by the strain that
     /// [`strain`] says; `None` where faces decide, or forces that no strain tells. Linear.
     pub(super) fn ratio_from(&self, cloth: &Cloth, load: f64) -> Option<f64> {
-        let stretches = cloth.system().stretches();
-        let most = |of: fn(&Constraint) -> f64| {
-            let each = stretches.iter().map(|id| of(&stretches.get(id)));
-            each.fold(0.0, f64::max)
-        };
+        let springs = cloth.system().stretches().colours.iter();
+        let springs = springs.flat_map(Colour::springs);
         let recorded = cloth.system().model.recorded;
         let has_strains = !matches!(recorded, Recorded::RigidForces | Recorded::Limiter);
         let strain = match *self {
             Threshold::Stretch(ratio) => ratio - 1.0,
             Threshold::WarpWeft { warp, weft, .. } => warp.min(weft) - 1.0,
             Threshold::Toughness(g) => {
-                strain_borne(g, modulus(cloth), most(|edge| edge.rest_length_m))
+                let longest_m = springs.map(|(_, rest, _)| rest).fold(0.0, f64::max);
+                strain_borne(g, modulus(cloth), longest_m)
             }
             Threshold::Force(newtons) if has_strains => {
-                0.5 * newtons / most(|edge| edge.stiffness_n_per_m * edge.rest_length_m)
+                let forces = springs.map(|(_, rest, stiffness)| stiffness * rest);
+                0.5 * newtons / forces.fold(0.0, f64::max)
             }
             Threshold::Force(_) | Threshold::PrincipalStretch(_) => return None,
         };
