@@ -23,7 +23,7 @@
 use crate::crush::Crush;
 
 /// ζ.
-pub(crate) const RATIO_MAX: f64 = 0.1;
+const RATIO_MAX: f64 = 0.1;
 
 /// Returns c for a spring of stiffness `k`, in N s/m, by the sum of the inverse masses of its ends. Zero
 /// between two that are held.

@@ -5,7 +5,6 @@ use tearmesh::geometry::Vector;
 use tearmesh::{HalfEdgeId, Mesh};
 
 use crate::bend::Buckling;
-use crate::damping;
 use crate::system::error::SettingError;
 
 /// The material of a cloth, and the rules for its constraints when it tears.
@@ -19,8 +18,9 @@ pub struct Fabric {
     /// The bending resistance across each interior edge; `None` for no resistance.
     pub bend: Option<Bending>,
     /// The damping along edges as a time τ, in seconds; zero for none. A spring of stiffness k is
-    /// damped by τ k, and by no more than a damping ratio of a tenth
-    /// ([`Fabric::DAMPING_RATIO_MAX`]). Only [`Verlet`](crate::Verlet) damps; the other methods lose
+    /// damped by τ k, and by no more than a damping ratio of a tenth: a cloth that loses as much at the
+    /// frequencies that one sees would need far more at the highest ones of a mesh, and steps many times
+    /// shorter. Only [`Verlet`](crate::Verlet) damps; the other methods lose
     /// energy of their own.
     pub damping_s: f64,
     /// The bend constraints that a split removes.
@@ -66,10 +66,6 @@ impl Default for Fabric {
 }
 
 impl Fabric {
-    /// The largest damping ratio of a spring. A cloth that loses as much at the frequencies that one
-    /// sees would need far more at the highest ones of a mesh, and steps many times shorter.
-    pub const DAMPING_RATIO_MAX: f64 = damping::RATIO_MAX;
-
     /// Returns a membrane of this modulus in N/m, without bending resistance and damping.
     pub fn new(modulus_n_per_m: f64) -> Fabric {
         Fabric::of(Stretch::Membrane { modulus_n_per_m })

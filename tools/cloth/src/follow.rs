@@ -30,9 +30,7 @@ impl Follower for Cloth {
 impl Cloth {
     fn split(&mut self, split: &Split<'_>, edit: &Edit<'_>) {
         let (old, new) = (split.old.index(), split.new.index());
-        self.push_particles(edit);
-        edit.pass_on(&mut self.masses);
-        edit.pass_on(&mut self.rest);
+        self.pass_on(edit);
         self.reweigh(old);
         self.reweigh(new);
         for link in split.torn {
@@ -51,7 +49,6 @@ impl Cloth {
             self.unbend(link.stayed);
         }
         for &corner in split.corners {
-            self.system.model.faces[corner.index()] = new as u32;
             for h in [corner, corner.prev()] {
                 let id = self.stretch(h);
                 self.system.model.stretch.repoint(id, old, new);
@@ -76,9 +73,6 @@ impl Cloth {
 
     fn merge(&mut self, merge: &Merge<'_>, edit: &Edit<'_>) {
         let (kept, gone) = (merge.kept.index(), merge.gone.index());
-        for &corner in merge.corners {
-            self.system.model.faces[corner.index()] = kept as u32;
-        }
         self.relabel_triangles(merge.corners, kept);
         for link in merge.sewn {
             let (id, copied) = (self.stretch(link.stayed), self.stretch(link.moved));
@@ -99,21 +93,15 @@ impl Cloth {
                 family.repoint(id, gone, kept);
             }
         }
+        join_particles(&mut self.system, kept, gone, merge.share);
+        // Copies that slid apart have different places at rest, and meet between.
+        let apart = self.rest.at(merge.kept) != self.rest.at(merge.gone);
+        self.pass_on(edit);
+        self.reweigh(kept);
         // Across a seam: between particles that are neither of the two.
         for link in merge.sewn {
             self.bend_across([link.stayed, link.moved]);
         }
-        join_particles(&mut self.system, kept, gone, merge.share);
-        if let Some(renumbered) = merge.renumbered {
-            for &corner in renumbered.corners {
-                self.system.model.faces[corner.index()] = renumbered.to.index() as u32;
-            }
-        }
-        // Copies that slid apart have different places at rest, and meet between.
-        let apart = self.rest.at(merge.kept) != self.rest.at(merge.gone);
-        edit.pass_on(&mut self.masses);
-        edit.pass_on(&mut self.rest);
-        self.reweigh(kept);
         if apart {
             self.measure_again(kept);
         } else {
@@ -127,8 +115,7 @@ impl Cloth {
         let (particle, toward) = (slide.vertex.index(), slide.toward.index());
         let x = &mut self.system.positions;
         x[particle] = between(x[particle], x[toward], slide.t);
-        edit.pass_on(&mut self.masses);
-        edit.pass_on(&mut self.rest);
+        self.pass_on(edit);
         self.measure_again(particle);
     }
 
@@ -166,13 +153,6 @@ impl Cloth {
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
         let mut room = std::mem::take(&mut self.scratch);
-        self.push_particles(edit);
-        edit.pass_on(&mut self.masses);
-        edit.pass_on(&mut self.rest);
-        for v in insert.children.iter().flat_map(|child| child.vertices) {
-            self.reweigh(v.index());
-        }
-
         room.pieces.clear();
         for child in insert.children {
             let pieces = (0..3).map(|corner| self.piece(child, corner));
@@ -180,11 +160,12 @@ impl Cloth {
         }
         room.pieces
             .sort_unstable_by_key(|piece| (piece.ends, piece.half_edge));
+        self.pass_on(edit);
+        for v in insert.children.iter().flat_map(|child| child.vertices) {
+            self.reweigh(v.index());
+        }
         for child in insert.children {
-            let faces = &mut self.system.model.faces;
-            faces.resize(faces.len().max(3 * child.face.index() + 3), 0);
-            for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {
-                faces[h.index()] = v.index() as u32;
+            for h in child.face.half_edges() {
                 if let Some(bend) = self.bend_of.ids.get_mut(h.index()) {
                     *bend = NO_BEND;
                 }
@@ -223,8 +204,8 @@ impl Cloth {
         self.scratch = room;
     }
 
-    /// A particle for each new vertex.
-    fn push_particles(&mut self, edit: &Edit<'_>) {
+    /// Has particles come for new vertices, and masses, places at rest and the corners of faces follow.
+    fn pass_on(&mut self, edit: &Edit<'_>) {
         for op in edit.vertex_ops() {
             if let VertexOp::Push { new, from } = op {
                 let count = self.system.positions.len();
@@ -232,6 +213,10 @@ impl Cloth {
                 push_particle(&mut self.system, from);
             }
         }
+        edit.pass_on(&mut self.masses);
+        edit.pass_on(&mut self.rest);
+        let faces = &mut self.system.model.faces;
+        edit.corner_ops().for_each(|op| op.apply_to_indices(faces));
     }
 
     /// An edge that was there stays; what is across it may be another vertex.

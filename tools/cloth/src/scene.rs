@@ -223,12 +223,8 @@ pub struct TimedCut {
 }
 
 impl TimedCut {
-    /// Returns the scissor that makes the cut.
-    ///
-    /// # Errors
-    ///
-    /// [`ScissorError`] if the rays span no plane.
-    pub fn scissor(&self) -> Result<Scissor, ScissorError> {
+    /// The scissor that makes the cut; an error if the rays span no plane.
+    pub(crate) fn scissor(&self) -> Result<Scissor, ScissorError> {
         let scissor = Scissor::new(self.rays[0], self.rays[1])?;
         Ok(scissor.through(self.through))
     }

@@ -207,15 +207,6 @@ impl Cloth {
         self.system.reserve(corners, corners);
     }
 
-    /// Declares that this cloth belongs to the mesh as it was at the cursor `seen` of its log.
-    #[must_use]
-    pub fn starting_at(mut self, seen: Cursor) -> Cloth {
-        self.masses = self.masses.starting_at(seen);
-        self.rest = self.rest.starting_at(seen);
-        self.seen = seen;
-        self
-    }
-
     /// Returns the place in the mesh's log up to which edits have been replayed on this cloth.
     #[must_use]
     pub fn seen(&self) -> Cursor {

@@ -270,9 +270,6 @@ impl Simulation {
     /// work for a sheet of a metre.
     pub const GRIP_RADIUS_M: f64 = 0.12;
 
-    /// The largest speed of a hand, in m/s.
-    pub const HAND_SPEED_MAX_M_PER_S: f64 = hand::SPEED_MAX_M_PER_S;
-
     /// Lets `dt_s` seconds pass, in whole steps, and at most this many. What is less than half a
     /// step is made up for by the next call; what the budget leaves out is not, so that a slow
     /// machine shows slow motion and never falls behind for good.
@@ -468,8 +465,8 @@ impl Simulation {
         Ok(hand)
     }
 
-    /// Leads a hand straight to a point, from where it is: within a frame of 1/60 s, or at
-    /// [`HAND_SPEED_MAX_M_PER_S`](Simulation::HAND_SPEED_MAX_M_PER_S) if it is too far for that.
+    /// Leads a hand straight to a point, from where it is: within a frame of 1/60 s, or at 3 m/s if it is
+    /// too far for that.
     ///
     /// # Errors
     ///

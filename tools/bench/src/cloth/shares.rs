@@ -113,8 +113,7 @@ struct Torn {
 
 impl Torn {
     fn new(cloth: Cloth, mesh: Mesh) -> Torn {
-        let edits = Edits::new();
-        let cloth = cloth.starting_at(edits.cursor());
+        let edits = Edits::starting_at(cloth.seen());
         let tear = Tear::new(&cloth, Tearing::default()).expect("the defaults tear");
         Torn {
             cloth,

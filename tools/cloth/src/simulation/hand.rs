@@ -32,7 +32,7 @@ const GRIP_STRENGTH: f64 = 8.0;
 const GRIP_CORE: f64 = 1.0 / 16.0;
 
 /// The largest speed of a hand, in m/s.
-pub(super) const SPEED_MAX_M_PER_S: f64 = 3.0;
+const SPEED_MAX_M_PER_S: f64 = 3.0;
 
 /// A hand, the vertex that it grabbed, and the copies of that.
 #[derive(Clone, Debug)]
