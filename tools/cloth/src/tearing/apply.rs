@@ -18,6 +18,8 @@ use crate::sheet::Cloth;
 pub struct Tear {
     tearing: Tearing,
     strengths: PerVertex<f64>,
+    /// The least strength that was given. Edits only mix strengths, so none is less.
+    least: f64,
     /// Where a tear may run on, and the direction across it at rest: zero for vertices that are no
     /// tips.
     tips: PerVertex<Vector>,
@@ -79,6 +81,7 @@ impl Tear {
         Ok(Tear {
             tearing,
             strengths: PerVertex::new(vec![1.0; count]).starting_at(seen),
+            least: 1.0,
             tips: PerVertex::new(vec![Vector::zeros(); count]).starting_at(seen),
             seen,
             due: Vec::new(),
@@ -113,7 +116,9 @@ impl Tear {
 
     /// Sets the strengths of vertices that are usable.
     pub(crate) fn set_strengths(&mut self, strengths: impl IntoIterator<Item = f64>) {
+        self.least = f64::INFINITY;
         for (v, strength) in (0..).map_while(VertexId::new).zip(strengths) {
+            self.least = self.least.min(strength);
             *self.strengths.at_mut(v) = strength;
         }
     }
@@ -234,8 +239,8 @@ impl Tear {
 
     /// Finds the edges that tear, the worst first: the first half of [`apply`](Tear::apply).
     pub(crate) fn find(&mut self, mesh: &Mesh, cloth: &mut Cloth) -> TearReport {
-        let bound = self.tearing.threshold;
-        let bound = bound.ratio_from(cloth, self.least_strength());
+        let least = self.least * self.tearing.weakening.unwrap_or(1.0);
+        let bound = self.tearing.threshold.ratio_from(cloth, least);
         cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
         let mut due = std::mem::take(&mut self.due);
         due.clear();
@@ -265,13 +270,6 @@ impl Tear {
             worst: self.due.first().map(|due| (due.edge, due.severity)),
             ..TearReport::default()
         }
-    }
-
-    /// What every vertex bears.
-    fn least_strength(&self) -> f64 {
-        let strengths = self.strengths.as_slice().iter();
-        let least = strengths.fold(f64::INFINITY, |least, &strength| least.min(strength));
-        least * self.tearing.weakening.unwrap_or(1.0)
     }
 
     /// The vertex that the rule splits, of those that do not bear the load.

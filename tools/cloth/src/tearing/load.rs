@@ -75,18 +75,19 @@ impl Threshold {
     pub(super) fn ratio_from(&self, cloth: &Cloth, load: f64) -> Option<f64> {
         let springs = cloth.system().stretches().colours.iter();
         let springs = springs.flat_map(Colour::springs);
+        let larger = |most: f64, one: f64| if one > most { one } else { most };
         let recorded = cloth.system().model.recorded;
         let has_strains = !matches!(recorded, Recorded::RigidForces | Recorded::Limiter);
         let strain = match *self {
             Threshold::Stretch(ratio) => ratio - 1.0,
             Threshold::WarpWeft { warp, weft, .. } => warp.min(weft) - 1.0,
             Threshold::Toughness(g) => {
-                let longest_m = springs.map(|(_, rest, _)| rest).fold(0.0, f64::max);
+                let longest_m = springs.map(|(_, rest, _)| rest).fold(0.0, larger);
                 strain_borne(g, modulus(cloth), longest_m)
             }
             Threshold::Force(newtons) if has_strains => {
                 let forces = springs.map(|(_, rest, stiffness)| stiffness * rest);
-                0.5 * newtons / forces.fold(0.0, f64::max)
+                0.5 * newtons / forces.fold(0.0, larger)
             }
             Threshold::Force(_) | Threshold::PrincipalStretch(_) => return None,
         };
