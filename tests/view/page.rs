@@ -23,6 +23,7 @@ struct Shown {
 struct Read {
     text: Value,
     shown: Vec<Shown>,
+    shade: Vec<u8>,
 }
 
 fn written(page: &Page) -> String {
@@ -46,8 +47,10 @@ fn read(html: &str) -> Read {
     let text: Value = serde_json::from_slice(&bytes[4..4 + length]).expect("JSON");
     let faces = 4 + length + count(&text["faceBytes"]);
     let states = states(&bytes[4 + length..faces], count(&text["states"]));
-    let shown = moments(&bytes[faces..], &text, &states);
-    Read { text, shown }
+    let places = faces + count(&text["shadeBytes"]);
+    let shown = moments(&bytes[places..], &text, &states);
+    let shade = bytes[faces..places].to_vec();
+    Read { text, shown, shade }
 }
 
 fn count(value: &Value) -> usize {
@@ -242,10 +245,18 @@ fn shows(page: &Page, meshes: &[(Mesh, Positions)]) -> Read {
 }
 
 fn page_of(meshes: &[(Mesh, Positions)]) -> Page {
+    page_at(meshes, |_| None)
+}
+
+/// A page of meshes at these times, in seconds; at rest where there is none.
+fn page_at(meshes: &[(Mesh, Positions)], time_s: impl Fn(usize) -> Option<f64>) -> Page {
     let mut page = Page::new("some meshes", Vector::y());
-    for (mesh, positions) in meshes {
-        page.add(mesh, positions, Moment::default())
-            .expect("it has faces");
+    for (number, (mesh, positions)) in meshes.iter().enumerate() {
+        let moment = Moment {
+            time_s: time_s(number),
+            ..Moment::default()
+        };
+        page.add(mesh, positions, moment).expect("it has faces");
     }
     page
 }
@@ -296,6 +307,43 @@ fn a_page_has_the_faces_and_the_places_of_every_moment() {
     assert!(kept > before.len() / 2, "{kept} of {}", before.len());
 }
 
+/// A byte for the front of each vertex, one for each back, and one for each of 128 × 128 cells of the ground.
+#[test]
+fn meshes_at_rest_have_a_shade_and_a_film_has_none() {
+    let meshes = [shapes::grid(9, 9), shapes::torus(48, 24)];
+    let Read { text, shade, .. } = read(&written(&page_of(&meshes)));
+    let [sheet, torus] = [100, 48 * 24];
+    let cells = 128 * 128;
+    assert_eq!(shade.len(), 2 * (sheet + torus + cells));
+    let (of_sheet, of_torus) = shade.split_at(2 * sheet + cells);
+    // A sheet sees all of the sky, and throws a shadow below; a torus that shows its fronts to its inside sees
+    // none of it there.
+    assert!(of_sheet[..2 * sheet].iter().all(|&part| part == 255));
+    let ground = &of_sheet[2 * sheet..];
+    assert!(
+        ground[0] == 255 && ground[64 * 129] < 200,
+        "{}",
+        ground[64 * 129]
+    );
+    assert!(of_torus[..torus].iter().all(|&part| part < 26));
+    assert!(of_torus[torus..2 * torus].iter().all(|&part| part > 100));
+    // It is below all, and two and a half times as long and wide.
+    let ground = &text["grounds"][1];
+    let height = text["origin"][1].as_f64().expect("a number")
+        + text["side"].as_f64().expect("a length") * ground[0][1].as_f64().expect("a number");
+    let points = meshes[1].1.as_slice().iter();
+    let lowest = points.fold(f64::INFINITY, |least, p| least.min(p.y));
+    assert!(
+        height < lowest && height > lowest - 0.1,
+        "{height} {lowest}"
+    );
+
+    let film = read(&written(&page_of(&waving())));
+    assert!(film.shade.is_empty() && film.text["grounds"][0].is_null());
+    let run = read(&written(&page_at(&meshes, |number| Some(number as f64))));
+    assert!(run.shade.is_empty());
+}
+
 #[test]
 fn one_mesh_is_kept_to_24_bits_wherever_it_is() {
     for (scale, off) in [
@@ -320,7 +368,7 @@ proptest! {
 
     #[test]
     fn meshes_that_have_nothing_in_common_are_shown(meshes in prop::collection::vec(soup(), 1..6)) {
-        shows(&page_of(&meshes), &meshes);
+        shows(&page_at(&meshes, |number| Some(number as f64)), &meshes);
     }
 }
 
@@ -332,7 +380,7 @@ fn the_same_moments_give_the_same_bytes() {
     let (_, data) = one.split_once("text/plain\">").expect("data");
     let (data, _) = data.split_once('<').expect("an end");
     let digest = digest::after(digest::EMPTY, data.bytes());
-    assert_eq!(digest, 0xee82_824a_a1aa_b267, "{digest:#018x}");
+    assert_eq!(digest, 0xb078_3d55_1632_2611, "{digest:#018x}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A page that shows meshes in a browser: one HTML file that needs no network and nothing beside it.
 //!
 //! What is shown lies in the page as one stream, deflated, in base64: a JSON text ([`Page`] says what is in
-//! it), and behind it the faces ([`codec`]) and the places of the vertices ([`motion`]) of every moment. No
+//! it), and behind it the faces ([`codec`]), the [`Shade`] and the places of the vertices ([`motion`]) of every moment. No
 //! text of a file stands anywhere else but in the title, so none can break out of the page; and the page
 //! forbids itself all that would need a network.
 
@@ -24,12 +24,16 @@ use crate::fit::{ANGLE_OF_VIEW, fit};
 use crate::palette::{self, Color};
 use crate::pieces::Pieces;
 use crate::shade;
+use crate::sky::{Ground, Shade};
 
 /// An HTML page that shows a mesh at one or more moments.
 ///
 /// A page with one moment shows a mesh at rest. Several moments are played, and each may have other faces;
 /// only changes of the faces are stored. A viewer who clicks two points sees where a cut between them would
 /// go, and the command that makes it.
+///
+/// A mesh at rest has the shade of its folds, and a shadow below it, as in a picture. Meshes that are played have
+/// none.
 ///
 /// Positions of the first moment are kept to 24 bits. Those of later moments are rounded to 1/65,536 of the
 /// longest side of the box around all moments.
@@ -129,6 +133,8 @@ struct Shot {
     /// The lengths of all torn edges, each counted once: at rest where that is known.
     torn: f64,
     loops: usize,
+    /// None if it is played.
+    shade: Option<Shade>,
 }
 
 impl Page {
@@ -207,7 +213,14 @@ impl Page {
         let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
         let torn = torn.map(|h| length(place.at(mesh.target(h)) - place.at(mesh.origin(h))));
         let at_rest = moment.torn_at_rest_m;
+        let is_film = self.shots.len() + 1 >= FILM;
+        if is_film {
+            self.shots.iter_mut().for_each(|shot| shot.shade = None);
+        }
+        let is_still = moment.time_s.is_none() && !is_film;
+        let shade = is_still.then(|| Shade::new(mesh, place, self.up));
         self.shots.push(Shot {
+            shade: shade.flatten(),
             moment,
             state: self.states.len() - 1,
             points: mesh.vertices().map(|v| place.at(v)).collect(),
@@ -258,6 +271,15 @@ impl Page {
             (&*shot.points, &*state.corners)
         });
         let places = motion::write(moments, &lattice);
+        let shades = self.shots.iter().map(|shot| shot.shade.as_ref());
+        let bytes = shades.clone().flatten().flat_map(|shade| &shade.bytes);
+        let shade: Vec<u8> = bytes.copied().collect();
+        let grounds = shades.map(|shade| {
+            let Ground { middle, sides, .. } = &shade?.ground;
+            let [across, down] = *sides;
+            let axes = [middle - lattice.origin, across, down];
+            Some(axes.map(|axis| <[f64; 3]>::from(axis / lattice.side)))
+        });
         let text = json!({
             "title": self.title,
             "up": self.up.as_slice(),
@@ -269,15 +291,18 @@ impl Page {
             "few": FILM,
             "states": self.states.len(),
             "faceBytes": faces.len(),
+            "shadeBytes": shade.len(),
+            "grounds": grounds.collect::<Vec<_>>(),
             "moments": self.moments(),
             "facts": self.facts,
             "plots": self.plots,
             "colors": colors(),
             "light": shade::LIGHT,
+            "shadow": shade::SHADOW,
             "crease": crease_cosine(None),
             "snap": Scissor::SNAP,
         });
-        (text.to_string(), [faces, places].concat())
+        (text.to_string(), [faces, shade, places].concat())
     }
 
     fn moments(&self) -> Vec<Value> {

@@ -8,7 +8,7 @@ use crate::camera::Camera;
 use crate::figure::{Figure, crease_cosine};
 use crate::palette::{self, Color};
 use crate::picture::{Picture, PictureSize};
-use crate::shade::Light;
+use crate::shade::{Light, SHADOW};
 use crate::sky::Sky;
 use crate::strokes::{Kind, Stroke, Strokes};
 use crate::surface::{Facing, Lattice, Surface};
@@ -260,9 +260,6 @@ impl Scene<'_> {
         }
     }
 }
-
-/// How much darker the ground is that sees no sky.
-const SHADOW: f64 = 0.7;
 
 /// Two threads that cross, over and under each other in turn, on a surface with texture coordinates.
 struct Weave {

@@ -7,11 +7,11 @@ use crate::camera::Camera;
 
 /// How bright a surface is that no light meets, and how much each light adds: the key light, and the one at
 /// the eye. Then where the key light is: backward, up and right. Then how much of its colour the back keeps,
-/// and how bright it is.
-pub(crate) const LIGHT: [f64; 8] = [0.34, 0.46, 0.28, 0.7, 0.6, -0.4, 0.65, 0.82];
+/// and how bright it is. Then the part of all light that comes from the sky.
+pub(crate) const LIGHT: [f64; 9] = [0.34, 0.46, 0.28, 0.7, 0.6, -0.4, 0.65, 0.82, 0.75];
 
-/// The part of all light that comes from the sky.
-pub(crate) const SKY: f64 = 0.75;
+/// How much darker the ground is that sees no sky.
+pub(crate) const SHADOW: f64 = 0.7;
 
 /// The lights of a picture, which go with its camera.
 #[derive(Clone, Copy, Debug)]
@@ -48,8 +48,8 @@ impl Light {
         };
         let key = dot(normal, self.key).max(0.0);
         let head = dot(normal, self.backward).max(0.0);
-        let [ambient, by_key, by_head, .., kept, bright] = LIGHT;
-        let light = (ambient + by_key * key + by_head * head) * (1.0 - SKY * (1.0 - sky));
+        let [ambient, by_key, by_head, .., kept, bright, by_sky] = LIGHT;
+        let light = (ambient + by_key * key + by_head * head) * (1.0 - by_sky * (1.0 - sky));
         let [r, g, b] = color;
         let grey = (r + g + b) / 3.0;
         // The back is duller and darker than the front, so that they are told apart.

@@ -4,10 +4,10 @@
 //! behind something else. All is + − × ÷ √, so the shade is the same on every machine.
 
 use tearmesh::geometry::{cross, dot, length};
-use tearmesh::{Point, Vector};
+use tearmesh::{Mesh, Place, Point, Vector};
 
 use crate::camera::{aside, unit};
-use crate::figure::Figure;
+use crate::figure::{Figure, crease_cosine};
 
 /// The side of a map of depths, in texels.
 const TEXELS: usize = 256;
@@ -37,12 +37,21 @@ pub(crate) struct Sky {
     pub(crate) ground: Option<Ground>,
 }
 
+/// The shade of a mesh, for a page.
+#[derive(Clone, Debug)]
+pub(crate) struct Shade {
+    /// The part of the sky, of 255, that the front of each vertex sees, that each back sees, and each cell of the
+    /// ground, row by row.
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) ground: Ground,
+}
+
 /// A level ground below a figure, and how much of the sky it sees.
 #[derive(Clone, Debug)]
 pub(crate) struct Ground {
     /// The middle of the part whose shade is known, and half of its sides.
-    middle: Point,
-    sides: [Vector; 2],
+    pub(crate) middle: Point,
+    pub(crate) sides: [Vector; 2],
     up: Vector,
     /// Row by row.
     cells: Vec<f64>,
@@ -80,9 +89,12 @@ impl Sky {
                 *could += part;
                 *is += part * map.free(from);
             }
-            if let Some(ground) = &ground {
+            if let Some(ground) = ground
+                .as_ref()
+                .filter(|ground| dot(ground.up, towards) > 0.0)
+            {
                 // Once for the slope, and once for a sky that is brighter overhead.
-                let cosine = dot(ground.up, towards).max(0.0);
+                let cosine = dot(ground.up, towards);
                 let part = weight * cosine * cosine;
                 for (&p, [is, could]) in cell_points.iter().zip(&mut cells) {
                     *could += part;
@@ -99,6 +111,23 @@ impl Sky {
             seen: seen.into_iter().map(|sides| sides.map(part)).collect(),
             ground,
         }
+    }
+}
+
+impl Shade {
+    /// The shade of a mesh that is smooth all over; none if it has no extent.
+    pub(crate) fn new(mesh: &Mesh, place: &(impl Place + ?Sized), up: Vector) -> Option<Shade> {
+        let figure = Figure::new(mesh, place, crease_cosine(None), &[], false);
+        let sky = Sky::new(&figure, Some(up));
+        let ground = sky.ground?;
+        let mut seen = vec![[1.0; 2]; mesh.vertex_count()];
+        for (&v, &at) in mesh.indices().iter().zip(figure.faces.as_flattened()) {
+            seen[v as usize] = sky.seen[at as usize];
+        }
+        let side = |side: usize| seen.iter().map(move |seen| seen[side]);
+        let parts = side(0).chain(side(1)).chain(ground.cells.iter().copied());
+        let bytes = parts.map(|part| (part * 255.0).round() as u8).collect();
+        Some(Shade { bytes, ground })
     }
 }
 
@@ -275,7 +304,7 @@ impl DepthMap {
 
 #[cfg(test)]
 mod tests {
-    use tearmesh::{Mesh, shapes};
+    use tearmesh::shapes;
 
     use super::*;
 

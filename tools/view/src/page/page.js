@@ -29,6 +29,7 @@ async function open() {
     isDirty = false;
     const colors = isDark ? data.colors.dark : data.colors.light;
     scene.begin(colors.background);
+    if (moments[now].ground) scene.drawGround(camera, moments[now].ground, data.shadow);
     scene.drawFaces(camera, box, data.colors.pieces, data.light);
     if (hasEdges) scene.drawEdges(camera, box, colors.edge, 0.45);
     if (hasBox) scene.drawLines("box", camera, box, colors.box, 1);
@@ -64,7 +65,7 @@ async function open() {
       state = moment.state;
       scene.setState(states[state]);
     }
-    scene.setPlaces(moment.places);
+    scene.setPlaces(moment.places, moment.shade);
     box = boxOf(moment.places, corners);
     const point = (v) => [0, 1, 2].map((axis) => moment.places[3 * v + axis]);
     const open = { boundary: [], seam: [] };

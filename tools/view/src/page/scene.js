@@ -1,6 +1,8 @@
 // The mesh on the graphics card: faces and edges fetch the places of their vertices from a texture; lines are
 // quads as wide as they are on the screen.
 const WIDE = 2048;
+// The cells of a ground along each side.
+const CELLS = 128;
 const FETCH = `#version 300 es
 precision highp float; precision highp int;
 uniform highp sampler2D places; uniform mat4 matrix; uniform vec3 eye; uniform float nearer;
@@ -8,21 +10,34 @@ vec4 shown(vec3 p) { return matrix * vec4(eye + (p - eye) * nearer, 1); }
 ivec2 texel(uint v) { return ivec2(int(v) % ${WIDE}, int(v) / ${WIDE}); }
 `;
 const FACES = [`${FETCH}
-uniform vec3 colors[10]; in uint vertex; in uint piece; in vec3 corner; out vec3 normal; flat out vec3 color;
+uniform vec3 colors[10]; in uint vertex; in uint piece; in vec3 corner; out vec3 normal; out vec2 sky; flat out vec3 color;
 void main() {
+  vec4 place = texelFetch(places, texel(vertex), 0);
   normal = corner;
+  sky = vec2(mod(place.w, 256.), floor(place.w / 256.)) / 255.;
   color = colors[int(piece)];
-  gl_Position = shown(texelFetch(places, texel(vertex), 0).xyz);
+  gl_Position = shown(place.xyz);
 }`, `#version 300 es
 precision highp float;
-uniform vec3 backward, key; uniform float light[8];
-in vec3 normal; flat in vec3 color; out vec4 pixel;
+uniform vec3 backward, key; uniform float light[9];
+in vec3 normal; in vec2 sky; flat in vec3 color; out vec4 pixel;
 void main() {
   vec3 n = dot(normal, normal) > 0. ? normalize(normal) * (gl_FrontFacing ? 1. : -1.) : backward;
   float bright = light[0] + light[1] * max(dot(n, key), 0.) + light[2] * max(dot(n, backward), 0.);
   vec3 side = gl_FrontFacing ? color : mix(vec3(dot(color, vec3(1. / 3.))), color, light[6]) * light[7];
-  pixel = vec4(side * bright, 1);
+  float dark = light[8] * (1. - (gl_FrontFacing ? sky.x : sky.y));
+  pixel = vec4(side * bright * (1. - dark), 1);
 }`];
+const GROUND = [`#version 300 es
+precision highp float;
+uniform mat4 matrix; uniform vec3 middle, across, down; out vec2 cell;
+void main() {
+  cell = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = matrix * vec4(middle + (cell.x * 2. - 1.) * across + (cell.y * 2. - 1.) * down, 1);
+}`, `#version 300 es
+precision highp float;
+uniform sampler2D seen; uniform float shadow; in vec2 cell; out vec4 pixel;
+void main() { pixel = vec4(0, 0, 0, shadow * (1. - texture(seen, cell).r)); }`];
 const EDGES = [`${FETCH}
 in uint vertex;
 void main() { gl_Position = shown(texelFetch(places, texel(vertex), 0).xyz); }`, `#version 300 es
@@ -56,8 +71,10 @@ class Scene {
     this.faces = this.program(FACES);
     this.edges = this.program(EDGES);
     this.lines = this.program(LINES);
+    this.ground = this.program(GROUND);
     this.buffers = {};
     this.texture = gl.createTexture();
+    this.groundTexture = gl.createTexture();
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.BLEND);
@@ -108,11 +125,13 @@ class Scene {
     corners.forEach((v, corner) => { this.around[next[v]++] = corner; });
   }
 
-  setPlaces(places) {
+  // Without a shade, all vertices see all of the sky.
+  setPlaces(places, shade) {
     const { gl } = this, count = places.length / 3, rows = Math.ceil(count / WIDE);
     const texels = new Float32Array(4 * WIDE * rows);
     for (let v = 0; v < count; v++) {
       for (let axis = 0; axis < 3; axis++) texels[4 * v + axis] = places[3 * v + axis];
+      texels[4 * v + 3] = shade ? shade.front[v] + 256 * shade.back[v] : 65535;
     }
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, WIDE, rows, 0, gl.RGBA, gl.FLOAT, texels);
@@ -213,6 +232,34 @@ class Scene {
     gl.viewport(0, 0, width, height);
     gl.clearColor(...background.map((x) => x / 255), 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  }
+
+  // The shadow on the ground, which is below all else.
+  drawGround(camera, { middle, sides, cells }, shadow) {
+    const { gl } = this, [across, down] = sides;
+    if (dot(sub(camera.eye, middle), camera.upright) <= 0) return;
+    const reach = across.map((x, axis) => Math.abs(x) + Math.abs(down[axis]));
+    const { program, names } = this.ground;
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(names.matrix, false, camera.matrix({ least: sub(middle, reach), most: add(middle, reach) }));
+    gl.uniform3fv(names.middle, middle);
+    gl.uniform3fv(names.across, across);
+    gl.uniform3fv(names.down, down);
+    gl.uniform1f(names.shadow, shadow);
+    gl.uniform1i(names.seen, 1);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, this.groundTexture);
+    if (this.cells !== cells) {
+      this.cells = cells;
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, CELLS, CELLS, 0, gl.RED, gl.UNSIGNED_BYTE, cells);
+      for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
+      for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
+    }
+    gl.activeTexture(gl.TEXTURE0);
+    this.attributes(this.ground, {});
+    gl.disable(gl.DEPTH_TEST);
+    gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    gl.enable(gl.DEPTH_TEST);
   }
 
   drawFaces(camera, box, colors, [ambient, key, head, b, u, r, ...back]) {
