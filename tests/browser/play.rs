@@ -295,6 +295,11 @@ fn fingers_pull_pin_and_turn() {
     played.chrome.drag([30.0, 400.0], [130.0, 440.0]);
     let after = played.chrome.screen([680.0, 560.0]);
     assert!(before.apart_from(&after) > 1000, "it turned");
+    // On a telephone all buttons are on the screen.
+    played.chrome.size(390, 844);
+    played.chrome.drawn();
+    let sticks_out = "document.documentElement.scrollWidth > innerWidth";
+    assert_eq!(played.chrome.value(sticks_out), json!(false));
     played.chrome.was_quiet();
 }
 
@@ -497,6 +502,20 @@ fn frame_times_are_printed() {
     let Some(mut played) = Played::open(&[]) else {
         return;
     };
+    let page = fs::metadata(played.folder.path("play.html")).expect("a page");
+    let module = "[...atob(module.textContent)].length";
+    let module = played.chrome.value(module).as_u64().expect("a length");
+    let version = played.chrome.call("Browser.getVersion", &json!({}));
+    let browser = version["product"].as_str().unwrap_or_default();
+    println!(
+        "page {} kB, of which the module is {} kB",
+        page.len() / 1000,
+        module * 4 / 3000
+    );
+    println!(
+        "{browser}, headless, without a graphics card; {}",
+        processor()
+    );
     for (cells, method) in [
         ("32", "verlet"),
         ("32", "xpbd"),
@@ -507,14 +526,27 @@ fn frame_times_are_printed() {
         played.choose("source", cells);
         played.chrome.value("fit.click()");
         played.pull(MIDDLE, BELOW, 1.5);
-        let times = played
-            .chrome
-            .value("document.body.dataset.median + ' / ' + document.body.dataset.p95");
+        let times = ["median", "p95"].map(|time| {
+            let time = played
+                .chrome
+                .value(&format!("document.body.dataset.{time}"));
+            time.as_str().unwrap_or_default().to_owned()
+        });
         let tears = played.fact("tears");
         println!(
-            "{cells} x {cells} cells, {method}: {times} ms median / p95 of 1/60 s, {tears} tears"
+            "{cells} x {cells} cells, {method:6}: {:>6} ms median, {:>6} ms p95 of 1/60 s, {tears} tears",
+            times[0], times[1]
         );
         played.chrome.mouse("mouseReleased", BELOW);
     }
     played.chrome.was_quiet();
+}
+
+/// The name of the processor, and how many there are.
+fn processor() -> String {
+    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = info.lines().find(|line| line.starts_with("model name"));
+    let name = name.and_then(|line| line.split(": ").nth(1));
+    let count = std::thread::available_parallelism().map_or(1, usize::from);
+    format!("{} × {count}", name.unwrap_or("an unknown processor"))
 }
