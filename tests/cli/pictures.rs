@@ -16,15 +16,28 @@ fn every_verb_that_changes_a_mesh_draws_it() {
         "cut sheet.obj --rays 0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1 -o torn.obj --picture cut.png",
         "mend torn.obj -o m.obj --picture mend.png",
         "tear sheet.obj --scene s.toml -o t.obj --picture tear.png",
-        // It is the picture that `render` draws of the mesh that was written.
+        "cut flag.obj --plane 0.31,0,0:1,0.2,0 -o woven.obj --picture woven.png",
+        "tear flag.obj --scene s.toml -o f.obj --picture flag.png --picture-at 0.1",
+        "mend woven.obj -o m.obj --picture mended.png",
+        // It is the picture that `render` draws of the mesh that was written, with the weave of its texture.
         "render torn.obj -o again.png",
+        "render woven.obj -o cut-again.png",
+        "render f.obj -o flag-again.png",
+        "render m.obj -o mended-again.png",
     ] {
         folder.done(line);
     }
     for name in ["cut.png", "mend.png", "tear.png"] {
         assert_eq!(size(&folder.bytes(name)), [960, 720]);
     }
-    assert!(folder.bytes("cut.png") == folder.bytes("again.png"));
+    for [one, other] in [
+        ["cut.png", "again.png"],
+        ["woven.png", "cut-again.png"],
+        ["flag.png", "flag-again.png"],
+        ["mended.png", "mended-again.png"],
+    ] {
+        assert!(folder.bytes(one) == folder.bytes(other), "{one}");
+    }
     let streamed = folder.run("render torn.obj --size 64x32 -o -");
     assert_eq!(size(&streamed.output), [64, 32]);
     assert!(streamed.error.is_empty());

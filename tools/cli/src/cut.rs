@@ -27,6 +27,7 @@ use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::measure::{Bounds, Edges};
+use crate::picture::Texture;
 use crate::rays;
 use crate::say::Fault;
 use crate::session::{self, Session, milliseconds};
@@ -71,7 +72,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
 
     let start = Instant::now();
     let mut edits = Edits::new();
-    let mut torn = TornDocument::new(&document);
+    let (mut torn, mut texture) = (TornDocument::new(&document), Texture::of(&document));
     let gap = args.gap.map(|gap| match gap {
         Gap::Length(length) => length,
         Gap::Edges(part) => part * Edges::of(&mesh, &positions).mean,
@@ -88,6 +89,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         let (cut, done) = made.expect("what follows every cut is in step");
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
+        texture.follow(&edits);
         if let Some(map) = &mut map {
             edits.replay(map);
         }
@@ -135,7 +137,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill)?;
     let shown = shown.as_deref().unwrap_or(positions.as_slice());
-    session.show_mesh(&document, &mesh, shown, Vector::y())?;
+    session.show_mesh(&document, &mesh, shown, Vector::y(), &texture)?;
     session.show_page(&mesh, shown, Vector::y())?;
     if let Some(path) = args.files.wanted(&args.seam) {
         output::write(path, |out| seam::write(&seams, out))?;

@@ -11,6 +11,7 @@ use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
+use crate::picture::Texture;
 use crate::report;
 use crate::say::{Fault, count};
 use crate::session::{self, Session, milliseconds};
@@ -91,11 +92,15 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         ledger.after = masses.ledger().after;
         mass = session.note_mass(&ledger, report::AREA);
     }
+    let mut texture = Texture::of(simplified.document.as_ref().unwrap_or(&document));
+    if simplified.document.is_none() {
+        texture.follow(&edits);
+    }
     let simple = simplified.document.as_ref().map(TornDocument::new);
     let torn = simple.as_ref().unwrap_or(&torn);
     let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill)?;
-    session.show_mesh(&document, &mesh, &positions, Vector::y())?;
+    session.show_mesh(&document, &mesh, &positions, Vector::y(), &texture)?;
     session.show_page(&mesh, &positions, Vector::y())?;
     let mended = report::Mend {
         merged,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use tearmesh::{Mesh, Place, Vector};
+use tearmesh::{Blend, Cursor, Edits, Mesh, Place, Vector};
 use tearmesh_obj::{Corner, Document};
 use tearmesh_view::{ANGLE_OF_VIEW, CameraError, PictureSize, RenderOptions, fit, render};
 
@@ -22,33 +22,52 @@ pub(crate) fn no_camera(error: CameraError) -> Fault {
     })
 }
 
-/// Writes a picture beside a mesh that has a face, by a camera that has to be found.
+/// Writes a picture beside a mesh that has a face and came from a document, by a camera that has to be found.
 pub(crate) fn write_beside(
     path: &Path,
+    document: &Document,
     mesh: &Mesh,
     place: &(impl Place + ?Sized),
     up: Vector,
-    crease_deg: Option<f64>,
+    texture: &Texture,
 ) -> Result<(), Fault> {
     let size = PictureSize::default();
     let camera = fit(mesh, place, up, ANGLE_OF_VIEW, size.as_f64()).map_err(no_camera)?;
     let options = RenderOptions {
-        crease_deg,
+        crease_deg: crease(document),
         ground: Some(up),
+        texture: texture.values.clone(),
         ..RenderOptions::default()
     };
     let picture = render(mesh, place, &camera, size, &options);
     output::write(path, |out| picture.write_png(out))
 }
 
-/// The texture coordinates of each corner of a document's triangles; empty if a corner has none.
-pub(crate) fn texture(document: &Document) -> Vec<[f64; 2]> {
-    let texture =
-        corners(document).map(|corner| match document.texture(corner.texture? as usize) {
-            &[u, v, ..] => Some([u, v]),
-            _ => None,
-        });
-    texture.collect::<Option<Vec<_>>>().unwrap_or_default()
+/// The texture coordinates on which a weave is drawn, while the mesh is cut and torn.
+#[derive(Clone, Default)]
+pub(crate) struct Texture {
+    /// Of each corner; empty if a corner of the document has none.
+    pub(crate) values: Vec<[f64; 2]>,
+    seen: Cursor,
+}
+
+impl Texture {
+    pub(crate) fn of(document: &Document) -> Texture {
+        let values =
+            corners(document).map(|corner| match document.texture(corner.texture? as usize) {
+                &[u, v, ..] => Some([u, v]),
+                _ => None,
+            });
+        let values = values.collect::<Option<Vec<_>>>().unwrap_or_default();
+        let seen = Cursor::START;
+        Texture { values, seen }
+    }
+
+    pub(crate) fn follow(&mut self, edits: &Edits) {
+        if !self.values.is_empty() {
+            edits.replay_corners(&mut self.seen, &mut self.values, Blend::blend);
+        }
+    }
 }
 
 /// All corners of a document's triangles.

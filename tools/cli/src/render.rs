@@ -10,6 +10,7 @@ use tearmesh_view::{Camera, RenderOptions, fit};
 use crate::args::RenderArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
 use crate::exit::Stop;
+use crate::picture::Texture;
 use crate::say::{Fault, count};
 use crate::session;
 use crate::streams::Streams;
@@ -33,7 +34,7 @@ pub(crate) fn run(
 
     let (_, opened) = session::look(&args.input, &args.look, faults, streams)?;
     let (document, mesh, positions) = (&opened.document, &opened.mesh, &opened.positions);
-    options.texture = picture::texture(document);
+    options.texture = Texture::of(document).values;
     options.crease_deg = match args.flat {
         true => Some(0.0),
         false => args.crease.or_else(|| picture::crease(document)),

@@ -15,6 +15,7 @@ use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::input::Input;
 use crate::measure::area;
+use crate::picture::Texture;
 use crate::report::{self, Entry, Report, Timing};
 use crate::say::{Fault, count, short};
 use crate::streams::Streams;
@@ -233,10 +234,10 @@ impl<'a, 's> Session<'a, 's> {
         mesh: &Mesh,
         place: &(impl Place + ?Sized),
         up: Vector,
+        texture: &Texture,
     ) -> Result<(), Stop> {
         if let Some(path) = self.files.wanted(&self.files.picture) {
-            let crease_deg = picture::crease(document);
-            picture::write_beside(path, mesh, place, up, crease_deg)?;
+            picture::write_beside(path, document, mesh, place, up, texture)?;
         }
         Ok(())
     }

@@ -26,6 +26,7 @@ use crate::args::{Format, TearArgs};
 use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
+use crate::picture::Texture;
 use crate::scene::SceneFile;
 use crate::session::{Opened, Session, milliseconds};
 use crate::streams::Streams;
@@ -165,7 +166,8 @@ impl Play<'_> {
             frames: Frames::open(self.args, &run)?,
             tear_log: TearLog::new(&run),
             recorder: files.wanted(&files.view).map(|_| Recorder::new(&title, up)),
-            still: is_drawn.then(|| Still::new(self.args.picture_at)),
+            still: is_drawn
+                .then(|| Still::new(self.args.picture_at, Texture::of(&self.opened.document))),
         };
         session.check_places()?; // One may be in the folder of the frames.
         let start = Instant::now();
@@ -243,9 +245,10 @@ impl Play<'_> {
         let mesh = run.mesh();
         let fill = |mut out: &mut dyn Write| records.torn.write(mesh, &positions, &mut out);
         session.write(mesh, fill)?;
-        let kept = records.still.as_ref().and_then(Still::kept);
-        let (shown, points) = kept.unwrap_or((mesh, positions.as_slice()));
-        session.show_mesh(&self.opened.document, shown, points, up)?;
+        if let Some(still) = &records.still {
+            let (shown, points, texture) = still.shown((mesh, positions.as_slice()));
+            session.show_mesh(&self.opened.document, shown, points, up, texture)?;
+        }
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {
             let log = &records.tear_log;
@@ -305,6 +308,8 @@ impl Play<'_> {
             let step = run.step();
             run.edits().replay(&mut records.torn);
             records.frames.follow(run.edits());
+            let still = records.still.iter_mut();
+            still.for_each(|still| still.texture.follow(run.edits()));
             for cut in run.cuts_made() {
                 self.note_cut(run.scene(), cut, session);
                 records.torn.next_cut();

@@ -1,12 +1,12 @@
 //! A strip of pictures of a simulation, from its first tear on.
 
-use tearmesh::{Blend, Cursor, Mesh, Point};
+use tearmesh::{Mesh, Point};
 use tearmesh_cloth::scene::{Frame, Run};
 use tearmesh_view::{Camera, Picture, RenderOptions, fit_all, render};
 
 use crate::args::RenderArgs;
 use crate::exit::{Exit, Stop};
-use crate::picture::no_camera;
+use crate::picture::{Texture, no_camera};
 use crate::scene::SceneFile;
 use crate::session::Opened;
 use crate::streams::Streams;
@@ -48,7 +48,7 @@ pub(super) fn draw(
     let last = run.steps_planned();
 
     let mut run = begin()?;
-    let (mut texture, mut seen) = (options.texture.clone(), Cursor::START);
+    let mut texture = Texture::of(&opened.document);
     let mut moments = Vec::new();
     for number in 0..u64::from(count) {
         let at = match count {
@@ -57,15 +57,12 @@ pub(super) fn draw(
         };
         while run.tally().steps < at {
             step(&mut run)?;
-            if !texture.is_empty() {
-                run.edits()
-                    .replay_corners(&mut seen, &mut texture, Blend::blend);
-            }
+            texture.follow(run.edits());
         }
         moments.push(Moment {
             mesh: run.mesh().clone(),
             points: run.cloth().positions().to_vec(),
-            texture: texture.clone(),
+            texture: texture.values.clone(),
         });
     }
     let up = frame.up.vector();

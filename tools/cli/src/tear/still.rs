@@ -4,6 +4,7 @@ use tearmesh::{Mesh, Point};
 use tearmesh_cloth::scene::Run;
 
 use super::frames::RATE_PER_S;
+use crate::picture::Texture;
 
 /// A moment, kept until the run is over: the one that was asked for, or the end of the frame in which most
 /// vertices were split by tearing, or by cuts if nothing tore. What is torn hangs beside its counterpart then; later it has often fallen out of
@@ -11,7 +12,9 @@ use super::frames::RATE_PER_S;
 #[derive(Default)]
 pub(super) struct Still {
     at_s: Option<f64>,
-    kept: Option<(Mesh, Vec<Point>)>,
+    kept: Option<(Mesh, Vec<Point>, Texture)>,
+    /// Up to date with the run.
+    pub(super) texture: Texture,
     /// The most splits of a frame so far, by tearing and by cuts, and all splits before this frame.
     most: [u64; 2],
     before: [u64; 2],
@@ -20,9 +23,10 @@ pub(super) struct Still {
 }
 
 impl Still {
-    pub(super) fn new(at_s: Option<f64>) -> Still {
+    pub(super) fn new(at_s: Option<f64>, texture: Texture) -> Still {
         Still {
             at_s,
+            texture,
             ..Still::default()
         }
     }
@@ -52,11 +56,18 @@ impl Still {
     }
 
     fn keep(&mut self, run: &Run) {
-        self.kept = Some((run.mesh().clone(), run.cloth().positions().to_vec()));
+        let points = run.cloth().positions().to_vec();
+        self.kept = Some((run.mesh().clone(), points, self.texture.clone()));
     }
 
-    /// The moment; none if it is the end.
-    pub(super) fn kept(&self) -> Option<(&Mesh, &[Point])> {
-        self.kept.as_ref().map(|(mesh, points)| (mesh, &**points))
+    /// The moment, or the end.
+    pub(super) fn shown<'s>(
+        &'s self,
+        end: (&'s Mesh, &'s [Point]),
+    ) -> (&'s Mesh, &'s [Point], &'s Texture) {
+        match &self.kept {
+            Some((mesh, points, texture)) => (mesh, points, texture),
+            None => (end.0, end.1, &self.texture),
+        }
     }
 }
