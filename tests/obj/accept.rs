@@ -21,7 +21,7 @@ fn numbers_with_more_digits_than_fit_are_rounded() {
 }
 
 #[test]
-fn what_a_document_says_of_its_polygons() {
+fn documents_tell_polygons_lines_and_corners() {
     let file = "\u{feff}v 0 0 0 0.5\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nvt 0 1\nvn 0 0 1\n\
                 # two\nf 1//1 2/1/1 3 4\nf 2 5 6 3 # last\n";
     let document = read(file.as_bytes());

@@ -8,13 +8,6 @@ use super::tables::{APART, whole};
 use super::work::{Work, assert_is_read_again, files};
 use super::{read, rewritten, text};
 
-#[test]
-fn a_vertex_that_stands_apart_is_read_where_it_is() {
-    let document = read(whole(APART).as_bytes());
-    let places = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Point::from);
-    assert_eq!(document.positions()[4..], places);
-}
-
 /// A vertex with two fans, as a finite cut leaves it, is two `v`: both stand apart.
 #[test]
 fn copies_stand_where_their_vertex_does() {

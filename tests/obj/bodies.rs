@@ -388,7 +388,7 @@ fn predicted(sheets: &Sheets, work: &Work<'_>, followed: &Followed) -> String {
 }
 
 #[test]
-fn the_body_of_a_torn_file_is_as_predicted_and_mending_gives_the_input() {
+fn torn_files_are_as_predicted_and_mended_to_the_input() {
     let mut torn = 0;
     for seed in 0..600 {
         let mut random = Random(31_000 + seed);

@@ -42,7 +42,7 @@ fn edges_shared_by_place(file: &str) -> usize {
 
 /// Straight cuts whose record is dropped: sewn by places, every edge is whole that two faces have.
 #[test]
-fn what_was_torn_is_sewn_without_a_record() {
+fn torn_edges_are_sewn_without_a_record() {
     let mut sewn = 0;
     for (name, bytes) in files().into_iter().filter(|(name, _)| name != "late") {
         for seed in 0..8 {
@@ -77,7 +77,7 @@ fn what_was_torn_is_sewn_without_a_record() {
 }
 
 #[test]
-fn what_would_be_no_surface_is_refused() {
+fn coincident_edges_of_no_surface_are_refused() {
     let lens = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n";
     let document = read(lens.as_bytes());
     let pairs = document.coincident(&document.mesh().expect("two faces"));

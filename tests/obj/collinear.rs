@@ -64,7 +64,7 @@ fn altitudes(polygon: &[Place]) -> [f64; 2] {
 }
 
 #[test]
-fn regression_a_quad_with_a_corner_nearly_on_its_side_is_cut_there() {
+fn regression_a_quad_is_cut_at_a_corner_near_its_side() {
     let quad = [
         [0.0, 0.0, 0.0],
         [0.314159, -0.271828, 0.141421],
@@ -111,7 +111,7 @@ fn shape(random: &mut Random) -> Vec<Place> {
 }
 
 #[test]
-fn no_face_is_thin_where_a_triangulation_without_one_exists() {
+fn triangulation_avoids_thin_faces_where_one_can() {
     let (mut possible, mut impossible) = (0, 0);
     for seed in 0..3000 {
         let polygon = shape(&mut Random(seed));

@@ -96,7 +96,7 @@ fn survives(bytes: &[u8], document: &Document, mesh: &Mesh) {
 }
 
 #[test]
-fn what_becomes_of_every_real_and_every_hazardous_file() {
+fn real_and_hazardous_files_become_what_is_pinned() {
     let Some(folder) = std::env::var_os("TEARMESH_CORPUS") else {
         // Past the test runner, which would keep it to itself.
         let said = writeln!(

@@ -79,7 +79,7 @@ fn obj_rs_reads_the_seeds_as_we_do() {
 }
 
 #[test]
-fn what_obj_rs_does_not_read_without_loss_is_left_out() {
+fn files_that_obj_rs_reads_with_loss_are_left_out() {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     for (more, outcome) in [
         ("", Outcome::Same),

@@ -21,7 +21,7 @@ fn with_bow_ties(document: &Document) -> Work<'_> {
 }
 
 #[test]
-fn copies_for_fans_stand_behind_their_object_and_are_counted() {
+fn copies_for_fans_are_counted_behind_their_object() {
     let document = read(WHEEL.as_bytes());
     let written = text(&with_bow_ties(&document).written());
     let tile = written.find("o tile").expect("the second object");
@@ -54,7 +54,7 @@ fn copies_for_fans_stand_behind_their_object_and_are_counted() {
 /// A line or an edge of another program names vertices by numbers that we do not change, so these
 /// stay, and the vertices of the second object are moved up before the torn faces.
 #[test]
-fn where_statements_may_name_vertices_these_keep_their_numbers() {
+fn vertices_that_statements_may_name_keep_numbers() {
     for statement in ["l 8 9", "p 8", "surf 0 1 0 1 8 9 10", "e 8 9"] {
         let file = format!("{WHEEL}{statement}\n");
         let document = read(file.as_bytes());
@@ -84,7 +84,7 @@ fn where_statements_may_name_vertices_these_keep_their_numbers() {
 /// Another program adds a line to a file whose second object counts on from the new vertices of the
 /// first: these numbers have to stay, so nothing is mended, and that is said.
 #[test]
-fn a_line_that_was_added_to_a_torn_file_keeps_what_it_names() {
+fn a_line_added_to_a_torn_file_keeps_what_it_names() {
     let document = read(WHEEL.as_bytes());
     let written = text(&with_bow_ties(&document).written());
     let file = written.replace("f 15 16 17\n", "f 15 16 17\nl 15 16\n");

@@ -63,7 +63,7 @@ fn the_order_of_a_hash_map_does_not_show() {
 
 /// What the reader would refuse is refused with its words; and what no text can hold.
 #[test]
-fn it_is_as_strict_as_the_reader() {
+fn raw_files_are_refused_as_by_the_reader() {
     let smooth = HashMap::from([1, 2].map(|number| (number, group(0, 1))));
     let silk = HashMap::from([("silk".to_owned(), group(1, 0))]);
     type Damage<'d> = &'d dyn Fn(&mut RawObj);

@@ -14,7 +14,7 @@ const FLAG: &str = "o flag\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0.3 0 0 1\nv 1 1
     o tile\nv 9 9 9\nv 8 9 9\nv 9 8 9\nvt 0.1\nf 6/6 7/6 8/6\n";
 
 #[test]
-fn of_two_copies_that_slid_apart_the_one_that_is_kept_keeps_its_colours() {
+fn merged_copies_keep_the_colours_of_the_one_kept() {
     let document = read(FLAG.as_bytes());
     let mut work = Work::on(&document);
     work.deeds("split 1 0, slide 8 0 .5");
@@ -112,7 +112,7 @@ fn edited(file: &str, from: &str, to: &str) -> String {
 }
 
 #[test]
-fn what_another_program_did_to_a_slid_vertex_is_kept_and_said() {
+fn edits_of_a_slid_vertex_are_kept_and_told() {
     let document = read(FLAG.as_bytes());
     let mut work = Work::on(&document);
     work.deeds("slide 1 3 .5, slide 0 2 .5");
@@ -151,21 +151,6 @@ fn what_another_program_did_to_a_slid_vertex_is_kept_and_said() {
     let (after, counts) = simplified(file.as_bytes());
     assert_eq!(counts, [0, 0, 0]);
     assert!(after.contains("v 1 0.5 0 0.5 1 0.5\n"), "{after}");
-}
-
-/// While the cut is open where a vertex slid, the vertex stays: on its plane.
-#[test]
-fn a_slide_stays_while_its_cut_is_open() {
-    let document = read(FLAG.as_bytes());
-    let mut work = Work::on(&document);
-    work.deeds("slide 1 3 .5, split 1 0, next, slide 0 2 .5");
-    let (simple, counts) = work.simplified();
-    assert_eq!(counts, [0, 0, 1], "one is back");
-    assert!(
-        simple.starts_with("o flag\nv 0 0 0 1 0 0\nv 1 0.5 0 "),
-        "{simple}"
-    );
-    assert_eq!(undone_later(simple.as_bytes()), FLAG);
 }
 
 /// Random slides, splits, insertions and merges, through files: all undone at last, and whoever writes

@@ -173,7 +173,7 @@ fn outcome(bytes: &[u8], repair: Option<Repair>) -> Vec<String> {
 }
 
 #[test]
-fn what_becomes_of_the_files_of_the_table() {
+fn files_of_the_table_become_what_it_says() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/obj/files.txt");
     let pinned = std::fs::read_to_string(&path).expect("a table");
     let (mut table, mut rows) = (String::new(), 0);

@@ -19,7 +19,7 @@ fn regression_faces_that_a_file_has_not_take_no_memory() {
 }
 
 #[test]
-fn a_part_that_is_the_whole_of_its_parent_is_taken_out_with_it() {
+fn a_part_that_is_its_whole_parent_is_taken_out() {
     let items = "#~ split 5 2 1\n#~ split 6 3 1\n#~ edge 7 1 3 4 0.5\n#~ parent 2 3 3 2 4\n\
                  #~ again 0 3 2 4 2 3\n";
     let document = read(with_record(TORN, "4", "vt 0 0 vn 0 0", items).as_bytes());

@@ -33,7 +33,7 @@ fn survives(work: &Work<'_>, name: &str) -> Vec<u8> {
 }
 
 #[test]
-fn random_edits_survive_a_file_and_compose_with_those_before() {
+fn random_edits_survive_files_and_add_to_earlier_ones() {
     for (name, bytes) in files() {
         for seed in 0..if name == "late" { 60 } else { 6 } {
             let mut random = Random(seed);
@@ -85,29 +85,6 @@ fn mending_cuts_gives_back_what_was_written_before_them() {
                 later = read(&file);
             }
             assert!(!text(&work.written()).contains("#tearmesh"), "{name}");
-        }
-    }
-}
-
-#[test]
-fn mending_and_simplifying_gives_back_the_mesh_before_the_cut() {
-    for (name, bytes) in files() {
-        let uncut = text(&rewritten(&bytes));
-        for seed in 0..if name == "late" { 100 } else { 6 } {
-            let mut random = Random(200 + seed);
-            let document = read(&bytes);
-            let mut work = Work::on(&document);
-            for _ in 0..2 {
-                work.tear(&mut random, 10, true);
-                work.torn.next_cut();
-            }
-            let file = work.written();
-            assert_eq!(work.undone(), uncut, "{name}, seed {seed}");
-            assert_eq!(
-                undone_later(&file),
-                uncut,
-                "{name}, seed {seed}, by way of a file"
-            );
         }
     }
 }
