@@ -11,8 +11,8 @@ use tearmesh::{
     split,
 };
 
-use crate::cases::scripts;
 use crate::oracle::joined_sets;
+use crate::scripts::scripts;
 use crate::work::triangles;
 
 /// How much was seen.
@@ -155,7 +155,7 @@ fn is_torn(mesh: &Mesh, h: usize, g: usize) -> bool {
 #[test]
 fn pieces_of_torn_meshes_match_the_whole() {
     let mut counts = Counts::default();
-    for script in scripts(5_000) {
+    for script in scripts() {
         let mut steps = 0;
         let world = script.run(|world, _| {
             steps += 1;

@@ -6,12 +6,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use tearmesh::script::{Step, World};
 use tearmesh::weld::{self, WeldError};
 use tearmesh::{
-    CutMethod, DrawBuffers, DrawChanges, Edits, HalfEdgeId, Mesh, PerCorner, Plane, Point,
-    Positions, Scissor, Vector, shapes, split,
+    CutMethod, DrawBuffers, DrawChanges, HalfEdgeId, Mesh, PerCorner, Plane, Point, Positions,
+    Scissor, Vector, shapes,
 };
 
-use crate::cases::scripts;
 use crate::random::Random;
+use crate::scripts::scripts;
 use crate::surfaces::{File, corpus};
 use crate::work::Work;
 
@@ -95,7 +95,7 @@ fn values_of(mesh: &Mesh) -> Vec<Value> {
 #[test]
 fn buffers_that_follow_are_those_made_anew() {
     let (mut count, mut edits, mut seams, mut written, mut all) = (0, 0, 0, 0, 0);
-    for script in scripts(3_000) {
+    for script in scripts() {
         count += 1;
         let mut beside: Option<(PerCorner<Value>, DrawBuffers<Value>, Gpu)> = None;
         script.run(|world: &World, step: &Step<'_>| {
@@ -118,24 +118,6 @@ fn buffers_that_follow_are_those_made_anew() {
         });
     }
     assert!(edits > 10 * count && seams > 100 * count && 10 * written < all);
-}
-
-/// What an edit writes does not grow with the mesh.
-#[test]
-fn an_edit_writes_what_it_touches() {
-    let (mut mesh, mut positions) = shapes::grid(100, 100);
-    let values = values_of(&mesh);
-    let mut buffers = DrawBuffers::new(&mesh, values);
-    let mut edits = Edits::new();
-    let v = mesh.vertices().nth(5100).expect("10,201");
-    let faces: Vec<_> = mesh.faces_of(v).take(3).collect();
-    split::vertex(&mut mesh, v, &faces, &mut edits).expect("three stay");
-    edits.replay(&mut (&mut positions, &mut buffers));
-    let changes = buffers.take_changes();
-    assert!(
-        changes.slots.len() <= 4 && changes.corners.len() <= 6,
-        "{changes:?}"
-    );
 }
 
 /// The buffers that an engine would have of a mesh: a vertex for each pair of a vertex and a value, in

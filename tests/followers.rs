@@ -10,9 +10,9 @@ use tearmesh::{
     Mesh, Mix, PerCorner, PerFace, PerVertex, Positions, VertexId, shapes, slide, split,
 };
 
-use crate::cases::scripts;
 use crate::foreign::panic_of;
 use crate::random::Random;
+use crate::scripts::scripts;
 use values::{Value, Values, between, weighted};
 
 /// A number that few others have, and corners of some vertices alike in all faces or on one side of a
@@ -115,7 +115,7 @@ fn kinds<'e>(mesh: &Mesh, edits: impl Iterator<Item = Edit<'e>>) -> [usize; 5] {
 #[test]
 fn followers_keep_what_the_records_say_bit_for_bit() {
     let (mut counts, mut cases) = ([0; 5], 0);
-    for script in scripts(20_000) {
+    for script in scripts() {
         cases += 1;
         let mut random = Random(cases);
         let mut beside = None;

@@ -4,6 +4,7 @@
 
 mod allocation;
 mod apart;
+#[path = "support/cases.rs"]
 mod cases;
 mod cut_mend;
 mod cuts;
@@ -38,6 +39,7 @@ mod rational;
 mod rays;
 mod same_bytes;
 mod scissor;
+mod scripts;
 mod sheet;
 mod shrink;
 mod straight;

@@ -9,9 +9,6 @@ use tearmesh::{Mesh, Point, Positions, Ray, Vector, VertexId, pick, shapes};
 use crate::cases::cases;
 use crate::random::Random;
 
-/// How many rays each mesh gets, unless `TEARMESH_CASES` says otherwise.
-const RAYS: u64 = 3_000;
-
 type Whole = [i64; 3];
 
 fn minus(a: Whole, b: Whole) -> Whole {
@@ -225,7 +222,7 @@ fn the_first_hit_is_that_of_exact_numbers() {
     }));
     let mut tally = Counts::default();
     for lattice in &lattices {
-        tally.shoot(lattice, &mut random, cases(RAYS));
+        tally.shoot(lattice, &mut random, 2 * cases());
     }
     println!("{tally:?}");
     let least = tally.rays / 20;
@@ -242,7 +239,7 @@ fn no_ray_leaves_a_closed_surface_between_its_faces() {
     let spoilt = positions.as_slice().iter();
     let spoilt = spoilt.map(|p| p + Vector::new(random.next(), random.next(), random.next()) * 0.1);
     let positions = Positions::new(spoilt.collect::<Vec<Point>>()).expect("finite");
-    let (mut near, rays) = ([0; 2], cases(30_000));
+    let (mut near, rays) = ([0; 2], 20 * cases());
     for _ in 0..rays {
         let origin = Point::new(0.05, 0.07, 0.02)
             + Vector::new(random.next(), random.next(), random.next()) * 0.1;
@@ -263,7 +260,7 @@ fn no_ray_leaves_a_closed_surface_between_its_faces() {
 }
 
 #[test]
-fn coordinates_that_are_none_are_met_by_no_ray() {
+fn rays_miss_coordinates_that_are_not_finite() {
     let (mesh, positions) = shapes::grid(1, 1);
     let ray = Ray::new(Point::new(0.4, 0.2, 1.0), -Vector::z()).expect("a ray");
     for x in [1.0, f64::NAN, f64::INFINITY] {

@@ -2,7 +2,7 @@
 
 use tearmesh::{CutEnd, CutMethod, Scissor};
 
-use crate::cases::cases_of;
+use crate::cases::cases;
 use crate::oracle::straight::Surface;
 use crate::random::Random;
 use crate::surfaces::sheets;
@@ -54,9 +54,11 @@ fn closed_polylines_cut_a_piece_out() {
     let sheets = sheets();
     for (snap, count, most) in [(Scissor::SNAP, 5635, 0), (0.0, 1000, 0), (0.2, 1000, 2)] {
         let (mut random, mut open) = (Random(97), Vec::new());
-        for i in 0..cases_of(count) {
+        for i in 0..count {
             let corners = polygon(&mut random);
-            if pieces(&sheets[i as usize % 3], &corners, snap) != 2 {
+            // The last of all was a find.
+            let is_tried = i < cases() || i + 1 == count;
+            if is_tried && pieces(&sheets[i as usize % 3], &corners, snap) != 2 {
                 open.push(corners);
             }
         }

@@ -12,9 +12,6 @@ use crate::cases::cases;
 use crate::lockstep::{self, Done};
 use crate::oracle::{Fault, faults, is_strict};
 
-/// How many random cases each property gets, unless `TEARMESH_CASES` says otherwise.
-const CASES: u32 = 10_000;
-
 /// Runs a property on random cases. Every property comes through here, so that a failure is
 /// printed and never written to a file: what is worth keeping becomes a regression.
 fn for_all<S: Strategy>(strategy: &S, property: impl Fn(S::Value)) -> u32
@@ -49,7 +46,7 @@ fn run<S: Strategy>(
     max_shrink_iters: u32,
     property: impl Fn(S::Value),
 ) -> Result<u32, (String, S::Value)> {
-    let cases = cases(CASES.into()).try_into().expect("below 2^32");
+    let cases = cases().try_into().expect("below 2^32");
     let config = Config {
         cases,
         failure_persistence: None,

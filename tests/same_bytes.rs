@@ -4,8 +4,8 @@
 use tearmesh::script::World;
 use tearmesh::{Edit, HalfEdgeId, VertexId};
 
-use crate::cases::script;
 use crate::digest;
+use crate::scripts::script;
 
 /// Of the scripts below. A commit that changes it says which bits moved, and why.
 const DIGEST: u64 = 0xd0a3_0ecd_5adb_cdda;

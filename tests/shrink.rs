@@ -7,10 +7,11 @@ use crate::random::Random;
 
 /// By the definition: no operation can be left out, and no shape that is listed smaller will do.
 #[test]
-fn nothing_can_be_left_out_of_what_comes_back() {
+fn shrunk_scripts_have_nothing_to_leave_out() {
     let mut random = Random(43);
     let mut shrunk = 0;
-    for _ in 0..cases(10_000) / 100 {
+    let count = cases() / 15;
+    for _ in 0..count {
         let script = Script::from_bytes(&random.bytes(600));
         // No property of a mesh: any that operations have together will do.
         let wanted = random.below(6);
@@ -59,5 +60,5 @@ fn nothing_can_be_left_out_of_what_comes_back() {
         }
         shrunk += 1;
     }
-    assert!(shrunk >= 50, "{shrunk}");
+    assert!(2 * shrunk >= count, "{shrunk} of {count}");
 }

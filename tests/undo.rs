@@ -10,8 +10,8 @@ use tearmesh::mend;
 use tearmesh::script::World;
 use tearmesh::{Edit, FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Mix, RemovalPlan, VertexId};
 
-use crate::cases::scripts;
 use crate::random::Random;
+use crate::scripts::scripts;
 
 /// A place in a face, by the weights of its corners.
 type Place = [f64; 3];
@@ -292,7 +292,7 @@ impl Plain {
 fn insertions_that_keep_nothing_apart_are_undone() {
     let (mut count, mut sewn, mut partly) = (0, 0, 0);
     let (mut removed, mut left, mut kept_by_value) = (0, 0, 0);
-    for (seed, script) in scripts(3_000).enumerate() {
+    for (seed, script) in scripts().enumerate() {
         count += 1;
         let mut random = Random(seed as u64);
         let mut beside: Option<(Mesh, Plain)> = None;

@@ -5,6 +5,8 @@
 mod accept;
 mod apart;
 mod bodies;
+#[path = "../support/cases.rs"]
+mod cases;
 mod coincident;
 mod collinear;
 mod corpus;
@@ -39,14 +41,12 @@ use proptest::test_runner::Config;
 use tearmesh::{Mesh, Positions};
 use tearmesh_obj::Document;
 
-/// The settings of every property: `factor` times as many cases as usual, and no files
-/// written for those that fail (a find becomes a test of its own).
-fn properties(factor: u32) -> Config {
-    let default = Config::default();
+/// The settings of every property: no files are written for cases that fail (a find becomes a test of its own).
+fn properties() -> Config {
     Config {
-        cases: factor * default.cases,
+        cases: cases::cases().try_into().expect("below 2^32"),
         failure_persistence: None,
-        ..default
+        ..Config::default()
     }
 }
 

@@ -109,7 +109,7 @@ fn file() -> impl Strategy<Value = Vec<u8>> {
 }
 
 proptest! {
-    #![proptest_config(super::properties(8))]
+    #![proptest_config(super::properties())]
 
     #[test]
     fn written_files_are_fixed_points(bytes in file()) {

@@ -81,7 +81,7 @@ fn line() -> impl Strategy<Value = Vec<String>> {
 }
 
 proptest! {
-    #![proptest_config(properties(20))]
+    #![proptest_config(properties())]
 
     #[test]
     fn blanks_line_ends_and_comments_change_no_meaning(

@@ -145,7 +145,7 @@ fn untangle(polygon: &mut [[f64; 2]]) {
 /// Two quads on the same three vertices in a row: 4 is a vertex of these two faces alone, and one of them is
 /// cut along its other diagonal.
 #[test]
-fn quads_that_share_two_edges_are_cut_along_different_diagonals() {
+fn quads_sharing_two_edges_get_different_diagonals() {
     let faces = "f 1 2 3 4\nf 1 4 3 5\n";
     // The first is a dart, whose other diagonal lies outside, so the second gives way.
     let dart = "v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nv -1.25 -1 0\n";
@@ -202,7 +202,7 @@ fn every_colliding_diagonal_is_found_under_any_numbers() {
 }
 
 proptest! {
-    #![proptest_config(super::properties(2))]
+    #![proptest_config(super::properties())]
 
     /// Random points, untangled: wherever two sides cross, the way between them is turned round.
     #[test]
@@ -221,7 +221,7 @@ proptest! {
     }
 
     #[test]
-    fn any_polygon_gives_two_triangles_less_than_it_has_corners(
+    fn polygons_give_two_triangles_less_than_corners(
         points in prop::collection::vec((-3i8..3, -3i8..3, -1i8..1), 3..30),
     ) {
         let points = points.into_iter().map(|(x, y, z)| [x, y, z].map(f64::from));
