@@ -2,12 +2,20 @@
 //!
 //! A row begins with the exit status. Below it, indented, stand parts of what is seen, and after `!` what
 //! is not. A file stands between `@ name` and `@`, and is written when the row below it is run. What does
-//! not end with 0 leaves every file as it was, and no other.
+//! not end with 0 leaves every file as it was, and no other. Behind `=` stand files that have the same bytes, and
+//! behind `#` files of which no two have.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use crate::digest;
 use crate::harness::{Folder, root};
+
+/// The files of a line that compares them, and whether they are to be the same.
+fn compared(line: &str) -> Option<(bool, &str)> {
+    let same = line.strip_prefix("= ").map(|names| (true, names));
+    same.or(line.strip_prefix("# ").map(|names| (false, names)))
+}
 
 /// A folder in which all rows of a text were run.
 fn judged(name: &str) -> Folder {
@@ -18,6 +26,10 @@ fn judged(name: &str) -> Folder {
     while let Some(line) = lines.next() {
         if let Some(file) = line.strip_prefix("@ ") {
             folder.add_file(file, &mut lines);
+        } else if let Some((is_same, names)) = compared(line) {
+            let files: Vec<_> = names.split(' ').map(|name| folder.bytes(name)).collect();
+            let kinds = files.iter().collect::<BTreeSet<_>>().len();
+            assert_eq!(kinds, if is_same { 1 } else { files.len() }, "{line}");
         } else if line.starts_with(|c: char| c.is_ascii_digit()) {
             let (exit, typed) = line.split_once(' ').expect("an exit status");
             let before = (exit != "0").then(|| folder.digest(digest::EMPTY));

@@ -21,7 +21,7 @@ fn samples(bytes: &[u8]) -> Vec<Vec<[f32; 3]>> {
 }
 
 #[test]
-fn a_cache_has_the_places_of_the_frames_and_of_the_mesh_that_is_written() {
+fn caches_have_the_places_of_frames_and_mesh() {
     let folder = Folder::new();
     let places = |name: &str| -> Vec<[f32; 3]> {
         let plain = Plain::read(&folder.read(name));

@@ -58,6 +58,7 @@ impl Chart {
 
         let [chart, text] = ["a.svg", "a.csv"].map(|name| folder.read(name));
         assert!(chart.starts_with("<svg ") && chart.contains(&command));
+        assert!(!chart.contains("NaN"), "{chart}");
         for (all, words) in [&chart, &said].into_iter().zip(words) {
             for word in words.split('|') {
                 assert!(all.contains(word), "no {word}\n{all}");
@@ -130,7 +131,7 @@ fn pareto() {
 }
 
 #[test]
-fn stability_has_no_method_that_differs_or_is_silent_and_each_failure_has_its_code() {
+fn stability_tells_every_failure_by_its_code() {
     let chart = Chart(
         ["stability", "--stiffness 1000"],
         18,
@@ -251,7 +252,7 @@ fn fig7() {
 }
 
 #[test]
-fn what_is_no_table_is_refused_before_any_run() {
+fn files_that_are_no_table_are_refused_before_runs() {
     let folder = Folder::new();
     folder.done("chart fig7 --size 4 -q --csv fig7.csv");
     let table = folder.read("fig7.csv");
@@ -302,7 +303,7 @@ fn an_interrupted_chart_ends_at_once_with_what_was_done() {
 
 /// The errors in the README's table of methods, against the marks of the recorded chart: within rounding.
 #[test]
-fn the_table_of_methods_in_the_readme_is_that_of_the_recorded_chart() {
+fn the_readme_has_the_errors_of_the_recorded_chart() {
     let read = |name: &str| std::fs::read_to_string(root().join(name)).expect("a file");
     let readme = read("README.md");
     let [chart, summary] = ["svg", "txt"].map(|end| read(&format!("tools/lab/record/guide.{end}")));

@@ -52,35 +52,3 @@ fn sizes_are_those_of_the_file() {
         assert_eq!(counts.sum::<u64>(), plain.faces.len() as u64);
     }
 }
-
-#[test]
-fn folders_and_patterns_name_the_files_that_they_should() {
-    let folder = Folder::new();
-    let mesh = folder.read("sheet.obj");
-    std::fs::create_dir_all(folder.path("many/deep")).expect("folders");
-    std::fs::create_dir(folder.path("none")).expect("a folder");
-    for name in ["b.obj", "A.OBJ", "deep/c.Obj", ".hidden.obj", "no.txt"] {
-        folder.write(&format!("many/{name}"), &mesh);
-    }
-    for (args, exit, expected) in [
-        // A folder's files by name, those of the folders in it included.
-        (
-            "-r many",
-            0,
-            "many/.hidden.obj many/A.OBJ many/b.obj many/deep/c.Obj",
-        ),
-        // No shell has seen these. What begins with a dot has to be asked for.
-        ("many/*.obj", 0, "many/b.obj"),
-        ("many/.*.obj", 0, "many/.hidden.obj"),
-        ("*/?.obj", 0, "many/b.obj"),
-        // Nothing at all is no success.
-        ("-r none", 3, "none"),
-        ("none/*.obj", 3, "none/*.obj"),
-    ] {
-        let answer = folder.run(&format!("check {args}"));
-        let text = answer.text();
-        let names = text.lines().filter_map(|line| line.split(' ').next());
-        let names: Vec<&str> = names.collect();
-        assert_eq!((answer.exit, &*names.join(" ")), (exit, expected));
-    }
-}

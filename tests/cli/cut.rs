@@ -1,9 +1,6 @@
-//! `cut` by planes, through the first layers, with its seam written, and along polylines.
+//! `cut` through the first layers, with its seam written, and in small units far away.
 
 use std::collections::BTreeSet;
-
-use tearmesh::{CutMethod, Edits, Point, Positions, Ray, Scissor, Vector};
-use tearmesh_obj::{Document, TornDocument};
 
 use crate::harness::Folder;
 
@@ -26,26 +23,6 @@ fn lines(text: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
         }
     }
     (points, lines)
-}
-
-#[test]
-fn a_plane_cuts_as_two_rays_through_everything_do() {
-    let folder = Folder::new();
-    let rays = "--rays 0.31,0,5:0,0,-1 0.4,3,5:0,0,-1 --through";
-    let cuts = ["--plane 0.31,0,0:-4,0.12,0", rays].map(|options| {
-        let report = folder.report(&format!("cut flag.obj {options} -o out.obj"));
-        report["cuts"][0].clone()
-    });
-    let [one, other] = &cuts;
-    assert_eq!(one["through"], true);
-    assert_eq!((one.get("rays"), one.get("layers")), (None, None));
-    for key in ["splits", "pieces", "seam_length", "vertices_inserted"] {
-        let [one, other] = [one, other].map(|cut| cut[key].as_f64().expect("a number"));
-        assert!(one > 0.0 && (one - other).abs() < 1e-9, "{key}");
-    }
-    // Planes one after another, the first with a negative coordinate.
-    let both = "cut flag.obj --plane -0.2,0,0:1,0,0 --plane 0,0.03,0:0,1,0 -o both.obj";
-    assert_eq!(folder.report(both)["cuts"][1]["pieces"], 4);
 }
 
 /// Two sheets of squares, 1 and 0 high.
@@ -136,57 +113,6 @@ fn the_seam_is_written_as_lines() {
     assert_eq!(folder.report(ball)["cuts"][0]["pieces"], 2);
     let (_, round) = lines(&folder.read("round.obj"));
     assert_eq!((round.len(), round[0].first()), (1, round[0].last()));
-}
-
-/// A mouse that draws a spiral, seen from above.
-fn mouse() -> Vec<[f64; 2]> {
-    let place = |i: i32| {
-        let (turn, far) = (0.11 * f64::from(i), 0.15 + 0.006 * f64::from(i));
-        [0.02 + far * turn.cos(), -0.01 + 0.7 * far * turn.sin()]
-    };
-    (0..=100).map(place).collect()
-}
-
-#[test]
-fn a_slit_led_in_a_hundred_calls_is_one_polyline() {
-    let folder = Folder::new();
-    let places = mouse();
-    let down = |[x, y]: [f64; 2]| format!("{x},{y},5:0,0,-1");
-    let pairs = places
-        .windows(2)
-        .map(|two| format!("{} {}\n", down(two[0]), down(two[1])));
-    folder.write("mouse.txt", pairs.collect::<String>());
-    let line = "tearmesh cut flag.obj --rays-file mouse.txt -o line.obj";
-    let report = folder.report(line);
-    assert_eq!(report["cuts"].as_array().map(Vec::len), Some(100));
-    assert_eq!(report["output"]["boundary_loops"], 2, "one slit");
-
-    let document = Document::read(folder.read("flag.obj").as_bytes());
-    let document = document.expect("a mesh");
-    let mut mesh = document.mesh().expect("a mesh");
-    let mut positions = Positions::new(document.positions().iter().copied()).expect("finite");
-    let mut torn = TornDocument::new(&document);
-    let mut edits = Edits::new();
-    let mut end = None;
-    for two in places.windows(2) {
-        let [from, to] = [two[0], two[1]].map(|[x, y]| {
-            Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray")
-        });
-        let scissor = match end.take() {
-            Some(end) => Scissor::continued(&end, to, &positions),
-            None => Scissor::new(from, to),
-        };
-        let scissor = scissor.expect("a plane");
-        let made = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
-        let cut = made.expect("in step");
-        edits.replay(&mut torn);
-        edits.clear();
-        torn.next_cut();
-        end = cut.ends().map(|[_, end]| end.clone());
-    }
-    let mut bytes = Vec::new();
-    torn.write(&mesh, &positions, &mut bytes).expect("written");
-    assert!(bytes == folder.bytes("line.obj"), "other bytes");
 }
 
 /// A sheet of one millimetre, wherever it lies: an inserted vertex is as far off the surface as its

@@ -46,7 +46,7 @@ fn weighs(report: &Value, text: &str, tolerance: f64) {
 }
 
 #[test]
-fn regression_an_inserted_vertex_that_was_moved_since_is_kept_and_said() {
+fn regression_an_inserted_vertex_moved_since_is_kept() {
     let folder = Folder::new();
     let (text, inserted) = sewn(&folder);
     folder.write(
@@ -62,33 +62,9 @@ fn regression_an_inserted_vertex_that_was_moved_since_is_kept_and_said() {
     }
 }
 
-#[test]
-fn a_vertex_that_a_cut_moved_and_somebody_after_it_is_kept_and_said() {
-    let folder = Folder::new();
-    let cut = "cut flag.obj --rays 0.31,0.5,5:0,0,-1 0.25,-0.5,5:0,0,-1 --snap 0.2";
-    folder.done(&format!("{cut} --snap-move -o torn.obj"));
-    folder.done("mend torn.obj -o sewn.obj");
-    let text = folder.read("sewn.obj");
-    let slid = numbers(&text, &["#~ slide "]);
-    let mend = "mend sewn.obj --simplify -o whole.obj";
-    let report = folder.report(mend);
-    assert_eq!(report["mend"]["vertices_slid_back"], slid.len());
-    assert_eq!(report["diagnostics"], serde_json::json!([]));
-    folder.write(
-        "sewn.obj",
-        moved(&text, slid[slid.len() / 2], "v 0.5 0.5 0.25"),
-    );
-    let report = folder.report(mend);
-    assert_eq!(report["mend"]["vertices_slid_edited"], 1, "{report:#}");
-    let mut said = report["diagnostics"].as_array().expect("a list").iter();
-    let message = "1 vertex that a cut moved was edited since and stays in place";
-    assert!(said.any(|one| one["message"] == message), "{report:#}");
-    assert!(folder.read("whole.obj").contains("v 0.5 0.5 0.25\n"));
-}
-
 /// The two sides of a cut that stand apart meet halfway, and the sheet has another area then.
 #[test]
-fn regression_the_area_that_is_said_is_that_of_sides_that_met_halfway() {
+fn regression_the_area_told_is_of_sides_met_halfway() {
     let folder = Folder::new();
     let _sewn = sewn(&folder);
     let text = folder.read("torn.obj");

@@ -9,36 +9,6 @@ use crate::harness::{Answer, Folder, signal};
 const CUT: &str = "cut flag.obj --rays 0.31,2,5:0,0,-1 0.25,-2,5:0,0,-1";
 
 #[test]
-fn the_same_input_gives_the_same_bytes() {
-    let folder = Folder::new();
-    for name in ["a", "b"] {
-        folder.done(&format!(
-            "{CUT} -o {name}.obj --report {name}.json --no-timing"
-        ));
-    }
-    let mesh = folder.read("a.obj");
-    assert_eq!(mesh, folder.read("b.obj"));
-    let report = folder.read("a.json").replace("a.obj", "b.obj");
-    assert_eq!(report, folder.read("b.json"));
-    assert_eq!(folder.run(&format!("{CUT} -o -")).text(), mesh);
-    let piped = folder.run(&(CUT.replace("flag.obj", "-") + " < flag.obj"));
-    assert_eq!(piped.text(), mesh);
-}
-
-#[test]
-fn json_alone_reports_failures_too() {
-    let folder = Folder::new();
-    folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 0,5 0\nf 1 2 3\n");
-    let answer = folder.run("cut bad.obj --plane 0,0,0:1,0,0 --format json");
-    assert_eq!((answer.exit, &*answer.error), (3, ""));
-    let report = answer.json();
-    assert_eq!((&report["ok"], &report["exit"]), (&false.into(), &3.into()));
-    let found = &report["diagnostics"][0];
-    let place = (&found["code"], &found["line"], &found["column"]);
-    assert_eq!(place, (&"E-OBJ-FLOAT".into(), &3.into(), &5.into()));
-}
-
-#[test]
 fn no_escape_bytes_reach_a_pipe_unless_asked_for() {
     let folder = Folder::new();
     let bad = "cut falg.obj --plane 0,0,0:1,0,0";
@@ -127,28 +97,6 @@ fn regression_texts_may_begin_with_a_byte_order_mark() {
     }
 }
 
-/// A report of a simulation says its steps, so one without was written before the first.
-#[test]
-fn a_place_that_cannot_be_written_is_found_before_the_first_step() {
-    let folder = Folder::new();
-    let line = "tear flag.obj --scene hang --seconds 0.1 --format json";
-    for (options, message) in [
-        ("-o no/x.obj", "`no/x.obj`: there is no folder `no`"),
-        ("-o tests", "`tests`: it is a directory"),
-        ("--report no/r.json", "`no/r.json`: there is no folder `no`"),
-        ("--dry-run --report tests", "`tests`: it is a directory"),
-    ] {
-        let answer = folder.run(&format!("{line} {options}"));
-        let report = answer.json();
-        assert_eq!((answer.exit, &report["exit"]), (7, &7.into()));
-        assert!(report["steps"].is_null(), "{options}");
-        let said = report["diagnostics"].as_array().expect("a list");
-        assert_eq!(said.len(), 1, "{said:?}");
-        assert_eq!(said[0]["code"], "E-IO-WRITE");
-        assert_eq!(said[0]["message"], format!("cannot write {message}"));
-    }
-}
-
 #[cfg(unix)]
 mod unix {
     use std::os::unix::fs::{PermissionsExt as _, symlink};
@@ -224,7 +172,7 @@ mod unix {
     /// The message is the same for each run, and names the file that was given and no other.
     #[cfg(target_os = "linux")]
     #[test]
-    fn regression_a_place_that_cannot_be_written_is_told_by_its_own_name() {
+    fn regression_an_unwritable_place_is_told_by_its_name() {
         let folder = Folder::new();
         let line = format!("{CUT} -o /proc/torn.obj --report /proc/torn.json");
         let said = folder.ends(&line, 7);

@@ -7,7 +7,7 @@ use crate::plain::Plain;
 
 /// Whoever follows a vertex by its number through the frames follows one vertex.
 #[test]
-fn a_corner_of_a_frame_changes_only_to_a_vertex_that_is_new_in_it() {
+fn corners_of_frames_change_only_to_new_vertices() {
     let folder = Folder::new();
     folder.done("tear sheet.obj --scene rip --frames f -q -o torn.obj");
     let frames = folder.list("f");
@@ -32,7 +32,7 @@ fn a_corner_of_a_frame_changes_only_to_a_vertex_that_is_new_in_it() {
 }
 
 #[test]
-fn frames_with_one_topology_are_the_frames_corner_by_corner() {
+fn frames_of_one_topology_have_the_same_corners() {
     let folder = Folder::new();
     let rip = "tear sheet.obj --scene rip --seconds 1.5";
     folder.done(&format!("{rip} --frames own -o own.obj"));
@@ -93,7 +93,7 @@ fn frames_before_a_cut_have_its_vertices_on_their_edges() {
 /// The frames with the faces of the last one are written at the end, and take their time.
 #[cfg(unix)]
 #[test]
-fn a_simulation_is_saved_when_the_writing_of_its_frames_is_interrupted() {
+fn frames_interrupted_in_writing_leave_a_saved_run() {
     let folder = Folder::new();
     let line = "tear flag.obj --scene hang --solver pbd --dt 0.033 --seconds 20 --frames f \
                 --frames-topology final -o saved.obj --report r.json";

@@ -38,7 +38,7 @@ fn seeds_end_as_they_should() {
 }
 
 #[test]
-fn what_fuzzing_found_stays_found() {
+fn finds_of_fuzzing_are_replayed() {
     let Ok(entries) = fs::read_dir(root().join("fuzz/regressions/cut_cli")) else {
         return; // Nothing was found so far.
     };

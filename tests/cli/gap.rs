@@ -350,53 +350,6 @@ fn pieces_that_part_wholly_move_as_they_are() {
     }
 }
 
-/// A slit opens over one edge: its tips stay, and all others are half the gap away.
-#[test]
-fn a_slit_opens_over_one_edge() {
-    let folder = Folder::new();
-    let line =
-        "tearmesh cut sheet.obj --rays 0.2,0.31,5:0,0,-1 0.8,0.33,5:0,0,-1 --snap 0 --gap 0.002";
-    let text = folder.done(&format!("{line} -o slit.obj"));
-    assert!(
-        text.contains("along the cut moved apart by 0.002"),
-        "{text}"
-    );
-    let plain = Apart::read(&folder.bytes("slit.obj"));
-    let mut far = Vec::new();
-    for (is, shown) in plain.is.iter().zip(&plain.shown) {
-        let off = from(*is, *shown);
-        if off != [0.0; 3] {
-            // Square to the slit, which rises by a thirtieth; the sheet is flat.
-            assert!(
-                (off[0] + off[1] / 30.0).abs() < 1e-12 && off[2] == 0.0,
-                "{off:?}"
-            );
-            far.push(off[1].signum());
-            assert!((dot(off, off).sqrt() - 0.001).abs() < 1e-15);
-        }
-    }
-    let above = far.iter().filter(|&&side| side > 0.0).count();
-    assert!(
-        above > 10 && 2 * above == far.len(),
-        "{above} of {}",
-        far.len()
-    );
-}
-
-/// A simulation starts from where vertices are.
-#[test]
-fn a_simulation_knows_no_gap() {
-    let folder = Folder::new();
-    let cut = "tearmesh cut flag.obj --plane 0.31,0,0:1,0.1,0 -q";
-    for (gap, name) in [("", "plain"), (" --gap 20%", "gapped")] {
-        folder.done(&format!("{cut}{gap} -o {name}.obj"));
-        folder.done(&format!(
-            "tear {name}.obj --scene hang --seconds 0.05 -q -o {name}.out"
-        ));
-    }
-    assert!(folder.read("plain.out") == folder.read("gapped.out"));
-}
-
 /// Beside the hub of a fan, each face that is brought back would have all be looked at again. With a
 /// square in it, the second file takes sixteen times as long as the first.
 #[test]

@@ -58,7 +58,7 @@ impl Sheet {
 }
 
 #[test]
-fn a_run_killed_at_any_moment_leaves_the_old_file_or_the_new_one() {
+fn a_killed_run_leaves_the_old_file_or_the_new_one() {
     let sheet = Sheet::new();
     let old = "something old\n";
     let whole = sheet.whole("new.obj");

@@ -84,7 +84,7 @@ fn a_run_that_triples_its_energy_fails_and_keeps_its_state() {
 /// The limiter's work grows without bound as steps get shorter; without it Provot's springs are like
 /// any others.
 #[test]
-fn joules_that_the_limiter_of_provot_has_a_part_in_are_not_said() {
+fn joules_of_a_limited_run_are_not_told() {
     let folder = Folder::new();
     for (limit_ratio, is_said) in [("1.001", false), ("1000", true)] {
         let provot = "base = \"hang\"\n[solver]\nmethod = \"provot\"\nlimit_ratio =";

@@ -25,9 +25,7 @@ mod losses;
 mod map;
 #[cfg(target_os = "linux")]
 mod memory;
-mod numbers;
 mod pages;
-mod pictures;
 mod pieces;
 mod plain;
 mod play;

@@ -132,7 +132,7 @@ fn frames_in_a_folder_are_played_in_their_order() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_simulation_is_saved_and_shown_as_far_as_it_came() {
+fn an_interrupted_simulation_is_saved_and_shown() {
     let folder = Folder::new();
     let line = "tear sheet.obj --scene hang --seconds 100000 --view t.html --frames f -o t.obj \
                 --report r.json";

@@ -101,27 +101,6 @@ fn check(folder: &Folder, whole: &str, pieces: &str) -> Vec<usize> {
 const CROSS: &str =
     "--rays 0.3,1,5:0,0,-1 0.3,0,5:0,0,-1 --rays 1,0.1,5:0,0,-1 0,0.1,5:0,0,-1 --through";
 
-#[test]
-fn the_pieces_of_a_cut_are_the_whole_and_the_same_each_time() {
-    let folder = Folder::new();
-    for name in ["one", "two"] {
-        let line = format!("cut flag.obj {CROSS} --pieces {name} -o {name}.obj");
-        let said = folder.done(&line);
-        assert!(
-            said.contains(&format!("4 pieces written into {name}\n")),
-            "{said}"
-        );
-    }
-    assert_eq!(check(&folder, "one.obj", "one").len(), 4);
-    let names = folder.list("one");
-    let numbers = [0, 1, 2, 3].map(|number| format!("piece_0000{number}.obj"));
-    assert_eq!((&names[..4], &*names[4]), (&numbers[..], "pieces.json"));
-    for name in names {
-        let [one, two] = ["one", "two"].map(|of| folder.read(&format!("{of}/{name}")));
-        assert_eq!(one, two, "{name}");
-    }
-}
-
 /// A box of quads with a name for each side, texture coordinates and normals, extra numbers and seams.
 fn named_box() -> String {
     let mut text = String::from("# a box\nmtllib box.mtl\no box\n");

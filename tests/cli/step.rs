@@ -12,7 +12,7 @@ fn verdict(report: &Value, name: &str) -> String {
 }
 
 #[test]
-fn a_step_that_suits_is_told_so_and_each_time_the_same() {
+fn a_suitable_step_is_told_the_same_each_time() {
     let folder = Folder::new();
     let line = "tear flag.obj --scene hang --solver xpbd --dt 0.004 --seconds 0.5 --check-step \
                 --no-timing";
@@ -36,7 +36,7 @@ fn a_step_that_suits_is_told_so_and_each_time_the_same() {
 /// The longer a step of PBD, the softer its cloth: at such a step it tears long before what is dragged is
 /// drawn tight.
 #[test]
-fn a_step_that_decides_is_warned_of() {
+fn a_step_that_decides_the_result_is_warned_of() {
     let folder = Folder::new();
     let line = "tear flag.obj --scene rip --solver pbd --dt 0.0333 --seconds 1 --check-step";
     let report = folder.report(line);

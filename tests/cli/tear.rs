@@ -1,31 +1,9 @@
-//! Simulations: the report, failures, and the same bytes on every run.
+//! Simulations: the report and failures.
 
 use serde_json::Value;
 
 use crate::harness::Folder;
 use crate::plain::Plain;
-
-#[test]
-fn the_report_says_what_the_method_says_of_its_steps() {
-    let folder = Folder::new();
-    for (solver, quality) in [
-        ("provot", "/limiter/steps_infeasible"),
-        ("pbd", "/strain_rms"),
-        ("xpbd", "/residual_n"),
-        ("implicit", "/implicit/indefinite"),
-        ("verlet", "/guarded/carried"),
-    ] {
-        let line = "tear sheet.obj --scene rip --seconds 0.8 --dry-run --report r.json";
-        let said = folder.done(&format!("{line} --solver {solver}"));
-        let told = &folder.json("r.json")["quality"];
-        assert!(
-            told.pointer(quality).is_some_and(Value::is_number),
-            "{told}"
-        );
-        // The hand is faster than any cloth is long, which the limiter cannot mend.
-        assert_eq!(said.contains("W-SIM-LIMIT"), solver == "provot", "{said}");
-    }
-}
 
 #[test]
 fn the_report_lists_the_features_in_use_and_their_shares() {
@@ -56,33 +34,6 @@ fn the_report_lists_the_features_in_use_and_their_shares() {
 }
 
 #[test]
-fn two_runs_are_equal_and_what_was_split_is_in_the_output() {
-    let folder = Folder::new();
-    for name in ["a", "b"] {
-        let line = "tear flag.obj --scene rip --seconds 1.5 --no-timing";
-        folder.done(&format!(
-            "{line} -o {name}.obj --report {name}.json --frames {name}"
-        ));
-    }
-    assert_eq!(folder.read("a.obj"), folder.read("b.obj"));
-    for frame in folder.list("a") {
-        let [one, other] = ["a", "b"].map(|name| folder.read(&format!("{name}/{frame}")));
-        assert_eq!(one, other, "{frame}");
-    }
-    let other = folder.read("b.json").replace("b.obj", "a.obj");
-    let other = other.replace("\"folder\": \"b\"", "\"folder\": \"a\"");
-    assert_eq!(folder.read("a.json"), other);
-    let report = folder.json("a.json");
-    assert!(report["energy_j"]["gain"].is_null());
-    assert_eq!(report["status"], "done");
-    assert_eq!(report["mass"]["before"], report["mass"]["after"]);
-    let count = |value: &Value| value.as_u64().expect("a count");
-    let [before, after] = ["input", "output"].map(|file| count(&report[file]["vertices"]));
-    let splits = count(&report["splits"]);
-    assert!(splits > 10 && before + splits == after);
-}
-
-#[test]
 fn a_simulation_that_fails_keeps_its_state_and_says_so() {
     let folder = Folder::new();
     folder.add_files("tests/cli/inputs.txt");
@@ -109,36 +60,4 @@ fn a_cut_whose_step_fails_is_told_of() {
     let report = folder.json("r.json");
     assert_eq!(report["pieces"], 2);
     assert_eq!(report["cuts"].as_array().map(Vec::len), Some(1));
-}
-
-/// Only a simulation knows a density.
-#[test]
-fn what_cut_and_mend_weigh_vertices_by_is_said_to_be_an_area() {
-    let folder = Folder::new();
-    for line in [
-        "cut sheet.obj --rays 0.3,2,5:0,0,-1 0.3,0.5,5:0,0,-1 -o cut.obj",
-        "mend cut.obj --last 1 -o mended.obj",
-    ] {
-        let words = folder.done(line);
-        assert!(
-            words.contains("\narea ") && !words.contains("mass"),
-            "{words}"
-        );
-        let report = folder.report(&format!("{line} --in-place"));
-        assert_eq!(report["mass"]["unit"], "area");
-    }
-}
-
-/// A note that nothing has to be done about is for those who ask, and for the report.
-#[test]
-fn duplicates_of_vertices_are_noted_for_those_who_ask() {
-    let folder = Folder::new();
-    let line = "tear sheet.obj --scene rip --seconds 0.8 -o x.obj --report r.json";
-    assert!(!folder.done(line).contains("W-OBJ-FANS"));
-    assert!(folder.read("r.json").contains("W-OBJ-FANS"));
-    assert!(
-        folder
-            .done(&format!("{line} -v"))
-            .contains("note[W-OBJ-FANS]")
-    );
 }

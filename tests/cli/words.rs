@@ -12,7 +12,7 @@ const SQUARES: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n\
 
 /// A straight slit through a snapped seam may have something left to cut.
 #[test]
-fn regression_a_second_cut_within_a_slit_is_told_that_it_is_cut_or_cuts() {
+fn regression_a_cut_within_a_slit_is_told_or_cuts() {
     let folder = Folder::new();
     folder.done("cut sheet.obj --rays 0.3,0.8,5:0,0,-1 0.3,0.2,5:0,0,-1 -o torn.obj");
     let again = folder.run("cut torn.obj --rays 0.3,0.7,5:0,0,-1 0.3,0.3,5:0,0,-1 -o twice.obj");
@@ -20,33 +20,10 @@ fn regression_a_second_cut_within_a_slit_is_told_that_it_is_cut_or_cuts() {
     assert!(again.exit == 0 || is_said, "{}", again.seen());
 }
 
-#[test]
-fn a_cut_beside_the_seam_is_not_told_that_it_is_cut() {
-    let cut = "tearmesh cut - --rays 0.5,2,5:0,0,-1 0.5,-1,5:0,0,-1";
-    let (_, torn, _) = in_memory(cut, SQUARES.as_bytes(), false);
-    let (exit, _, said) = in_memory(cut, &torn, false);
-    assert_eq!(exit, Exit::NothingCut);
-    assert!(said.contains("it is already cut there"), "{said}");
-    let beside = "tearmesh cut - --rays 0.5,5,5:0,0,-1 0.5,4,5:0,0,-1";
-    let (exit, _, said) = in_memory(beside, &torn, false);
-    assert_eq!(exit, Exit::NothingCut);
-    assert!(
-        !said.contains("already cut") && said.contains("nearest"),
-        "{said}"
-    );
-    // The seam's faces lie on both sides of this one, but the seam is further off than the snap.
-    let cut = "tearmesh cut - --rays 0.4,2,5:0,0,-1 0.4,-1,5:0,0,-1";
-    let (_, torn, _) = in_memory(cut, SQUARES.as_bytes(), false);
-    let short = "tearmesh cut - --rays 0.5,0.7,5:0,0,-1 0.5,0.72,5:0,0,-1";
-    let (exit, _, said) = in_memory(short, &torn, false);
-    assert_eq!(exit, Exit::NothingCut);
-    assert!(said.contains("shorter than the snap"), "{said}");
-}
-
 /// Every cut between two points of a lattice, some of which lie on corners and edges and some within
 /// the snap of them; and each of them twice.
 #[test]
-fn cuts_on_a_lattice_say_what_is_so() {
+fn cuts_on_a_lattice_are_told_as_they_are() {
     let (xs, ys) = ([-0.5, 0.0, 0.02, 0.5, 1.0, 2.5], [-0.5, 0.0, 0.3, 1.0]);
     let points: Vec<_> = xs.iter().flat_map(|x| ys.map(|y| (*x, y))).collect();
     let (mut cases, mut twice) = (0, 0);
@@ -80,7 +57,7 @@ fn cuts_on_a_lattice_say_what_is_so() {
 }
 
 #[test]
-fn on_a_terminal_it_is_said_first_that_no_mesh_will_be_written() {
+fn a_terminal_is_told_that_no_mesh_is_written() {
     let cut = "tearmesh cut - --plane 0.5,0,0:1,0,0";
     let (exit, output, said) = in_memory(cut, SQUARES.as_bytes(), true);
     assert_eq!(exit, Exit::Done);

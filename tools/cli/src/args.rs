@@ -145,75 +145,63 @@ fn is_of_numbers(text: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn joined(args: &str) -> String {
-        let args: Vec<OsString> = args.split('|').map(OsString::from).collect();
-        let joined = join_rays(&args);
-        joined
-            .iter()
-            .map(|arg| arg.to_string_lossy())
-            .collect::<Vec<_>>()
-            .join("|")
-    }
-
     #[test]
     fn the_arguments_parse_without_a_clash() {
         use clap::CommandFactory as _;
         Args::command().debug_assert();
     }
 
-    #[test]
-    fn two_rays_become_one_argument_however_they_are_written() {
-        let one = "cut|--rays=1,2,3:4,5,6;-1,0,0@7,8,9|-o|x";
-        for args in [
+    /// What is typed, and what it is joined to: that of the row before where it is left out.
+    const ROWS: &[[&str; 2]] = &[
+        // Two rays become one argument however they are written.
+        [
             "cut|--rays|1,2,3:4,5,6|-1,0,0@7,8,9|-o|x",
-            "cut|--rays|1,2,3:4,5,6;-1,0,0@7,8,9|-o|x",
             "cut|--rays=1,2,3:4,5,6;-1,0,0@7,8,9|-o|x",
-            "cut|--rays=1,2,3:4,5,6|-1,0,0@7,8,9|-o|x",
-        ] {
-            assert_eq!(joined(args), one);
-        }
-        assert_eq!(
-            joined("cut|--rays|1,2,3:4,5,6 -1,0,0@7,8,9|-o|x"),
-            "cut|--rays=1,2,3:4,5,6 -1,0,0@7,8,9|-o|x"
-        );
-    }
-
-    #[test]
-    fn so_do_two_points() {
-        let one = "cut|--points=-1,2;3,-4|-o|x";
-        for args in ["cut|--points|-1,2|3,-4|-o|x", "cut|--points=-1,2|3,-4|-o|x"] {
-            assert_eq!(joined(args), one);
-        }
-    }
-
-    #[test]
-    fn a_blank_beside_a_mark_does_not_divide_a_ray() {
-        let one = "cut|in|--rays=1,2,3: 4,5,6;-1,0, 0 @7,8,9|-o|x";
-        let args = "cut|in|--rays|1,2,3:|4,5,6|-1,0,|0|@7,8,9|-o|x";
-        assert_eq!(joined(args), one);
-        assert_eq!(
-            joined("cut|--rays|1|,2,3:4,5,6|1,2,3|:|4,5,-6|in"),
-            "cut|--rays=1 ,2,3:4,5,6;1,2,3 : 4,5,-6|in"
-        );
-        assert_eq!(
-            joined("cut|--plane|0,0,0:|-1,0,0|in|--up|0,|1,0"),
-            "cut|--plane=0,0,0: -1,0,0|in|--up=0, 1,0"
-        );
+        ],
+        ["cut|--rays|1,2,3:4,5,6;-1,0,0@7,8,9|-o|x", ""],
+        ["cut|--rays=1,2,3:4,5,6;-1,0,0@7,8,9|-o|x", ""],
+        ["cut|--rays=1,2,3:4,5,6|-1,0,0@7,8,9|-o|x", ""],
+        [
+            "cut|--rays|1,2,3:4,5,6 -1,0,0@7,8,9|-o|x",
+            "cut|--rays=1,2,3:4,5,6 -1,0,0@7,8,9|-o|x",
+        ],
+        // So do two points.
+        ["cut|--points|-1,2|3,-4|-o|x", "cut|--points=-1,2;3,-4|-o|x"],
+        ["cut|--points=-1,2|3,-4|-o|x", ""],
+        // A blank beside a mark does not divide a ray.
+        [
+            "cut|in|--rays|1,2,3:|4,5,6|-1,0,|0|@7,8,9|-o|x",
+            "cut|in|--rays=1,2,3: 4,5,6;-1,0, 0 @7,8,9|-o|x",
+        ],
+        [
+            "cut|--rays|1|,2,3:4,5,6|1,2,3|:|4,5,-6|in",
+            "cut|--rays=1 ,2,3:4,5,6;1,2,3 : 4,5,-6|in",
+        ],
+        [
+            "cut|--plane|0,0,0:|-1,0,0|in|--up|0,|1,0",
+            "cut|--plane=0,0,0: -1,0,0|in|--up=0, 1,0",
+        ],
         // An option ends a ray that is not whole.
-        assert_eq!(joined("cut|--rays|1,2,3:|-o|x"), "cut|--rays=1,2,3:|-o|x");
-    }
+        ["cut|--rays|1,2,3:|-o|x", "cut|--rays=1,2,3:|-o|x"],
+        // What is no ray is left alone.
+        ["cut|--rays|1,2,3:4,5,6|-o|x", "cut|--rays=1,2,3:4,5,6|-o|x"],
+        ["cut|--rays|-o|x", "cut|--rays|-o|x"],
+        [
+            "cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6",
+            "cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6",
+        ],
+        ["cut|--rays-file|a,b", "cut|--rays-file|a,b"],
+    ];
 
     #[test]
-    fn what_is_no_ray_is_left_alone() {
-        assert_eq!(
-            joined("cut|--rays|1,2,3:4,5,6|-o|x"),
-            "cut|--rays=1,2,3:4,5,6|-o|x"
-        );
-        assert_eq!(joined("cut|--rays|-o|x"), "cut|--rays|-o|x");
-        assert_eq!(
-            joined("cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6"),
-            "cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6"
-        );
-        assert_eq!(joined("cut|--rays-file|a,b"), "cut|--rays-file|a,b");
+    fn rays_points_and_planes_become_one_argument_each() {
+        let mut expected = "";
+        for [typed, joined] in ROWS {
+            expected = if joined.is_empty() { expected } else { joined };
+            let args: Vec<OsString> = typed.split('|').map(OsString::from).collect();
+            let args = join_rays(&args);
+            let words: Vec<_> = args.iter().map(|arg| arg.to_string_lossy()).collect();
+            assert_eq!(words.join("|"), expected, "{typed}");
+        }
     }
 }

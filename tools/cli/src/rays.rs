@@ -260,40 +260,23 @@ mod tests {
 
     #[test]
     fn what_cannot_be_read_is_pointed_at() {
-        assert_eq!(read("0,1,5:0,0,-1"), Err(("E-RAY-COUNT", 0, 12)));
-        assert_eq!(read(""), Err(("E-RAY-COUNT", 0, 0)));
-        assert_eq!(
-            read("0,0,1:0,0,1 0,0,2:0,0,1 0,0,3:1,1,1"),
-            Err(("E-RAY-COUNT", 24, 35))
-        );
-        assert_eq!(read("0,1,5:0,0,-1 0,1,5"), Err(("E-RAY-SYNTAX", 13, 18)));
-        assert_eq!(
-            read("0,1,5:0,0,-1 0,x,5:0,0,1"),
-            Err(("E-RAY-SYNTAX", 15, 16))
-        );
-        assert_eq!(
-            read("0,1,5:0,0,-1 0,1,5:0,1"),
-            Err(("E-RAY-SYNTAX", 19, 22))
-        );
-        assert_eq!(
-            read("0,1,5,6:0,0,-1 0,1,5:0,1,1"),
-            Err(("E-RAY-SYNTAX", 6, 7))
-        );
-        assert_eq!(
-            read("0,nan,5:0,0,-1 0,1,5:0,1,1"),
-            Err(("E-RAY-SYNTAX", 2, 5))
-        );
-        assert_eq!(read("0,1,5:0,0,0 0,1,5:0,1,1"), Err(("E-RAY-ZERO", 6, 11)));
-        assert_eq!(read("0,1,5@0,1,5 0,1,5:0,1,1"), Err(("E-RAY-ZERO", 6, 11)));
-        assert_eq!(
-            read("0, 1,5: 0,0,-1 0,1, x :0,1,1"),
-            Err(("E-RAY-SYNTAX", 20, 21))
-        );
-        assert_eq!(read("0,1,5:0,0,-1 0,1,"), Err(("E-RAY-SYNTAX", 13, 17)));
-        assert_eq!(
-            read("0,1,1e99:0,1,5 0,1,5:0,1,1"),
-            Err(("E-RAY-ZERO", 0, 8))
-        );
+        for (text, code, start, end) in [
+            ("0,1,5:0,0,-1", "E-RAY-COUNT", 0, 12),
+            ("", "E-RAY-COUNT", 0, 0),
+            ("0,0,1:0,0,1 0,0,2:0,0,1 0,0,3:1,1,1", "E-RAY-COUNT", 24, 35),
+            ("0,1,5:0,0,-1 0,1,5", "E-RAY-SYNTAX", 13, 18),
+            ("0,1,5:0,0,-1 0,x,5:0,0,1", "E-RAY-SYNTAX", 15, 16),
+            ("0,1,5:0,0,-1 0,1,5:0,1", "E-RAY-SYNTAX", 19, 22),
+            ("0,1,5,6:0,0,-1 0,1,5:0,1,1", "E-RAY-SYNTAX", 6, 7),
+            ("0,nan,5:0,0,-1 0,1,5:0,1,1", "E-RAY-SYNTAX", 2, 5),
+            ("0,1,5:0,0,0 0,1,5:0,1,1", "E-RAY-ZERO", 6, 11),
+            ("0,1,5@0,1,5 0,1,5:0,1,1", "E-RAY-ZERO", 6, 11),
+            ("0, 1,5: 0,0,-1 0,1, x :0,1,1", "E-RAY-SYNTAX", 20, 21),
+            ("0,1,5:0,0,-1 0,1,", "E-RAY-SYNTAX", 13, 17),
+            ("0,1,1e99:0,1,5 0,1,5:0,1,1", "E-RAY-ZERO", 0, 8),
+        ] {
+            assert_eq!(read(text), Err((code, start, end)), "{text}");
+        }
     }
 
     #[test]

@@ -211,19 +211,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_key_in_the_wrong_table_is_unknown() {
-        for (table, key) in keys() {
-            let elsewhere = if table == "solver" {
-                "fabric"
-            } else {
-                "solver"
-            };
-            let text = format!("[{elsewhere}]\n{key}x = 1\n");
-            assert_eq!(read(&text), Err(vec!["E-SCENE-KEY"]), "{text}");
-        }
-    }
-
     /// So that whoever mends one finds no other behind it.
     #[test]
     fn all_faults_of_a_table_are_found() {
