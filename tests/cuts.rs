@@ -189,12 +189,20 @@ fn a_cut_tells_what_the_mesh_shows() {
 }
 
 #[test]
-fn straight_seams_have_the_lines_and_tips_of_the_oracle() {
+fn straight_cuts_satisfy_the_oracle_and_tell_what_it_sees() {
     let (mut tips_of_all, mut faces, mut sideless) = (0, 0, 0);
     for case in cases() {
         let scissor = case.scissor().snap(0.0);
         let made = Made::new(case, &scissor, CutMethod::Exact);
         let facts = judged(&case.before, &case.cut, &made.work.surface(), case.name);
+        let report = &made.report;
+        let counts = [report.pieces, report.lost, report.crumbs];
+        assert_eq!(counts, [facts.pieces, 0, 0], "{}: {report:?}", case.name);
+        assert!(report.separated, "{report:?}");
+        let straight = (report.seam_length_ratio - 1.0).abs() < 1e-9;
+        assert!(straight || report.missed, "{report:?}");
+        let over = report.tip_overshoots.iter().any(|over| over.abs() > 1e-12);
+        assert!(!over && report.seam_deviation_max < 1e-12, "{report:?}");
         let tips: Vec<VertexId> = made.cut.tips().collect();
         assert_eq!(tips.len(), facts.tips, "{}", case.name);
         // The oracle sees lines that meet at one place as one.
@@ -223,6 +231,7 @@ fn straight_seams_have_the_lines_and_tips_of_the_oracle() {
             assert!(heights[0] > 0.0 && heights[1] < 0.0, "{heights:?}");
         }
     }
+    assert!(cases().len() >= 400, "only {} cuts", cases().len());
     assert!(tips_of_all > 100 && faces > 5000 && sideless < tips_of_all * 2);
 }
 

@@ -1,10 +1,7 @@
-//! Points and planes, the sides of faces, and values between values.
+//! Points and planes, and values between values.
 
 use tearmesh::geometry::between;
-use tearmesh::{
-    Blend, Plane, PlaneError, Point, Positions, Ray, RayError, Side, Vector, VertexId, classify,
-    shapes,
-};
+use tearmesh::{Blend, Plane, PlaneError, Point, Positions, Ray, RayError, Side, Vector};
 
 #[test]
 fn between_equal_values_is_that_value_bit_for_bit() {
@@ -44,22 +41,6 @@ fn unusable_planes_and_rays_are_refused() {
         assert!(Plane::new(point, normal).is_err_and(by), "{point} {normal}");
         let by = |error| matches!(error, RayError::Origin { .. }) == is_point;
         assert!(Ray::new(point, normal).is_err_and(by), "{point} {normal}");
-    }
-}
-
-#[test]
-fn faces_of_a_vertex_fall_on_both_sides_and_ties_in_front() {
-    // A closed fan in the plane z = 0, cut by the plane x = 0 through the hub.
-    let (mesh, positions) = shapes::fan(4, true);
-    let hub = VertexId::new(0).expect("an id");
-    let plane = Plane::new(positions.at(hub), Vector::x()).expect("usable");
-    let side = |f, plane: &Plane| classify::face(&mesh, f, plane, &positions);
-    let sides: Vec<Side> = mesh.faces().map(|f| side(f, &plane)).collect();
-    assert_eq!(sides, [Side::Front, Side::Back, Side::Back, Side::Front]);
-
-    for normal in [Vector::z(), -Vector::z()] {
-        let flat = Plane::new(positions.at(hub), normal).expect("usable");
-        assert!(mesh.faces().all(|f| side(f, &flat) == Side::Front));
     }
 }
 

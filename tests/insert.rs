@@ -86,27 +86,6 @@ fn regression_a_child_whose_share_would_be_zero_is_refused() {
     }
 }
 
-/// Where p on one edge and q on another are equally far along, the quad between them is divided
-/// from p to the end of the edge of q.
-#[test]
-fn of_two_equally_good_diagonals_one_is_always_taken() {
-    for corner in 0..3 {
-        for order in [[0, 1], [1, 0]] {
-            let mut mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a triangle");
-            let edges = [0, 2].map(|i| half_edge((corner + i) % 3));
-            let mut plan = Plan::new();
-            for which in order {
-                plan.on_edge(edges[which], 0.5);
-            }
-            plan.apply(&mut mesh, &mut Edits::new()).expect("two edges");
-            let ends = (vertex(3 + order[0]), vertex((corner + 2) % 3));
-            let mut sides = mesh.half_edges();
-            let is_joined = sides.any(|h| (mesh.origin(h), mesh.target(h)) == ends);
-            assert!(is_joined, "{ends:?}, corner {corner}: {mesh:?}");
-        }
-    }
-}
-
 fn stitches<const N: usize>(pairs: [(usize, usize); N]) -> [Stitch; N] {
     pairs.map(|(one, other)| Stitch::new(vertex(one), vertex(other)).expect("two vertices"))
 }

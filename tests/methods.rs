@@ -39,7 +39,7 @@ fn reports(sheet: &Surface) -> [(Vec<CutReport>, usize); 3] {
 }
 
 #[test]
-fn the_papers_methods_are_no_kinder_than_the_paper_says() {
+fn methods_of_the_paper_leave_what_it_says() {
     let mut random = Random(5);
     for (name, sheet, alternating_divides) in [
         ("grid", surface(&shapes::grid(30, 30)), 38..=CUTS),

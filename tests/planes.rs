@@ -54,7 +54,7 @@ fn changes(row: impl Iterator<Item = f64>) -> usize {
 
 /// Sheets with these heights from left to right, the same all along.
 #[test]
-fn planes_through_folds_leave_the_pieces_foretold() {
+fn planes_through_folds_cut_at_each_change_of_sign() {
     let mut random = Random(101);
     let (mut through_faces, mut through_folds) = (0, 0);
     for _ in 0..600 {

@@ -75,7 +75,7 @@ fn told(report: &CutReport, mesh: &Mesh) -> String {
 }
 
 #[test]
-fn cuts_by_partition_leave_what_is_foretold() {
+fn cuts_by_partition_match_the_table() {
     for row in include_str!("scissor.txt").lines() {
         let columns: Vec<&str> = row.split('|').map(str::trim).collect();
         let [mesh, cuts, expected] = columns[..] else {

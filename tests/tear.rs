@@ -43,7 +43,7 @@ fn expected(
 }
 
 #[test]
-fn an_overstretched_edge_tears_by_the_rule_of_the_paper() {
+fn overstretched_edges_tear_by_the_rule_of_the_paper() {
     let (mut torn, mut refused) = (0, 0);
     for seed in 0..160 {
         let mut random = Random(seed);
