@@ -72,31 +72,8 @@ impl Experiment for Stability {
 
 #[cfg(test)]
 mod tests {
-    use std::num::NonZero;
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
     use super::*;
-
-    use crate::experiment::{Chart, Provenance, Status, conduct, read_table, table};
-    use crate::method::DEFAULTS;
-
-    fn experiment() -> Stability {
-        Stability {
-            stiffness_n_per_m: vec![1e3],
-        }
-    }
-
-    fn rows_of(experiment: &Stability, names: &[&str]) -> Vec<Row> {
-        let bounds = Bounds {
-            clock: None,
-            stop: &|| false,
-        };
-        let plan = experiment.plan().concat();
-        let keys = plan.iter().filter(|key| names.contains(&&*key.place));
-        assert_eq!(keys.clone().count(), names.len());
-        let rows = keys.map(|key| experiment.run(key, &bounds).expect("not interrupted"));
-        experiment.assessed(rows.flatten().collect())
-    }
+    use crate::experiment::Status;
 
     #[test]
     fn a_run_that_failed_without_a_message_is_silent() {
@@ -107,49 +84,5 @@ mod tests {
         ] {
             assert_eq!(trial::is_silent(measured, codes), expected);
         }
-        let rows = rows_of(&experiment(), &["free fall", "wind"]);
-        assert_eq!(rows.len(), 2 * DEFAULTS.len());
-        for row in rows {
-            let is_refused = row.place == "wind";
-            assert_eq!(row.codes.contains("E-SIM-UNSTABLE"), is_refused, "{row:?}");
-            assert_eq!(row.is_silent, Some(false), "{row:?}");
-        }
-    }
-
-    #[test]
-    fn the_figure_of_a_table_that_was_read_back_is_the_same() {
-        let experiment = experiment();
-        let names = ["rk4", "pbd-10", "wind"];
-        let mut rows = rows_of(&experiment, &names);
-        for row in &mut rows {
-            row.codes = row.codes.replace("E-SIM", "E <and> \"SIM\"");
-        }
-        assert_eq!(rows.len(), 4 * 8 + 4 * 8 + 5);
-        let text = table(&rows).expect("a table");
-        let read: Vec<Row> = read_table(&text).expect("the same table");
-        assert_eq!(read, rows);
-        let svg = |rows: &[Row]| crate::plot::svg(&experiment.figure(rows, &Provenance::default()));
-        assert_eq!(svg(&read), svg(&rows));
-        assert!(!svg(&rows).contains("NaN") && !svg(&rows).contains("inf"));
-        assert!(svg(&rows).contains("No method failed silently"));
-    }
-
-    #[test]
-    fn an_interrupted_table_has_a_row_for_each_part() {
-        let experiment = experiment();
-        let count = AtomicUsize::new(0);
-        let stop = || count.fetch_add(1, Ordering::Relaxed) > 10;
-        let bounds = Bounds {
-            clock: None,
-            stop: &stop,
-        };
-        let (rows, done) = conduct(&experiment, NonZero::<usize>::MIN, &bounds, |_| {});
-        let planned = experiment.plan().concat().len();
-        assert_eq!((done, rows.len()), (0, planned));
-        let is_interrupted = |row: &Row| row.status == Status::Interrupted && row.agrees.is_none();
-        assert!(rows.iter().all(is_interrupted));
-        assert!(count.load(Ordering::Relaxed) < 1000);
-        let figure = experiment.figure(&rows, &Provenance::default());
-        assert!(crate::plot::svg(&figure).contains("INTERRUPTED"));
     }
 }

@@ -1,10 +1,9 @@
-//! Bounds of the deviation of cuts, times by a clock of our own, and records.
+//! Bounds of the deviation of cuts, times by a clock of our own, and an interruption.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table, workers};
-use crate::plot::Layer;
+use crate::experiment::{Chart, Provenance, conduct, workers};
 
 fn cuts(cells: &[u32]) -> Cuts {
     Cuts::new(cells, 6)
@@ -77,24 +76,4 @@ fn an_interrupted_table_has_a_row_for_each_method() {
             .iter()
             .any(|line| line.starts_with("INTERRUPTED"))
     );
-}
-
-#[test]
-fn figure_has_a_mark_for_each_row_and_survives_a_file() {
-    let cuts = cuts(&[6, 8]);
-    let rows = measured(&cuts);
-    let text = table(&rows).expect("a table");
-    let read: Vec<Row> = read_table(&text).expect("the same table");
-    assert_eq!(read, rows);
-    let [figure, again] = [&rows, &read].map(|rows| cuts.figure(rows, &Provenance::default()));
-    assert_eq!(crate::plot::svg(&figure), crate::plot::svg(&again));
-    assert!(!crate::plot::svg(&figure).contains("NaN"));
-    // All cuts take the same time by this clock.
-    let title = "An exact cut lies on its plane and takes 1 times as long as a partition.";
-    assert!(figure.title.starts_with(title), "{}", figure.title);
-    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark(..));
-    let figure = cuts.figure(&rows[2..3], &Provenance::default());
-    let panels = figure.panels.iter();
-    let mut marks = panels.map(|panel| panel.layers.iter().filter(is_mark).count());
-    assert!(marks.all(|count| count == 1));
 }

@@ -8,68 +8,6 @@ use tearmesh_cloth::statistics::Random;
 
 use super::implementations::SCAN;
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table, workers};
-use crate::plot::Layer;
-
-/// The rows of a rip, by a clock that goes on by a microsecond more each time it is read.
-fn measured(fig7: &Fig7) -> Vec<Row> {
-    let calls = AtomicU64::new(0);
-    let clock = || {
-        let calls = calls.fetch_add(1, Ordering::Relaxed);
-        Duration::from_micros(calls * calls)
-    };
-    let bounds = Bounds {
-        clock: Some(&clock),
-        stop: &|| false,
-    };
-    conduct(fig7, workers(), &bounds, |_| {}).0
-}
-
-#[test]
-fn figure_has_an_interval_for_each_patch_and_survives_a_file() {
-    let fig7 = Fig7 { cells: vec![4, 6] };
-    let rows = measured(&fig7);
-    assert_eq!(rows.len(), 2 * 3 * ROUNDS);
-    for row in &rows {
-        assert!(row.splits > Some(0), "{row:?}");
-        assert_eq!(row.faces, Some(2 * (row.cells * row.cells) as usize));
-    }
-    let text = table(&rows).expect("a table");
-    let read: Vec<Row> = read_table(&text).expect("the same table");
-    assert_eq!(read, rows);
-    let [figure, again] = [&rows, &read].map(|rows| fig7.figure(rows, &Provenance::default()));
-    assert_eq!(crate::plot::svg(&figure), crate::plot::svg(&again));
-    assert!(!crate::plot::svg(&figure).contains("NaN"));
-    // Of one patch, a row of two implementations.
-    let two = [ROUNDS - 1, 3 * ROUNDS - 1].map(|i| rows[i].clone());
-    let two = fig7.figure(&two, &Provenance::default());
-    let is_mark = |layer: &&Layer| matches!(layer, Layer::Mark(..));
-    let marks =
-        |figure: &crate::plot::Figure| figure.panels[0].layers.iter().filter(is_mark).count();
-    assert_eq!([&two, &figure].map(marks), [2, 6]);
-    assert!(two.title.contains("at 32 faces"), "{}", two.title);
-}
-
-#[test]
-fn an_interrupted_table_has_a_row_for_each_patch() {
-    let steps = AtomicU64::new(0);
-    let stop = || steps.fetch_add(1, Ordering::SeqCst) >= 20;
-    let bounds = Bounds {
-        clock: None,
-        stop: &stop,
-    };
-    let fig7 = Fig7 { cells: vec![4, 5] };
-    let (rows, done) = conduct(&fig7, workers(), &bounds, |_| {});
-    assert_eq!(done, 0);
-    let undone = |cells: u32| Row {
-        cells,
-        ..Row::default()
-    };
-    assert_eq!(rows, [4, 5].map(undone));
-    assert!(rows.iter().all(|row| row.status == Status::Interrupted));
-    let figure = fig7.figure(&rows, &Provenance::default());
-    assert!(!crate::plot::svg(&figure).contains("NaN"));
-}
 
 /// An implementation that moves its clock on by some microseconds.
 struct Slow {
@@ -151,30 +89,5 @@ fn all_implementations_agree_on_random_splits() {
             }
         }
         assert!(places.len() > 36 + 50, "seed {seed}: {}", places.len());
-    }
-}
-
-/// A vertex all of whose faces are on one side, or that has one face, is not split.
-#[test]
-fn no_implementation_splits_what_has_no_face_on_one_side() {
-    let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("a mesh");
-    let places = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-    let places = places.map(|[x, y]| Point::new(x, y, 0.0));
-    let cases = [
-        (0, Vector::new(1.0, 1.0, 0.0), 3),
-        (1, Vector::new(0.0, -1.0, 0.0), 3),
-        (1, Vector::new(-1.0, -1.0, 0.0), 4),
-    ];
-    for (v, normal, last) in cases {
-        let split = Split {
-            vertex: VertexId::new(v).expect("a number"),
-            plane: Plane::new(places[v], normal).expect("a plane"),
-        };
-        for (name, new) in &IMPLEMENTATIONS[1..] {
-            let mut implementation = new(&mesh);
-            implementation.split(&split, &places);
-            let most = implementation.indices().iter().max().copied();
-            assert_eq!(most, Some(last), "{name} at {v}");
-        }
     }
 }

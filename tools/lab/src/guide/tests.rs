@@ -2,14 +2,14 @@
 
 use super::*;
 use crate::experiment::workers;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::experiment::{Chart, Provenance, conduct};
 
 fn guide() -> Guide {
     Guide::new(8, 2, 2)
 }
 
 #[test]
-fn page_has_all_topics_and_survives_a_file() {
+fn page_has_all_topics_and_errors_by_hand() {
     let bounds = Bounds {
         clock: None,
         stop: &|| false,
@@ -18,11 +18,8 @@ fn page_has_all_topics_and_survives_a_file() {
     let (rows, done) = conduct(&guide, workers(), &bounds, |_| {});
     let planned = guide.plan().concat().len();
     assert_eq!((done, rows.len()), (planned, planned));
-    let read: Vec<Row> = read_table(&table(&rows).expect("a table")).expect("the same table");
-    assert_eq!(read, rows);
     let figure = guide.figure(&rows, &Provenance::default());
     assert_eq!(figure.panels.len(), 6);
-    assert!(!crate::plot::svg(&figure).contains("NaN"));
     // What the references do not know recommends nothing.
     let unknown = |summary: String| summary.matches("not known, as the references").count();
     let mut apart = rows.clone();
@@ -49,19 +46,6 @@ fn page_has_all_topics_and_survives_a_file() {
         assert!(error(method) < 1e-3, "{method}: {}", error(method));
     }
     assert!(error("xpbd") > 0.1, "{}", error("xpbd"));
-}
-
-#[test]
-fn an_interrupted_page_has_a_row_for_each_run() {
-    let bounds = Bounds {
-        clock: None,
-        stop: &|| true,
-    };
-    let (rows, done) = conduct(&guide(), workers(), &bounds, |_| {});
-    let planned = guide().plan().concat().len();
-    assert_eq!((done, rows.len()), (0, planned));
-    let mut rows = rows.iter();
-    assert!(rows.all(|row| row.status == Status::Interrupted));
 }
 
 #[test]

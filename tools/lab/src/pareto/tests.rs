@@ -1,14 +1,13 @@
-//! Cases with known answers, the fronts of a record, and tables that do not depend on threads.
+//! Cases with known answers, and the fronts of a record.
 
 use std::fs;
-use std::num::NonZero;
 use std::path::Path;
 
 use tearmesh::Point;
 
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table, workers};
-use crate::method::{Family, METHODS, STEP_FRACTIONS};
+use crate::experiment::{conduct, workers};
+use crate::method::Family;
 use crate::reference::Reference;
 use crate::sheet::Sheet;
 
@@ -150,55 +149,6 @@ fn options(scenes: &[&str], cells: u32) -> Options {
     }
 }
 
-fn made(options: Options, threads: NonZero<usize>) -> Vec<Row> {
-    conduct(&Pareto::new(options), threads, &UNBOUNDED, |_| {}).0
-}
-
-#[test]
-fn table_and_figure_do_not_depend_on_threads_and_survive_a_file() {
-    let options = Options {
-        stiffness_n_per_m: vec![1e3, 1e4],
-        ..options(&["swing", "crushed"], 3)
-    };
-    let experiment = Pareto::new(options.clone());
-    let one = NonZero::<usize>::MIN;
-    let rows = made(options.clone(), one.saturating_add(1));
-    let text = table(&rows).expect("a table");
-    assert_eq!(text, table(&made(options, one)).expect("a table"));
-    let read: Vec<Row> = read_table(&text).expect("the same table");
-    assert_eq!(read, rows);
-    let figure = |rows: &[Row]| crate::plot::svg(&experiment.figure(rows, &Provenance::default()));
-    assert_eq!(figure(&read), figure(&rows));
-    // No run is left out, however it ended.
-    let runs = METHODS.len() * STEP_FRACTIONS.len() + 5;
-    for case in rows.chunk_by(|a, b| a.case() == b.case()) {
-        let mut names: Vec<&str> = case
-            .iter()
-            .filter(|row| row.family.is_some())
-            .map(|row| row.run.as_str())
-            .collect();
-        names.dedup();
-        assert_eq!(names.len(), runs);
-        assert!(case.iter().any(|row| row.status == Status::Refused));
-    }
-    assert_eq!(rows.chunk_by(|a, b| a.case() == b.case()).count(), 4);
-}
-
-#[test]
-fn an_interrupted_table_has_a_row_for_each_run() {
-    let stop = || true;
-    let bounds = Bounds {
-        stop: &stop,
-        ..UNBOUNDED
-    };
-    let experiment = Pareto::new(options(&["swing"], 4));
-    let (rows, done) = conduct(&experiment, workers(), &bounds, |_| {});
-    let planned = experiment.plan().concat().len();
-    assert_eq!((done, rows.len()), (0, planned));
-    let mut rows = rows.iter();
-    assert!(rows.all(|row| row.status == Status::Interrupted && row.cost().is_none()));
-}
-
 /// The runs on each front by visits of edges, which are the same on every machine. So a change of a method
 /// that moves one has to say so. With `TEARMESH_BLESS` set, the record is written anew.
 #[test]
@@ -206,7 +156,8 @@ fn fronts_are_those_of_the_record() {
     let scenes = ["hang", "swing", "sliver", "taut", "strip"];
     let meshes = MeshKind::ALL.to_vec();
     let options = options(&scenes, 5);
-    let rows = made(Options { meshes, ..options }, workers());
+    let experiment = Pareto::new(Options { meshes, ..options });
+    let (rows, _) = conduct(&experiment, workers(), &UNBOUNDED, |_| {});
     let mut found = String::new();
     for group in chart::groups(&rows) {
         if group.floor.is_some() {

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::experiment::workers;
-use crate::experiment::{Chart, Provenance, conduct, read_table, table};
+use crate::experiment::{Chart, Provenance, conduct};
 
 fn tear(strips: &[u32], seeds: u64) -> Tear {
     Tear {
@@ -43,19 +43,6 @@ fn largest_force_is_proportional_to_the_edge_by_stretch_and_less_by_toughness() 
     );
 }
 
-#[test]
-fn table_and_figure_have_a_row_for_every_run_and_survive_a_file() {
-    let rows = made(&[4, 6], 2);
-    let runs = rows.iter().filter(|row| row.rule.is_none());
-    assert_eq!(runs.count(), 2 * 3 * 2);
-    let read: Vec<Row> = read_table(&table(&rows).expect("a table")).expect("the same table");
-    assert_eq!(read, rows);
-    let experiment = tear(&[4, 6], 2);
-    let figure = |rows: &[Row]| crate::plot::svg(&experiment.figure(rows, &Provenance::default()));
-    assert_eq!(figure(&read), figure(&rows));
-    assert!(!figure(&read).contains("NaN"));
-}
-
 /// Slopes by hand: forces that are proportional to the length of edges, or to its root, or nearly the same.
 #[test]
 fn title_says_that_toughness_depends_less_on_the_mesh_only_if_it_does() {
@@ -83,18 +70,6 @@ fn title_says_that_toughness_depends_less_on_the_mesh_only_if_it_does() {
         much.contains("+0.75 by toughness)") && !much.contains("less"),
         "{much}"
     );
-}
-
-#[test]
-fn interrupted_keys_are_rows_with_that_status() {
-    let bounds = Bounds {
-        clock: None,
-        stop: &|| true,
-    };
-    let (rows, done) = conduct(&tear(&[4, 6], 2), workers(), &bounds, |_| {});
-    assert_eq!((done, rows.len()), (0, 4 + 12));
-    let mut rows = rows.iter();
-    assert!(rows.all(|row| row.status == Status::Interrupted));
 }
 
 /// Sixteen runs by a method at each step, whose torn lengths are around these medians.
