@@ -12,13 +12,10 @@ pub(super) fn write_number(out: &mut Vec<u8>, number: f64) {
     }
     let mut buffer = ryu::Buffer::new();
     let digits = buffer.format_finite(number);
-    match digits.split_once('e') {
-        None => out.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes()),
-        Some((mantissa, exponent)) if (1e-7..1e21).contains(&size) => {
-            let exponent = exponent.parse().expect("an exponent is a whole number");
-            write_decimal(out, mantissa, exponent);
-        }
-        Some(_) => out.extend_from_slice(digits.as_bytes()),
+    if digits.contains('e') && (1e-7..1e21).contains(&size) {
+        out.extend_from_slice(number.to_string().as_bytes()); // Slower, and rare.
+    } else {
+        out.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
     }
 }
 
@@ -36,30 +33,6 @@ pub(super) fn write_integer(out: &mut Vec<u8>, mut number: u64) {
         }
     }
     out.extend_from_slice(&digits[start..]);
-}
-
-/// Appends `-1.25e-7` as `-0.000000125`, and `1.25e17` as `125000000000000000`.
-fn write_decimal(out: &mut Vec<u8>, mantissa: &str, exponent: i32) {
-    let unsigned = mantissa.strip_prefix('-').unwrap_or(mantissa);
-    if unsigned.len() < mantissa.len() {
-        out.push(b'-');
-    }
-    let digits: Vec<u8> = unsigned.bytes().filter(|&byte| byte != b'.').collect();
-    // The mantissa has one digit before its point.
-    if exponent < 0 {
-        out.extend_from_slice(b"0.");
-        out.resize(out.len() + (-exponent - 1) as usize, b'0');
-        out.extend_from_slice(&digits);
-    } else {
-        let whole = exponent as usize + 1;
-        out.extend_from_slice(&digits[..whole.min(digits.len())]);
-        if digits.len() <= whole {
-            out.resize(out.len() + whole - digits.len(), b'0');
-        } else {
-            out.push(b'.');
-            out.extend_from_slice(&digits[whole..]);
-        }
-    }
 }
 
 #[cfg(test)]
