@@ -39,7 +39,7 @@ mod work;
 
 use proptest::test_runner::Config;
 use tearmesh::{Mesh, Positions};
-use tearmesh_obj::Document;
+use tearmesh_obj::{Document, TornDocument};
 
 /// The settings of every property: no files are written for cases that fail (a find becomes a test of its own).
 fn properties() -> Config {
@@ -66,7 +66,7 @@ fn positions(document: &Document) -> Positions {
 /// Writes a document as a mesh.
 fn write_as(document: &Document, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
     let mut out = Vec::new();
-    document
+    TornDocument::new(document)
         .write(mesh, positions, &mut out)
         .expect("memory can be written");
     out

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 
 use tearmesh::{Mesh, Positions};
-use tearmesh_obj::Document;
+use tearmesh_obj::{Document, TornDocument};
 
 use crate::measure::{Contestant, contest, timed};
 use crate::options::Options;
@@ -47,7 +47,7 @@ impl Model {
 
     fn written(&self) -> Vec<u8> {
         let mut out = Vec::new();
-        self.document
+        TornDocument::new(&self.document)
             .write(&self.mesh, &self.positions, &mut out)
             .expect("memory takes all");
         out

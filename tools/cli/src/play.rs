@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use tearmesh_obj::TornDocument;
 use tearmesh_view::PlayPage;
 
 use crate::args::PlayArgs;
@@ -55,8 +56,8 @@ fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
         return Err(Fault::error("E-VIEW-EMPTY", "there is no cloth to play with").into());
     }
     let mut bytes = Vec::new();
-    let document = &opened.document;
-    let written = document.write(&opened.mesh, &opened.positions, &mut bytes);
+    let torn = TornDocument::new(&opened.document);
+    let written = torn.write(&opened.mesh, &opened.positions, &mut bytes);
     written.expect("memory takes all that is written");
     Ok(bytes)
 }

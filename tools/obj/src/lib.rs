@@ -2,19 +2,19 @@
 //! silently.
 //!
 //! A [`Document`] is a whole OBJ file in memory. It provides the triangles and positions from which
-//! a [`tearmesh::Mesh`] is built. After any number of vertex splits it writes the file again, with
-//! the torn faces in place of the old ones and everything else unchanged. A [`TornDocument`] follows
-//! the log of the mesh. It also writes inserted vertices and divided faces, and it records which cut
-//! made each tear, so that another session can undo the cuts one by one.
+//! a [`tearmesh::Mesh`] is built. A [`TornDocument`] follows the log of the mesh, and writes the file
+//! again, with the torn faces in place of the old ones and everything else unchanged. It records which
+//! cut made each tear, so that another session can undo the cuts one by one.
 //!
 //! ```
 //! use tearmesh::{Edits, FaceId, Positions, VertexId, split};
-//! use tearmesh_obj::Document;
+//! use tearmesh_obj::{Document, TornDocument};
 //!
 //! let file = b"o flag\nv 0 0 0\nv 1 0 0 # corner\nv 0 1 0\nv 1 1 0\nvt 0.5\nf 1/1 2/1 3/1\nf 3 2 4\n";
 //! let document = Document::read(&file[..])?;
 //! let mut mesh = document.mesh()?;
 //! let mut positions = Positions::new(document.positions().iter().copied())?;
+//! let mut torn = TornDocument::new(&document);
 //!
 //! // Tear the second face off the first, at both ends of their common edge.
 //! let mut edits = Edits::new();
@@ -22,10 +22,10 @@
 //!     let v = VertexId::new(v).expect("small");
 //!     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
 //! }
-//! edits.replay(&mut positions);
+//! edits.replay(&mut (&mut positions, &mut torn));
 //!
 //! let mut out = Vec::new();
-//! let summary = document.write(&mesh, &positions, &mut out)?;
+//! let summary = torn.write(&mesh, &positions, &mut out)?;
 //! assert_eq!((summary.vertices, summary.faces), (6, 2));
 //! assert_eq!(
 //!     String::from_utf8(out.clone())?,

@@ -26,30 +26,17 @@ pub(crate) struct Added {
 /// The statements of a kind in the order of writing.
 #[derive(Debug)]
 pub(crate) struct Order {
-    /// The number in the file of each element, from 0. `None` if
-    /// every statement of the document is written, nothing is added, and numbers stay.
-    numbers: Option<Vec<u32>>,
-    /// The element that each statement of the document is, or [`NONE`]; `None` if each is the element
-    /// of its number.
-    elements: Option<Vec<u32>>,
+    /// The number in the file of each element, from 0.
+    numbers: Vec<u32>,
+    /// The element that each statement of the document is, or [`NONE`].
+    elements: Vec<u32>,
     /// In the order of writing.
     added: Vec<Added>,
-    count: usize,
 }
 
 const NONE: u32 = u32::MAX;
 
 impl Order {
-    /// The order of `count` statements of a document, with nothing added or left out.
-    pub(crate) fn of_document(count: usize) -> Order {
-        Order {
-            numbers: None,
-            elements: None,
-            added: Vec::new(),
-            count,
-        }
-    }
-
     /// The order of elements with these turns, in a document with a given number of statements.
     pub(crate) fn new(statements: usize, turns: impl Iterator<Item = Turn>) -> Order {
         let mut elements = vec![NONE; statements];
@@ -68,38 +55,31 @@ impl Order {
         }
         added.sort_unstable();
         let mut order = Order {
-            numbers: None,
-            elements: Some(elements),
+            numbers: vec![NONE; count],
+            elements,
             added,
-            count,
         };
-        let mut numbers = vec![NONE; count];
         for (element, number) in order.in_order().into_iter().zip(0..) {
-            numbers[element as usize] = number;
+            order.numbers[element as usize] = number;
         }
-        order.numbers = Some(numbers);
         order
     }
 
     /// How many are written.
     pub(crate) fn count(&self) -> usize {
-        self.count
+        self.numbers.len()
     }
 
     /// The number in the file of an element that is written, from 0.
     #[inline]
     pub(crate) fn number(&self, element: u32) -> u32 {
-        let numbers = self.numbers.as_ref();
-        numbers.map_or(element, |numbers| numbers[element as usize])
+        self.numbers[element as usize]
     }
 
     /// The element that a statement of the document is, if it is written.
     #[inline]
     pub(crate) fn element(&self, statement: u32) -> Option<u32> {
-        let Some(elements) = &self.elements else {
-            return Some(statement);
-        };
-        Some(elements[statement as usize]).filter(|&element| element != NONE)
+        Some(self.elements[statement as usize]).filter(|&element| element != NONE)
     }
 
     /// What is added, in the order of writing.
@@ -109,12 +89,9 @@ impl Order {
 
     /// The elements, in the order of writing.
     pub(crate) fn in_order(&self) -> Vec<u32> {
-        let Some(elements) = &self.elements else {
-            return (0..self.count as u32).collect();
-        };
-        let mut order = Vec::with_capacity(self.count);
+        let mut order = Vec::with_capacity(self.count());
         let mut left = self.added.iter().peekable();
-        for (&element, statement) in elements.iter().zip(0..) {
+        for (&element, statement) in self.elements.iter().zip(0..) {
             while let Some(first) = left.next_if(|first| first.behind <= statement) {
                 order.push(first.element);
             }

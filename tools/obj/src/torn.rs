@@ -18,8 +18,8 @@ pub(crate) use self::turns::Turns;
 use std::borrow::Cow;
 
 use tearmesh::{
-    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mesh, Mix, Point,
-    Positions, Slide, VertexId, VertexOp, mend::Stitch,
+    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mesh, Point,
+    Positions, Slide, VertexId, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
@@ -88,11 +88,11 @@ pub struct TornDocument<'d> {
     ancestry: Ancestry,
     extras: Extras,
     /// What was inserted, by class, ascending: vertices are classes.
-    inserted: Vec<Inserted>,
+    pub(crate) inserted: Vec<Inserted>,
     /// What became of faces, and of their corners.
     pub(crate) corners: Corners<'d>,
-    /// Divided faces.
-    families: Families,
+    /// Divided faces, by faces of the mesh and classes.
+    pub(crate) families: Families,
     /// Vertices that slid, by the nodes of the ancestry.
     slides: Vec<Slid>,
     /// Where vertices are if nothing but the log moves them.
@@ -121,24 +121,6 @@ impl<'d> TornDocument<'d> {
             places: Cow::Borrowed(&document.positions),
             shown: record.and_then(|record| shown(document, record)),
         }
-    }
-
-    /// The document with this mesh, which is its own after splits that were not followed.
-    pub(crate) fn after_splits(document: &'d Document, mesh: &Mesh) -> TornDocument<'d> {
-        let mut torn = TornDocument::new(document);
-        let triangles = document.triangles().as_flattened();
-        if mesh.vertex_count() > document.positions.len() {
-            torn.shown = None; // Nobody knows where the new ones stand.
-        }
-        for new in mesh.vertices().skip(document.positions.len()) {
-            // A split only moves corners, so all of these were of one vertex.
-            let corner = mesh.half_edge_of(new).expect("a new vertex has a face");
-            let old = VertexId::new(triangles[corner.index()] as usize).expect("I1: ids fit");
-            let from = Mix::Copy(old);
-            torn.extras.apply(VertexOp::Push { new, from });
-            torn.split(old.index());
-        }
-        torn
     }
 
     /// Sets the position in the mesh's log at which the mesh was that of the document. Edits before it
@@ -171,7 +153,7 @@ impl<'d> TornDocument<'d> {
     /// Returns the numbers of the cuts that still hold vertices apart, in ascending order.
     #[must_use]
     pub fn cuts(&self) -> Vec<u32> {
-        let split_off = self.split_off(|v| v);
+        let split_off = self.ancestry.split_off(|v| v);
         let mut cuts: Vec<u32> = split_off.iter().map(|split| split.cut).collect();
         cuts.sort_unstable();
         cuts.dedup();
@@ -211,7 +193,7 @@ impl<'d> TornDocument<'d> {
     pub fn stitches_of_last(&self, cuts: usize) -> Vec<Stitch> {
         let all = self.cuts();
         let last = &all[all.len().saturating_sub(cuts)..];
-        let split_off = self.split_off(|v| v).into_iter();
+        let split_off = self.ancestry.split_off(|v| v).into_iter();
         let of_last = split_off.filter(|split| last.contains(&split.cut));
         of_last
             .filter_map(|split| {
@@ -334,19 +316,19 @@ impl<'d> TornDocument<'d> {
         );
     }
 
-    fn split(&mut self, old: usize) {
-        self.ancestry.split(old, self.cut);
-        self.cut_is_used = true;
-    }
-
     fn insert(&mut self, insert: &Insert<'_>) {
         if insert.points.is_empty() {
             return;
         }
         let mut before: Option<&InsertedPoint> = None;
+        let mut distances = None;
         for point in insert.points {
-            match before.and_then(|twin| self.apart_as_twins(twin, point)) {
-                Some(cut) => {
+            match before.and_then(|twin| self.nodes_of_twins(twin, point)) {
+                Some(sides) => {
+                    // The two sides of a torn edge are apart since the older cut at its ends.
+                    let distances = distances.get_or_insert_with(|| self.ancestry.distances());
+                    let since = sides.map(|[one, other]| distances.apart_since(one, other));
+                    let cut = since[0].min(since[1]);
                     self.ancestry.split(self.ancestry.len() - 1, cut);
                     before = None;
                 }
@@ -408,9 +390,9 @@ impl<'d> TornDocument<'d> {
         }
     }
 
-    /// The cut since which the two sides of a torn edge are apart, if these two points are on
-    /// both sides of one: the same place of an edge between the same roots.
-    fn apart_as_twins(&mut self, one: &InsertedPoint, other: &InsertedPoint) -> Option<u32> {
+    /// The nodes of the vertices on both sides of a torn edge, at each of its ends, if these two points are
+    /// on both sides of one: the same place of an edge between the same roots.
+    fn nodes_of_twins(&self, one: &InsertedPoint, other: &InsertedPoint) -> Option<[[u32; 2]; 2]> {
         let (InsertLocation::Edge { ends, t }, InsertLocation::Edge { ends: others, t: u }) =
             (one.at, other.at)
         else {
@@ -418,25 +400,13 @@ impl<'d> TornDocument<'d> {
         };
         let sides = [0, 1].map(|end| [ends[end], others[end]].map(VertexId::index));
         let same = |[a, b]: [usize; 2]| self.ancestry.class(a) == self.ancestry.class(b);
-        if t != u || !sides.into_iter().all(same) {
-            return None;
-        }
-        let since = sides.map(|[a, b]| self.ancestry.apart_since(a, b));
-        Some(since[0].min(since[1]))
+        let are_twins = t == u && sides.into_iter().all(same);
+        are_twins.then(|| sides.map(|side| side.map(|v| self.ancestry.node(v))))
     }
 
     /// What the `v` of a vertex has behind z.
     pub(crate) fn extra_numbers(&self, vertex: usize) -> &[f64] {
         self.extras.row(vertex)
-    }
-
-    /// What was split off, by these numbers of the vertices.
-    pub(crate) fn split_off(&self, number: impl Fn(u32) -> u32) -> Vec<SplitOff> {
-        if self.ancestry.is_whole() {
-            return Vec::new();
-        }
-        // Looking up shortens the ways to what was merged, which does not show.
-        self.ancestry.clone().split_off(number)
     }
 }
 
@@ -474,7 +444,8 @@ impl Follower for TornDocument<'_> {
                     self.ancestry.len(),
                     "the document is in step with the mesh"
                 );
-                self.split(split.old.index());
+                self.ancestry.split(split.old.index(), self.cut);
+                self.cut_is_used = true;
             }
             Edit::Insert(insert) => self.insert(insert),
             Edit::Merge(merge) => self.ancestry.merge(merge.kept.index(), merge.gone.index()),
@@ -485,16 +456,11 @@ impl Follower for TornDocument<'_> {
 
 /// What is known of the faces and vertices, in terms of the mesh.
 impl TornDocument<'_> {
-    /// Divided faces, by faces of the mesh and classes.
-    pub(crate) fn families(&self) -> &Families {
-        &self.families
-    }
-
     /// Vertices that slid, by their ids as they are now.
     pub(crate) fn slides(&self) -> Vec<Slid> {
         let mut slides = self.slides.clone();
         if !slides.is_empty() {
-            let vertices = self.ancestry.clone().vertices_of_nodes();
+            let vertices = self.ancestry.vertices_of_nodes();
             for slid in &mut slides {
                 slid.vertex = vertices[slid.vertex as usize];
             }
@@ -502,8 +468,9 @@ impl TornDocument<'_> {
         slides
     }
 
-    pub(crate) fn inserted(&self) -> &[Inserted] {
-        &self.inserted
+    /// What was split off, by these numbers of the vertices.
+    pub(crate) fn split_off(&self, number: impl Fn(u32) -> u32) -> Vec<SplitOff> {
+        self.ancestry.split_off(number)
     }
 
     /// The vertex of each class that comes first in an order; `u32::MAX` where there is none.
@@ -524,11 +491,6 @@ impl TornDocument<'_> {
         let known = |&statement: &u32| (statement as usize) < self.document.positions.len();
         let origin = Some(home).filter(known).or(Some(class).filter(known));
         origin.map(|statement| statement as usize)
-    }
-
-    /// Whether nothing that is written has changed, but for numbers.
-    pub(crate) fn is_untouched(&self) -> bool {
-        self.ancestry.is_whole() && self.corners.is_undivided()
     }
 
     /// Whether a texture coordinate (0) or a normal (1) was inserted.

@@ -63,41 +63,6 @@ pub struct WriteSummary {
     pub unspoken: usize,
 }
 
-impl Document {
-    /// Writes the document with the faces of `mesh` and its vertices at `positions`. If the mesh is
-    /// torn, a record of its tears is added at the end.
-    ///
-    /// The mesh must be that of [`Document::mesh`] after any number of splits, which are recorded
-    /// as a single cut. After any split, all vertices are written at their true positions.
-    /// Insertions, merges, and cuts that should be undone one by one need a [`TornDocument`].
-    ///
-    /// # Errors
-    ///
-    /// Any I/O error of `out`.
-    ///
-    /// # Panics
-    ///
-    /// If the mesh does not have as many faces as the document has triangles, if it has fewer
-    /// vertices than the document, or if the number of positions is not its number of vertices.
-    pub fn write(
-        &self,
-        mesh: &Mesh,
-        positions: &Positions,
-        out: &mut impl Write,
-    ) -> io::Result<WriteSummary> {
-        assert_eq!(
-            mesh.face_count(),
-            self.triangles().len(),
-            "a split neither adds nor drops a face"
-        );
-        assert!(
-            mesh.vertex_count() >= self.positions.len(),
-            "a split never drops a vertex"
-        );
-        TornDocument::after_splits(self, mesh).write(mesh, positions, out)
-    }
-}
-
 impl TornDocument<'_> {
     /// Writes the document with the faces of `mesh` and its vertices at `positions`. If the mesh is
     /// torn or has divided faces, a record of it is added at the end. Points set by
@@ -130,7 +95,7 @@ impl TornDocument<'_> {
         moves_up: bool,
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
-        let prepared = Prepared::new(self, mesh, self.apart(positions));
+        let prepared = Prepared::new(self, mesh, self.apart(positions), true);
         write(self, &prepared, positions, out, moves_up)
     }
 
@@ -149,7 +114,7 @@ impl TornDocument<'_> {
     /// If `mesh` is not the mesh whose log was followed to its end.
     #[must_use]
     pub fn statements_in_order(&self, mesh: &Mesh) -> Vec<VertexId> {
-        let prepared = Prepared::new(self, mesh, Vec::new());
+        let prepared = Prepared::new(self, mesh, Vec::new(), true);
         let elements = prepared.orders[0].in_order().into_iter();
         let vertices = elements.map(|element| prepared.vertex(element));
         vertices.filter_map(VertexId::new).collect()
@@ -179,13 +144,8 @@ impl TornDocument<'_> {
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
         self.assert_in_step(mesh, positions);
-        write(
-            self,
-            &Prepared::unseparated(self, mesh),
-            positions,
-            out,
-            true,
-        )
+        let prepared = Prepared::new(self, mesh, Vec::new(), false);
+        write(self, &prepared, positions, out, true)
     }
 }
 
@@ -205,7 +165,7 @@ fn write(
         positions,
         moves_up,
         ready: 0,
-        streams: Kind::INDEXED.map(Stream::new),
+        streams: Default::default(),
         hash: Hash::of_faces(vertices),
         out: Output::new(out),
     };
@@ -239,9 +199,8 @@ const TEXTURE: usize = 1;
 const NORMALS: usize = 2;
 
 /// How far the statements of a kind have been written. They may be ahead of the rest.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Stream {
-    kind: Kind,
     /// The number of statements of the document that had their turn.
     done: u32,
     /// How many of those that are added were written, and how many statements in all.
@@ -255,36 +214,30 @@ struct Stream {
 }
 
 impl Stream {
-    fn new(kind: Kind) -> Stream {
-        Stream {
-            kind,
-            done: 0,
-            added: 0,
-            written: 0,
-            run: 0,
-            before: 0,
-            text_before: 0,
-        }
-    }
-
-    /// The next statements to write so that `count` had their turn, and then the run that they
-    /// complete, if they do.
-    fn advance(&mut self, runs: &[Run], count: u32) -> Option<(std::ops::Range<u32>, bool)> {
+    /// The next statements of its kind to write so that `count` had their turn, and whether they complete
+    /// their run.
+    fn advance(
+        &mut self,
+        which: usize,
+        runs: &[Run],
+        count: u32,
+    ) -> Option<(std::ops::Range<u32>, bool)> {
         if self.done >= count {
             return None;
         }
         loop {
             let run = runs.get(self.run)?;
             let end = self.before + run.count;
-            if run.kind == self.kind && self.done < end {
+            let is_own = run.kind as usize == which;
+            if is_own && self.done < end {
                 let first = self.done;
                 self.done = end.min(count);
                 return Some((first..self.done, self.done == end));
             }
-            match run.kind {
-                Kind::Text => self.text_before += run.count as usize,
-                kind if kind == self.kind => self.before = end,
-                _ => {}
+            if is_own {
+                self.before = end;
+            } else if run.kind == Kind::Text {
+                self.text_before += run.count as usize;
             }
             self.run += 1;
         }
@@ -310,11 +263,13 @@ impl<W: Write> Writer<'_, W> {
                 }
                 Kind::Text => {
                     let (lines, rest) = text.split_at(count);
-                    let written = i
-                        .checked_sub(1)
-                        .map_or(0, |before| attached_to(runs[before], lines));
                     text = rest;
-                    self.out.text(&lines[written..])?;
+                    // What is attached to the statements before it was written with these.
+                    let attached = match i.checked_sub(1).map(|before| runs[before].kind) {
+                        Some(Kind::Vertex | Kind::Texture | Kind::Normal) => attached_length(lines),
+                        _ => 0,
+                    };
+                    self.out.text(&lines[attached..])?;
                     continue;
                 }
                 kind => kind as usize,
@@ -340,7 +295,8 @@ impl<W: Write> Writer<'_, W> {
                 continue;
             }
             let count = next.map_or(count, |added| added.behind.min(count));
-            let Some((range, completes_run)) = stream.advance(document.layout.runs(), count) else {
+            let runs = document.layout.runs();
+            let Some((range, completes_run)) = stream.advance(which, runs, count) else {
                 return Ok(());
             };
             let end = range.end;
@@ -380,15 +336,10 @@ impl<W: Write> Writer<'_, W> {
     fn write_attached(&mut self, which: usize, end: u32) -> io::Result<()> {
         let (prepared, stream) = (self.prepared, self.streams[which]);
         let is_gone = which == VERTICES && prepared.orders[VERTICES].element(end - 1).is_none();
-        let runs = self.document.layout.runs();
-        if let Some(&Run {
-            kind: Kind::Text,
-            count,
-            ..
-        }) = runs.get(stream.run + 1)
-        {
-            let lines = &self.document.text[stream.text_before..][..count as usize];
-            let lines = &lines[..attached_to(runs[stream.run], lines)];
+        let next = self.document.layout.runs().get(stream.run + 1);
+        if let Some(text) = next.filter(|next| next.kind == Kind::Text) {
+            let lines = &self.document.text[stream.text_before..][..text.count as usize];
+            let lines = &lines[..attached_length(lines)];
             if is_gone {
                 self.out.text(&without_statements_of_vertex(lines))?;
             } else {
@@ -461,12 +412,4 @@ impl<W: Write> Writer<'_, W> {
 
 fn half_edges(face: u32) -> [u32; 3] {
     [3 * face, 3 * face + 1, 3 * face + 2]
-}
-
-/// How many bytes of the text after a run belong to its last statement.
-fn attached_to(run: Run, lines: &[u8]) -> usize {
-    match run.kind {
-        Kind::Vertex | Kind::Texture | Kind::Normal => attached_length(lines),
-        Kind::Polygon | Kind::Text => 0,
-    }
 }

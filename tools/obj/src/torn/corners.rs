@@ -94,12 +94,6 @@ impl<'d> Corners<'d> {
         self.corners[which].get(half_edge).copied().unwrap_or(NONE)
     }
 
-    /// Whether faces and corners are those of the document.
-    pub(crate) fn is_undivided(&self) -> bool {
-        let is_same = self.face_count() == self.document.triangles().len();
-        is_same && self.new_values.iter().all(|rows| rows.len() == 0)
-    }
-
     pub(crate) fn slots(&self) -> Slots {
         Slots::sorted(&self.slots, self.document.triangles().len())
     }

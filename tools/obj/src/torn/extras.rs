@@ -23,26 +23,19 @@ impl Extras {
     /// Follows an edit. Of two vertices that are merged, the one that is kept keeps its numbers,
     /// whatever the other one has.
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
-        let is_merge = matches!(edit, Edit::Merge(_));
-        for op in edit.vertex_ops() {
-            match op {
-                VertexOp::Set { .. } if is_merge => {}
-                op => self.apply(op),
-            }
-        }
-    }
-
-    /// Follows a part of an edit. Where sources do not have as many numbers as each other, there are
-    /// none between them: a new vertex has none, and one that is set keeps its own.
-    pub(super) fn apply(&mut self, op: VertexOp) {
         if self.0.is_empty() {
             return;
         }
-        let own = match op {
-            VertexOp::Set { at, .. } => self.0[at.index()].clone(),
-            VertexOp::Push { .. } | VertexOp::SwapRemove { .. } => Vec::new(),
-        };
-        op.apply(&mut self.0, |mix| mixed(mix).unwrap_or_else(|| own.clone()));
+        for op in edit.vertex_ops() {
+            // Where sources do not have as many numbers as each other, there are none between them: a new
+            // vertex has none, and one that is set keeps its own.
+            let own = match op {
+                VertexOp::Set { .. } if matches!(edit, Edit::Merge(_)) => continue,
+                VertexOp::Set { at, .. } => self.0[at.index()].clone(),
+                VertexOp::Push { .. } | VertexOp::SwapRemove { .. } => Vec::new(),
+            };
+            op.apply(&mut self.0, |mix| mixed(mix).unwrap_or_else(|| own.clone()));
+        }
     }
 }
 

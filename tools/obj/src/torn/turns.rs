@@ -25,17 +25,9 @@ pub(crate) struct Turns<'t> {
 }
 
 impl<'t> Turns<'t> {
-    /// In sections. Linear in the document.
-    pub(crate) fn in_sections(torn: &'t TornDocument<'t>) -> Turns<'t> {
-        Turns::new(torn, Sections::of(torn.document), false)
-    }
-
-    /// Vertices by id, and all that was added behind what the document has.
-    pub(crate) fn by_id(torn: &'t TornDocument<'t>) -> Turns<'t> {
-        Turns::new(torn, Sections::one(torn.document), true)
-    }
-
-    fn new(torn: &'t TornDocument<'t>, sections: Sections, by_id: bool) -> Turns<'t> {
+    /// In sections, or vertices by id and all that was added behind what the document has. Linear in the
+    /// document.
+    pub(crate) fn new(torn: &'t TornDocument<'t>, by_id: bool) -> Turns<'t> {
         let known = torn.document.positions.len();
         let mut anchors = Vec::with_capacity(torn.ancestry.class_count() - known);
         for inserted in &torn.inserted {
@@ -46,6 +38,10 @@ impl<'t> Turns<'t> {
             let behind = inserted.between.map(|class| anchor(&anchors, known, class));
             anchors.push(behind.into_iter().fold(0, u32::max));
         }
+        let sections = match by_id {
+            false => Sections::of(torn.document),
+            true => Sections::one(torn.document),
+        };
         Turns {
             torn,
             sections,
@@ -54,36 +50,25 @@ impl<'t> Turns<'t> {
         }
     }
 
-    /// The turn of a vertex of the mesh.
-    pub(crate) fn vertex(&self, v: usize) -> Turn {
+    /// The turn of a vertex of the mesh, or of a copy of it, which is written for another fan.
+    pub(crate) fn vertex(&self, v: usize, is_copy: bool) -> Turn {
         let home = match self.by_id {
             false => self.torn.ancestry.node(v),
             true => v as u32,
         };
-        if (home as usize) < self.torn.document.positions.len() {
+        let known = self.torn.document.positions.len();
+        let is_own = (home as usize) < known;
+        if is_own && !is_copy {
             return Turn::Own(home);
         }
-        Turn::Added {
-            behind: self.sections.end(Kind::Vertex, self.anchor(v)),
-            rank: u64::from(home),
-        }
-    }
-
-    /// The turn of a copy of a vertex, which is written for another fan.
-    pub(crate) fn copy(&self, v: usize) -> Turn {
-        let home = self.torn.ancestry.node(v);
-        let is_own = (home as usize) < self.torn.document.positions.len();
-        let anchor = if is_own { home } else { self.anchor(v) };
+        let anchor = match is_own {
+            true => home,
+            false => anchor(&self.anchors, known, self.torn.ancestry.class(v)),
+        };
         Turn::Added {
             behind: self.sections.end(Kind::Vertex, anchor),
-            rank: COPIES + u64::from(home),
+            rank: if is_copy { COPIES } else { 0 } + u64::from(home),
         }
-    }
-
-    /// The statement in whose section a vertex belongs that the document has not.
-    fn anchor(&self, v: usize) -> u32 {
-        let known = self.torn.document.positions.len();
-        anchor(&self.anchors, known, self.torn.ancestry.class(v))
     }
 
     /// The turn of a texture coordinate or a normal.

@@ -137,7 +137,7 @@ impl<'t> PieceWriter<'t> {
         for library in &self.libraries {
             out.text(library)?;
         }
-        let separated = Separated::new(piece.mesh(), None);
+        let separated = Separated::new(piece.mesh(), u32::from);
         let copies = separated.copies.iter().copied();
         for v in piece.mesh().vertices().chain(copies) {
             let source = piece.vertices()[v.index()];

@@ -27,39 +27,27 @@ pub(crate) struct Prepared<'m> {
 }
 
 impl<'m> Prepared<'m> {
-    /// Linear, but for what is torn.
-    pub(crate) fn new(torn: &TornDocument<'_>, mesh: &'m Mesh, apart: Vec<Apart>) -> Prepared<'m> {
-        let is_divided = !torn.corners.is_undivided();
-        let rank = is_divided.then(|| torn.corners.slots().ranks());
-        let separated = Separated::new(mesh, rank.as_deref());
-        let is_same = torn.is_untouched() && separated.copies.is_empty();
-        let turns = (!is_same).then(|| Turns::in_sections(torn));
-        Prepared::in_turn(torn, mesh, separated, apart, turns)
-    }
-
-    /// What is written with one vertex for each of the mesh, in the order of their ids.
-    pub(crate) fn unseparated(torn: &TornDocument<'_>, mesh: &'m Mesh) -> Prepared<'m> {
-        let separated = Separated::none(mesh);
-        Prepared::in_turn(torn, mesh, separated, Vec::new(), Some(Turns::by_id(torn)))
-    }
-
-    /// What is written in these turns; without any, the statements of the document.
-    fn in_turn(
+    /// What is written with a vertex for each fan, in sections; or with one vertex for each of the mesh, in
+    /// the order of their ids. Linear, but for what is torn.
+    pub(crate) fn new(
         torn: &TornDocument<'_>,
         mesh: &'m Mesh,
-        separated: Separated<'m>,
         apart: Vec<Apart>,
-        turns: Option<Turns<'_>>,
+        is_separated: bool,
     ) -> Prepared<'m> {
-        let document = torn.document();
+        let slots = torn.corners.slots();
+        let separated = match is_separated {
+            true => {
+                let ranks = slots.ranks();
+                Separated::new(mesh, |face| ranks[face.index()])
+            }
+            false => Separated::none(mesh),
+        };
         let mut prepared = Prepared {
-            slots: torn.corners.slots(),
+            slots,
             mesh_vertices: mesh.vertex_count(),
             apart,
-            orders: match turns {
-                None => document.counts().map(Order::of_document),
-                Some(turns) => orders(torn, &turns, &separated),
-            },
+            orders: orders(torn, &Turns::new(torn, !is_separated), &separated),
             separated,
             record: None,
         };
@@ -100,16 +88,12 @@ impl<'m> Prepared<'m> {
         let number = |v: u32| self.orders[0].number(v);
         let roots = torn.roots_of_classes(number);
         let root = |class: u32| number(roots[class as usize]);
-        let inserted = torn.inserted().iter();
+        let inserted = torn.inserted.iter();
         let mut inserted: Vec<Inserted> = inserted.map(|one| one.renumbered(root)).collect();
         inserted.sort_unstable_by_key(|inserted| inserted.vertex);
-        let families = torn.families();
-        let of_faces = self
-            .slots
-            .faces
-            .iter()
-            .map(|&face| families.of(face as usize));
-        let mut families = families.of_faces(of_faces, |_| true);
+        let faces = self.slots.faces.iter();
+        let of_faces = faces.map(|&face| torn.families.of(face as usize));
+        let mut families = torn.families.of_faces(of_faces, |_| true);
         families.renumber(root);
         let mut apart = self.apart.clone();
         for apart in &mut apart {
@@ -161,8 +145,9 @@ impl<'m> Prepared<'m> {
 /// The orders of vertices, texture coordinates and normals.
 fn orders(torn: &TornDocument<'_>, turns: &Turns<'_>, separated: &Separated<'_>) -> [Order; 3] {
     let document = torn.document();
-    let vertices = (0..torn.vertex_count()).map(|v| turns.vertex(v));
-    let copies = separated.copies.iter().map(|v| turns.copy(v.index()));
+    let vertices = (0..torn.vertex_count()).map(|v| turns.vertex(v, false));
+    let copies = separated.copies.iter();
+    let copies = copies.map(|v| turns.vertex(v.index(), true));
     let [textures, normals] = torn.corners.counts();
     let texture = (0..textures).map(|index| turns.index(Kind::Texture, index));
     let normal = (0..normals).map(|index| turns.index(Kind::Normal, index));

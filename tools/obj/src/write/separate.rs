@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use tearmesh::{HalfEdgeId, Mesh, VertexId};
+use tearmesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// The faces of a mesh in which no vertex has several fans.
 #[derive(Debug)]
@@ -22,15 +22,11 @@ impl<'m> Separated<'m> {
         }
     }
 
-    /// The fans of a vertex are told apart by their first corner in the file, where faces have
-    /// these ranks, or those of their ids.
+    /// The fans of a vertex are told apart by their first corner in the file, where faces have these ranks.
     ///
     /// Linear in the half-edges; copies nothing where no vertex has several fans.
-    pub(super) fn new(mesh: &'m Mesh, rank: Option<&[u32]>) -> Separated<'m> {
-        let place = |h: &HalfEdgeId| {
-            let face = h.face().index();
-            (rank.map_or(face, |rank| rank[face] as usize), h.corner())
-        };
+    pub(super) fn new(mesh: &'m Mesh, rank: impl Fn(FaceId) -> u32) -> Separated<'m> {
+        let place = |h: &HalfEdgeId| (rank(h.face()), h.corner());
         let mut indices = Cow::Borrowed(mesh.indices());
         let mut copies = Vec::new();
         for vertex in starts_of_tears(mesh) {
