@@ -151,8 +151,9 @@ impl Document {
         self.layout.line_of_polygon(self.polygon_of(triangle))
     }
 
-    /// Returns the line of the file, counted from 1, on which the `v` statement of a vertex begins.
-    /// Intended for messages: takes time linear in the number of runs of statements of one kind.
+    /// Returns the line of the file, counted from 1, on which the `v` statement of a vertex begins. Copies
+    /// that [`Document::repaired`] added stand on the line of the last `v`. Intended for messages: takes
+    /// time linear in the number of runs of statements of one kind.
     ///
     /// # Panics
     ///

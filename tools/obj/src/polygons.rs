@@ -1,6 +1,6 @@
 //! The polygons of a file, as the file has them.
 
-use crate::store::{Column, push};
+use crate::store::{Column, partition_point, push};
 
 /// The faces as the file has them, corner by corner.
 #[derive(Clone, Debug, Default)]
@@ -80,16 +80,8 @@ impl Polygons {
 
     /// The polygon that a triangle is a part of.
     pub(crate) fn of_triangle(&self, triangle: usize) -> usize {
-        let (mut low, mut high) = (0, self.len());
-        while high - low > 1 {
-            let middle = low.midpoint(high);
-            if self.triangles(middle).start <= triangle {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        low
+        let starts_before = |polygon| self.triangles(polygon).start <= triangle;
+        partition_point(self.len(), starts_before) - 1
     }
 
     /// Whether every polygon is a triangle.

@@ -108,22 +108,10 @@ impl Reader {
     #[inline(always)]
     fn statement(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
         match scan.line.bytes {
-            [b'f', b' ', rest @ ..] => {
-                scan.rest = rest;
-                self.face(scan)?;
-            }
-            [b'v', b' ', rest @ ..] => {
-                scan.rest = rest;
-                self.vertex(scan)?;
-            }
-            [b'v', b't', b' ', rest @ ..] => {
-                scan.rest = rest;
-                self.texture(scan)?;
-            }
-            [b'v', b'n', b' ', rest @ ..] => {
-                scan.rest = rest;
-                self.normal(scan)?;
-            }
+            [b'f', b' ', ..] => self.face(scan.behind(2))?,
+            [b'v', b' ', ..] => self.vertex(scan.behind(2))?,
+            [b'v', b't', b' ', ..] => self.texture(scan.behind(3))?,
+            [b'v', b'n', b' ', ..] => self.normal(scan.behind(3))?,
             _ => {
                 *scan = self.unusual_statement(*scan)?;
                 return Ok(());
@@ -179,7 +167,6 @@ impl Reader {
             return Err(self.no_face());
         }
         self.record.finish(&mut self.document);
-        self.document.shrink();
         self.document.triangulate();
         self.tally.report(&mut self.document.diagnostics);
         Ok(self.document)
@@ -211,20 +198,6 @@ impl Reader {
 }
 
 impl Document {
-    /// Gives back memory that was reserved and is not needed.
-    pub(crate) fn shrink(&mut self) {
-        self.polygons.vertices.shrink_to_fit();
-        self.polygons.texture.shrink();
-        self.polygons.normals.shrink();
-        self.polygons.starts.shrink_to_fit();
-        self.positions.shrink_to_fit();
-        self.extras.shrink();
-        self.texture.shrink();
-        self.normals.shrink_to_fit();
-        self.layout.shrink();
-        self.text.shrink_to_fit();
-    }
-
     /// Cuts polygons into triangles, and says so.
     pub(crate) fn triangulate(&mut self) {
         if self.polygons.all_triangles() {

@@ -9,7 +9,7 @@
 use tearmesh::Point;
 
 use crate::families::Families;
-use crate::store::push;
+use crate::store::{partition_point, push};
 
 /// How the first and the last line of a record begin, and those between.
 pub(crate) const HEADER: &[u8] = b"#tearmesh record";
@@ -154,10 +154,15 @@ pub(crate) struct Apart {
     pub(crate) shown: Point,
 }
 
+/// Whether numbers are the same to the bit.
+pub(crate) fn are_same(some: &[f64], others: &[f64]) -> bool {
+    let [some, others] = [some, others].map(|numbers| numbers.iter().map(|x| x.to_bits()));
+    some.eq(others)
+}
+
 /// Whether two points are the same to the bit.
 pub(crate) fn is_same_point(one: Point, other: Point) -> bool {
-    let bits = |p: Point| [p.x, p.y, p.z].map(f64::to_bits);
-    bits(one) == bits(other)
+    are_same(one.coords.as_slice(), other.coords.as_slice())
 }
 
 impl Record {
@@ -173,16 +178,8 @@ impl Record {
     /// The number in the file of a vertex, from 0: copies come between.
     pub(crate) fn number(&self, vertex: usize) -> usize {
         // Before a copy there are as many vertices as its number less the copies before it.
-        let (mut before, mut behind) = (0, self.copies.len());
-        while before < behind {
-            let middle = before.midpoint(behind);
-            if self.copies[middle][0] as usize - middle <= vertex {
-                before = middle + 1;
-            } else {
-                behind = middle;
-            }
-        }
-        vertex + before
+        let is_before = |copy: usize| self.copies[copy][0] as usize - copy <= vertex;
+        vertex + partition_point(self.copies.len(), is_before)
     }
 
     /// The vertex that has a number in the file, from 0, or that a copy is.

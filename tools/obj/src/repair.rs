@@ -25,7 +25,7 @@ use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::polygons::Polygons;
 use crate::read::text::attached_length;
-use crate::store::{Kind, Layout, push};
+use crate::store::{Kind, push};
 
 /// How many repairs of a kind are reported one by one; the rest is counted.
 const REPORTED: usize = 100;
@@ -251,12 +251,6 @@ impl Document {
         vertices.dedup();
         self.report_fans(&first, vertices.len());
         drop(first);
-        let lines = self.lines_of(vertices.iter().copied());
-        let line_of = |vertex: &VertexId| {
-            let at = vertices.binary_search(&vertex.index());
-            lines[at.expect("a copy has a line")]
-        };
-        let added: Vec<u32> = sources.iter().map(line_of).collect();
         self.positions.reserve_exact(sources.len()); // To double them would be the peak of a repair.
         for vertex in &sources {
             let extra = self.extras.row(vertex.index()).to_vec();
@@ -269,7 +263,9 @@ impl Document {
             let vertex = sources[copy as usize].index() as u32;
             self.move_corner(face.index(), vertex, copies as u32 + copy);
         }
-        self.lay_out_vertices(&added);
+        // Where a split's would be.
+        let attached = self.attached_to_last_vertex();
+        self.layout.add_vertices(sources.len(), attached);
         self.report_unspoken(&vertices);
     }
 
@@ -287,43 +283,18 @@ impl Document {
         }
     }
 
-    /// The lines of vertices, which ascend. Linear, where [`Document::line_of_vertex`] is so for
-    /// each.
-    fn lines_of(&self, vertices: impl Iterator<Item = usize>) -> Vec<u32> {
-        let runs = self.layout.runs().iter();
-        let mut lines = runs
-            .filter(|run| run.kind == Kind::Vertex)
-            .flat_map(|run| run.lines())
-            .enumerate();
-        let line = |vertex| lines.find(|&(number, _)| number == vertex);
-        vertices
-            .map(line)
-            .map(|found| found.expect("every vertex has a line").1)
-            .collect()
-    }
-
-    /// Makes room in the layout for new vertices, each given by the line of the one that
-    /// it copies: behind the last vertex and what is attached to it, where a split's would be.
-    fn lay_out_vertices(&mut self, added: &[u32]) {
-        let runs = self.layout.runs();
-        let last = runs.iter().rposition(|run| run.kind == Kind::Vertex);
-        let (before, behind) = runs.split_at(last.expect("a bow-tie is a vertex") + 1);
-        let mut behind = behind.to_vec();
-        let mut layout = Layout::default();
-        before.iter().for_each(|&run| layout.append(run));
-        if let Some(run) = behind.first_mut().filter(|run| run.kind == Kind::Text) {
-            let text = before.iter().filter(|run| run.kind == Kind::Text);
-            let text_before: usize = text.map(|run| run.count as usize).sum();
-            let attached = attached_length(&self.text[text_before..][..run.count as usize]);
-            layout.append_text(attached, *run);
-            run.count -= attached as u32;
+    /// How many bytes are attached to the last vertex.
+    fn attached_to_last_vertex(&self) -> usize {
+        let (mut attached, mut is_behind) = (0, false);
+        for (run, lines) in self.runs() {
+            if run.kind == Kind::Vertex {
+                attached = 0;
+            } else if is_behind {
+                attached = attached_length(lines);
+            }
+            is_behind = run.kind == Kind::Vertex;
         }
-        added
-            .iter()
-            .for_each(|&line| layout.push(Kind::Vertex, line));
-        behind.into_iter().for_each(|run| layout.append(run));
-        layout.shrink();
-        self.layout = layout;
+        attached
     }
 
     /// Warns of statements about vertices of which there are more now.

@@ -15,7 +15,7 @@ use crate::diagnostic::ReadError;
 use crate::document::Document;
 use crate::polygons::Corner;
 use crate::read::text::without_statements_of_vertex;
-use crate::record::{Exchange, Record, Slid, runs};
+use crate::record::{Record, Slid, is_in, runs};
 use crate::store::Kind;
 use crate::torn::TornDocument;
 
@@ -132,9 +132,8 @@ struct Rest<'d> {
     /// of.
     faces: Vec<Option<[HalfEdgeId; 3]>>,
     families: Vec<Option<u32>>,
-    /// For each vertex that stays and of which slides are undone, what its `v` has then, and which indices
-    /// its corners exchange, in this order.
-    put_back: BTreeMap<u32, (&'d [f64], Vec<&'d Exchange>)>,
+    /// For each vertex that stays and of which slides are undone, what its `v` has then.
+    put_back: BTreeMap<u32, &'d [f64]>,
 }
 
 impl<'d> Rest<'d> {
@@ -151,36 +150,25 @@ impl<'d> Rest<'d> {
                 }
             }
         }
-        let mut put_back: BTreeMap<u32, (&[f64], Vec<&Exchange>)> = BTreeMap::new();
-        for (slide, slid) in record.slides.iter().enumerate().rev() {
-            if undo.is_back[slide] && !undo.goes(slid.vertex) {
-                let (numbers, exchanges) = put_back.entry(slid.vertex).or_default();
-                *numbers = slid.before();
-                exchanges.extend(&slid.exchanges);
-            }
-        }
+        let slides = record.slides.iter().enumerate().rev();
+        let undone = slides.filter(|&(slide, slid)| undo.is_back[slide] && !undo.goes(slid.vertex));
+        let put_back = undone.map(|(_, slid)| (slid.vertex, slid.before()));
         Rest {
             document,
             record,
             undo,
             faces,
             families,
-            put_back,
+            put_back: put_back.collect(),
         }
     }
 
     /// The vertex, the texture coordinate and the normal of a corner, without the slides that are undone.
     fn corner(&self, h: HalfEdgeId) -> [Option<u32>; 3] {
         let vertex = self.document.polygons.vertices[h.index()];
-        let mut indices = self.document.polygons.indices(h.index());
-        let exchanges = self.put_back.get(&vertex).into_iter();
-        for exchange in exchanges.flat_map(|(_, exchanges)| exchanges) {
-            let index = &mut indices[exchange.which];
-            if *index == Some(exchange.new) {
-                *index = Some(exchange.old);
-            }
-        }
-        [Some(vertex), indices[0], indices[1]]
+        let is_back = |slide: usize| self.undo.is_back[slide];
+        let [texture, normal] = self.undo.past.indices(h.index(), is_back);
+        [Some(vertex), texture, normal]
     }
 
     /// Whether a slide stays on record.
@@ -192,27 +180,20 @@ impl<'d> Rest<'d> {
     /// Whether each vertex, texture coordinate and normal stays. Of texture coordinates and normals that were
     /// inserted, those do that a corner or a slide has.
     fn stays(&self) -> [Vec<bool>; 3] {
-        let vertices = 0..self.document.positions.len() as u32;
-        let counts = [self.document.texture.len(), self.document.normals.len()];
-        let [mut texture, mut normals] = counts.map(|count| vec![true; count]);
-        for (stays, inserted) in [&mut texture, &mut normals]
-            .into_iter()
-            .zip(&self.record.new_indices)
-        {
-            for &[first, end] in inserted {
-                stays[first as usize..end as usize].fill(false);
-            }
-        }
-        let mut stays = [
-            vertices.map(|v| !self.undo.goes(v)).collect(),
-            texture,
-            normals,
-        ];
+        let counts = self.document.counts();
+        let mut stays = [0, 1, 2].map(|of| {
+            let all = 0..counts[of] as u32;
+            let stays = all.map(|index| match of {
+                0 => !self.undo.goes(index),
+                _ => !is_in(&self.record.new_indices[of - 1], index),
+            });
+            stays.collect::<Vec<bool>>()
+        });
         for &h in self.faces.iter().flatten().flatten() {
             for (stays, index) in stays.iter_mut().zip(self.corner(h)) {
-                index
-                    .into_iter()
-                    .for_each(|index| stays[index as usize] = true);
+                if let Some(index) = index {
+                    stays[index as usize] = true;
+                }
             }
         }
         let slides = &self.record.slides;
@@ -242,7 +223,7 @@ impl<'d> Rest<'d> {
         };
         for v in staying(0) {
             let (at, extras) = match self.put_back.get(&(v as u32)) {
-                Some(&([x, y, z, extras @ ..], _)) => (Point::new(*x, *y, *z), extras),
+                Some([x, y, z, extras @ ..]) => (Point::new(*x, *y, *z), extras),
                 _ => (document.positions[v], document.extras.row(v)),
             };
             if !extras.is_empty() {

@@ -28,6 +28,21 @@ fn grow<T>(list: &mut Vec<T>, least: usize) {
     list.reserve_exact((list.len() / 2 + 4).max(least));
 }
 
+/// How many of the numbers below `count` come before the first for which a condition, which then
+/// holds for none behind it, does not hold.
+pub(crate) fn partition_point(count: usize, holds: impl Fn(usize) -> bool) -> usize {
+    let (mut low, mut high) = (0, count);
+    while low < high {
+        let middle = low.midpoint(high);
+        if holds(middle) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
 /// The most numbers of a `v` statement: a position, a weight, a colour with alpha, and as many again.
 pub(crate) const NUMBERS_MAX: usize = 16;
 
@@ -86,11 +101,6 @@ impl Rows {
     pub(crate) fn value_count(&self) -> usize {
         self.values.len()
     }
-
-    pub(crate) fn shrink(&mut self) {
-        self.values.shrink_to_fit();
-        self.ends.shrink_to_fit();
-    }
 }
 
 /// An optional index for each corner. Costs nothing until the first corner has one.
@@ -125,10 +135,6 @@ impl Column {
             .get(index)
             .copied()
             .filter(|&value| value != Self::NONE)
-    }
-
-    pub(crate) fn shrink(&mut self) {
-        self.values.shrink_to_fit();
     }
 }
 
@@ -225,23 +231,35 @@ impl Layout {
         }
     }
 
-    /// Adds all statements of a run of another layout.
-    pub(crate) fn append(&mut self, run: Run) {
-        match run.kind {
-            Kind::Text => self.append_text(run.count as usize, run),
-            kind => {
-                for line in run.lines() {
-                    self.push(kind, line);
-                }
+    /// Adds vertices behind the last one and the bytes that are attached to it. All stand on its line.
+    pub(crate) fn add_vertices(&mut self, added: usize, attached: usize) {
+        let vertices = self.runs.iter().rposition(|run| run.kind == Kind::Vertex);
+        let mut place = vertices.expect("there is a vertex") + 1;
+        let last = self.runs[place - 1];
+        let (line, count) = (last.line + last.count - 1, 1);
+        self.runs.reserve_exact(added + 1);
+        if attached > 0 {
+            let text = &mut self.runs[place];
+            let rest = text.count - attached as u32;
+            let behind = Run {
+                count: rest,
+                ..*text
+            };
+            text.count = attached as u32;
+            place += 1;
+            if rest > 0 {
+                self.runs.insert(place, behind);
             }
         }
-    }
-
-    /// Adds some bytes of a run of text; none leave no trace.
-    pub(crate) fn append_text(&mut self, bytes: usize, run: Run) {
-        if bytes > 0 {
-            self.push_text(bytes, run.line);
-        }
+        let added = std::iter::repeat_n(
+            Run {
+                count,
+                line,
+                ..last
+            },
+            added,
+        );
+        self.runs.splice(place..place, added);
     }
 
     /// Puts as many statements as `count` says in the place of each, given its kind and its number. Text
@@ -269,7 +287,9 @@ impl Layout {
                     kept += lines.len();
                     text.copy_within(lines, before);
                 }
-                layout.append_text(kept - before, run);
+                if kept > before {
+                    layout.push_text(kept - before, run.line);
+                }
                 is_gone = false;
                 continue;
             }
@@ -311,10 +331,6 @@ impl Layout {
             before += run.count as usize;
         }
         None
-    }
-
-    pub(crate) fn shrink(&mut self) {
-        self.runs.shrink_to_fit();
     }
 }
 

@@ -322,12 +322,11 @@ impl<W: Write> Writer<'_, W> {
                 let extras = torn.extra_numbers(vertex);
                 self.out.statement(b"v", &[at.x, at.y, at.z], extras)
             }
-            TEXTURE => self
-                .out
-                .statement(b"vt", torn.corners.value(0, element), &[]),
-            _ => self
-                .out
-                .statement(b"vn", torn.corners.value(1, element), &[]),
+            _ => {
+                let keyword = if which == TEXTURE { b"vt" } else { b"vn" };
+                let numbers = torn.corners.value(which - 1, element);
+                self.out.statement(keyword, numbers, &[])
+            }
         }
     }
 

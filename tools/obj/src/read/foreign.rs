@@ -89,18 +89,14 @@ impl Reader {
         }
         let text = &mut self.document.text;
         let before = text.len();
-        if bytes.contains(&b'\r') {
-            let mut rest = bytes;
-            while let Some(at) = rest.iter().position(|&byte| byte == b'\r') {
-                extend(text, &rest[..at]);
-                push(text, b'\n');
-                rest = &rest[at + 1..];
-                rest = rest.strip_prefix(b"\n").unwrap_or(rest);
-            }
-            extend(text, rest);
-        } else {
-            extend(text, bytes);
+        let mut rest = bytes;
+        while let Some(at) = memchr::memchr(b'\r', rest) {
+            extend(text, &rest[..at]);
+            push(text, b'\n');
+            rest = &rest[at + 1..];
+            rest = rest.strip_prefix(b"\n").unwrap_or(rest);
         }
+        extend(text, rest);
         push(text, b'\n');
         let length = text.len() - before;
         self.document.layout.push_text(length, line);

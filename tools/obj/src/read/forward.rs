@@ -8,13 +8,12 @@
 //! steps, so the staircase stays within a few times the file. The texts, which would not, are
 //! kept within a budget, and then the line and column must do.
 
-use std::collections::VecDeque;
 use std::ops::Range;
 
 use super::fault::{Line, locate};
 use super::source::first_line;
 use crate::diagnostic::{Diagnostic, Excerpt, Location, ReadError};
-use crate::store::Kind;
+use crate::store::{Kind, push};
 
 /// The most bytes of text that are kept.
 const TEXT_BUDGET: usize = 1 << 20;
@@ -25,7 +24,7 @@ const LONG: usize = 64 << 10;
 /// The staircase of forward references to one kind of element.
 #[derive(Debug, Default)]
 pub(super) struct Forward {
-    steps: VecDeque<Step>,
+    steps: Vec<Step>,
     text: usize,
     /// The last place looked up on a long line: the line, the byte, and its place.
     place: Option<(u32, usize, Location)>,
@@ -44,18 +43,12 @@ impl Forward {
     /// Notes a reference to the element `index` (from 1), of which `count` exist so far.
     #[cold]
     pub(super) fn note(&mut self, index: u32, count: usize, line: &Line<'_>, span: Range<usize>) {
-        while self
-            .steps
-            .front()
-            .is_some_and(|step| step.index as usize <= count)
-        {
-            let step = self.steps.pop_front();
-            self.text -= step
-                .and_then(|step| step.excerpt)
-                .map_or(0, |excerpt| excerpt.text.len());
-        }
-        if self.steps.back().is_some_and(|step| step.index >= index) {
-            return;
+        match self.steps.last() {
+            Some(last) if last.index as usize <= count => {
+                (self.steps, self.text) = Default::default(); // All are there by now.
+            }
+            Some(last) if last.index >= index => return,
+            _ => {}
         }
         let (length, ..) = first_line(&line.bytes[..line.bytes.len().min(LONG + 1)]);
         if length > LONG {
@@ -91,15 +84,13 @@ impl Forward {
     }
 
     fn push(&mut self, index: u32, location: Location, excerpt: Option<Box<Excerpt>>) {
-        if self.steps.len() == self.steps.capacity() {
-            self.steps.reserve_exact(self.steps.len() / 2 + 16);
-        }
-        self.steps.push_back(Step {
+        let step = Step {
             index,
             line: location.line as u32,
             column: location.column as u32,
             excerpt,
-        });
+        };
+        push(&mut self.steps, step);
     }
 
     /// The place of the first reference beyond the final count.

@@ -48,8 +48,8 @@ type Read = fn(&mut Items, &mut Scan<'_>) -> Parsed<()>;
 const KINDS: [(&[u8], usize, i64, Read); 12] = [
     (b"split", 0, 1, Items::split),
     (b"fan", 1, 1, Items::fan),
-    (b"edge", 2, 1, Items::edge),
-    (b"face", 2, 1, Items::face),
+    (b"edge", 2, 1, |items, scan| items.inserted(2, scan)),
+    (b"face", 2, 1, |items, scan| items.inserted(3, scan)),
     (b"parent", 3, 1, Items::parent),
     (b"vt", 4, 2, |items, scan| items.inserted_indices(0, scan)),
     (b"vn", 5, 2, |items, scan| items.inserted_indices(1, scan)),
@@ -113,34 +113,31 @@ impl Items {
         Ok(())
     }
 
-    fn edge(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let (vertex, cut) = self.inserted(scan)?;
-        let [a, b] = [self.root(scan)?, self.root(scan)?];
+    /// A vertex that was inserted, by which cut, and between how many others: on an edge, or in a face.
+    fn inserted(&mut self, sources: usize, scan: &mut Scan<'_>) -> Parsed<()> {
         let at = scan.token_start();
-        let t = scan.number()?;
-        if !(t > 0.0 && t < 1.0) || a == b {
-            return Err(out_of_range(at..scan.at(), 0, 1));
+        let vertex = self.root(scan)?;
+        let last = self.record.inserted.last();
+        if last.is_some_and(|last| last.vertex >= vertex) {
+            return damaged(scan, at, "vertices of this record are not in order");
         }
-        let inserted = Inserted {
-            vertex,
-            cut,
-            between: [a, b, b],
-            weights: [1.0 - t, t, 0.0],
-        };
-        push(&mut self.record.inserted, inserted);
-        Ok(())
-    }
-
-    fn face(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let (vertex, cut) = self.inserted(scan)?;
-        let between = [self.root(scan)?, self.root(scan)?, self.root(scan)?];
-        let mut weights = [0.0; 3];
-        for weight in &mut weights {
+        let cut = cut(scan, 1)?;
+        let (mut between, mut weights) = ([0; 3], [0.0; 3]);
+        for root in &mut between[..sources] {
+            *root = self.root(scan)?;
+        }
+        let is_on_edge = sources == 2;
+        for weight in &mut weights[usize::from(is_on_edge)..][..2 * sources - 3] {
             let at = scan.token_start();
             *weight = scan.number()?;
-            if !(*weight > 0.0 && *weight < 1.0) {
+            let is_point = is_on_edge && between[0] == between[1];
+            if !(*weight > 0.0 && *weight < 1.0) || is_point {
                 return Err(out_of_range(at..scan.at(), 0, 1));
             }
+        }
+        if is_on_edge {
+            between[2] = between[1];
+            weights[0] = 1.0 - weights[1];
         }
         let inserted = Inserted {
             vertex,
@@ -279,17 +276,6 @@ impl Items {
             }
         }
         Ok(())
-    }
-
-    /// A vertex that was inserted, and by which cut.
-    fn inserted(&self, scan: &mut Scan<'_>) -> Parsed<(u32, u32)> {
-        let at = scan.token_start();
-        let vertex = self.root(scan)?;
-        let last = self.record.inserted.last();
-        if last.is_some_and(|last| last.vertex >= vertex) {
-            return damaged(scan, at, "vertices of this record are not in order");
-        }
-        Ok((vertex, cut(scan, 1)?))
     }
 
     /// A vertex with a number above `last` that is no copy; `label` is said of one that is.

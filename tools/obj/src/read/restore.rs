@@ -6,7 +6,7 @@ use tearmesh::Point;
 use super::text::without_statements_of_vertex;
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
-use crate::record::{Apart, Record, SplitOff, is_same_point};
+use crate::record::{Apart, Record, SplitOff, are_same, is_same_point};
 use crate::store::Kind;
 
 /// Puts the vertices that stand apart where they are, by the numbers of the file, and their copies
@@ -55,15 +55,10 @@ pub(super) fn join(document: &mut Document, record: &mut Record, fans: &[[u32; 2
         return;
     }
     let cut = record.last_cut().max(1);
-    let bits = |v: u32| {
-        let at = document.positions[v as usize];
-        let extras = document.extras.row(v as usize).iter().copied();
-        [at.x, at.y, at.z]
-            .into_iter()
-            .chain(extras)
-            .map(f64::to_bits)
+    let is_moved = |fan: &&[u32; 2]| {
+        let [copy, of] = fan.map(|v| document.numbers(v as usize));
+        !are_same(&copy, &of)
     };
-    let is_moved = |&&[copy, of]: &&[u32; 2]| !bits(copy).eq(bits(of));
     let (moved, copies): (Vec<[u32; 2]>, Vec<[u32; 2]>) = fans.iter().partition(is_moved);
     let numbers = moved
         .first()
@@ -76,19 +71,15 @@ pub(super) fn join(document: &mut Document, record: &mut Record, fans: &[[u32; 2
     let warning = warning(document, "W-OBJ-RECORD-MOVED", &vertices, message, ", and");
     document.diagnostics.extend(warning);
     document.drop_vertices(&copies.iter().map(|&[copy, _]| copy).collect::<Vec<_>>());
-    let mut ids = Vec::with_capacity(document.positions.len() + copies.len());
-    let mut gone = copies.iter().peekable();
-    let mut next = 0;
-    for v in 0..(document.positions.len() + copies.len()) as u32 {
-        match gone.next_if(|[copy, _]| *copy == v) {
-            Some(&[_, of]) => ids.push(ids[of as usize]),
-            None => {
-                ids.push(next);
-                next += 1;
-            }
-        }
+    let mut known = Record {
+        copies,
+        ..Record::default()
+    };
+    for copy in 0..known.copies.len() {
+        let [_, of] = known.copies[copy];
+        known.copies[copy][1] = known.vertex(of as usize) as u32;
     }
-    let id = |v: u32| ids[v as usize];
+    let id = |number: u32| known.vertex(number as usize) as u32;
     for vertex in &mut document.polygons.vertices {
         *vertex = id(*vertex);
     }
@@ -98,7 +89,7 @@ pub(super) fn join(document: &mut Document, record: &mut Record, fans: &[[u32; 2
     record.splits.extend(moved);
     record.splits.sort_unstable_by_key(|split| split.vertex);
     record.renumber(id);
-    record.copies = copies.iter().map(|&[copy, of]| [copy, id(of)]).collect();
+    record.copies = known.copies;
 }
 
 /// A warning at the first of some vertices, if there are any, that says how many more there are.

@@ -50,6 +50,13 @@ impl<'l> Scan<'l> {
         self.rest = &self.rest[count..];
     }
 
+    /// This cursor behind some bytes.
+    #[inline(always)]
+    pub(super) fn behind(&mut self, count: usize) -> &mut Self {
+        self.skip(count);
+        self
+    }
+
     pub(super) fn go_to(&mut self, at: usize) {
         self.rest = &self.line.bytes[at..];
     }

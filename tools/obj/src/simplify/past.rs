@@ -14,7 +14,7 @@
 use std::collections::BTreeMap;
 
 use crate::document::Document;
-use crate::record::{Exchange, Inserted, Record, Slid};
+use crate::record::{Exchange, Inserted, Record, Slid, are_same};
 use crate::torn::{length, normal_between, numbers_between};
 
 /// By how many units of the last place of the largest number concerned a number may differ: an
@@ -102,21 +102,23 @@ impl<'d> Past<'d> {
         }
     }
 
-    /// The texture coordinate (0) or the normal (1) of a corner before some of the slides.
-    pub(super) fn index(
+    /// The texture coordinate and the normal of a corner before some of the slides.
+    pub(super) fn indices(
         &self,
         corner: usize,
-        which: usize,
         is_undone: impl Fn(usize) -> bool,
-    ) -> Option<u32> {
-        let mut index = self.document.polygons.indices(corner)[which]?;
+    ) -> [Option<u32>; 2] {
+        let mut indices = self.document.polygons.indices(corner);
         let slides = self.of(self.vertex(corner)).rev();
         for slide in slides.filter(|&slide| is_undone(slide)) {
-            let mut exchanges = self.slides[slide].exchanges.iter();
-            let own = exchanges.find(|exchange| exchange.which == which && exchange.new == index);
-            index = own.map_or(index, |own| own.old);
+            for exchange in &self.slides[slide].exchanges {
+                let index = &mut indices[exchange.which];
+                if *index == Some(exchange.new) {
+                    *index = Some(exchange.old);
+                }
+            }
         }
-        Some(index)
+        indices
     }
 
     /// Whether the vertex at a corner is as it was inserted before the slides of a cut, between corners of
@@ -142,9 +144,9 @@ impl<'d> Past<'d> {
         if is.len() != count || !is_between(&is, rows, weights) {
             return false;
         }
+        let is_undone = |slide: usize| self.slides[slide].cut >= since;
         [0, 1].into_iter().all(|which| {
-            let is_undone = |slide: usize| self.slides[slide].cut >= since;
-            let index = |corner| self.index(corner, which, is_undone);
+            let index = |corner| self.indices(corner, is_undone)[which];
             let value = |index| self.document.value(which, index);
             let ([Some(a), Some(b), Some(c)], Some(is)) = ([a, b, c].map(index), index(corner))
             else {
@@ -158,12 +160,6 @@ impl<'d> Past<'d> {
             }
         })
     }
-}
-
-/// Whether numbers are the same to the bit.
-fn are_same(some: &[f64], others: &[f64]) -> bool {
-    let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-    bits(some) == bits(others)
 }
 
 /// Whether each number is, but for rounding, the weighted sum of those of the sources; a number that

@@ -64,7 +64,8 @@ impl<'d> Undo<'d> {
         let [is_open, is_back] = slides_to_undo(record, &past);
         let plan = |past: &Past<'_>, may_go: &[bool], is_back: &[bool]| {
             let may_go = |v: VertexId| may_go[past.roots[v.index()] as usize];
-            insertions.plan(mesh, may_go, |one, other| agree(past, is_back, one, other))
+            let indices = |h: HalfEdgeId| past.indices(h.index(), |slide| is_back[slide]);
+            insertions.plan(mesh, may_go, |one, other| indices(one) == indices(other))
         };
         let mut undo = Undo {
             plan: plan(&past, &may_go, &is_back),
@@ -201,12 +202,6 @@ impl<'d> Undo<'d> {
         }
         more
     }
-}
-
-/// Whether two corners of a vertex have the same texture coordinate and normal, once slides are undone.
-fn agree(past: &Past<'_>, is_back: &[bool], one: HalfEdgeId, other: HalfEdgeId) -> bool {
-    let indices = |h: HalfEdgeId| [0, 1].map(|which| past.index(h.index(), which, |s| is_back[s]));
-    indices(one) == indices(other)
 }
 
 /// For each slide, whether what its cut or a later one tore there is open, and whether it may be undone.

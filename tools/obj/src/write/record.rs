@@ -28,7 +28,8 @@ pub(super) fn write_record<W: Write>(
     let says_where = [(new_texture, texture), (new_normals, normals)]
         .map(|(runs, count)| !are_last(runs, count as u32));
     let is_later = says_where.contains(&true) || !record.slides.is_empty();
-    let is_later = is_later || !are_last(&copies(prepared), vertices as u32);
+    let copies = runs(prepared.fans().map(|[copy, _]| copy));
+    let is_later = is_later || !are_last(&copies, vertices as u32);
     let version = match () {
         () if record.families.all().iter().any(|one| one.above.is_some()) => VERSION,
         () if !record.apart.is_empty() => 3,
@@ -70,11 +71,6 @@ pub(super) fn write_record<W: Write>(
     bytes.extend_from_slice(END);
     writeln!(bytes, " {count} {:016x}", hash.0)?;
     out.flush_if_full()
-}
-
-/// The numbers of the copies for fans, in runs.
-fn copies(prepared: &Prepared<'_>) -> Vec<[u32; 2]> {
-    runs(prepared.fans().map(|[copy, _]| copy))
 }
 
 struct Items<'o, 'w, W> {
