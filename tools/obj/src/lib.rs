@@ -151,7 +151,6 @@
 //! | `record.rs`, `families.rs` | the contents of the record, and its checksum; divided faces |
 //! | `sections.rs`, `order.rs` | the ends of objects, and the order and numbers of written statements |
 //! | `write.rs`, `write/` | document and torn mesh to bytes: layout, fans, the record, numbers, pieces |
-//! | `slides.rs` | vertices that slid, and their earlier values |
 //! | `simplify.rs`, `simplify/` | a document without what can be undone: the plan, and what was edited |
 //! | `diagnostic.rs`, `keyword.rs` | diagnostics; the keywords of the format |
 //!

@@ -160,7 +160,7 @@ impl Reader {
             let step = self.forward[kind as usize].first_beyond(count)?;
             Some((step, kind, count))
         });
-        if let Some((step, kind, count)) = offenders.min_by_key(|&((location, ..), ..)| location) {
+        if let Some((step, kind, count)) = offenders.min_by_key(|(step, ..)| step.place) {
             return Err(beyond(kind, step, count));
         }
         if self.document.polygons.len() == 0 {

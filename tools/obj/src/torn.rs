@@ -8,12 +8,9 @@
 mod ancestry;
 mod corners;
 mod extras;
-mod slots;
 mod turns;
 
-pub(crate) use self::corners::{length, normal_between, numbers_between};
-pub(crate) use self::slots::Slots;
-pub(crate) use self::turns::Turns;
+pub(crate) use self::corners::{Slots, length, normal_between, numbers_between};
 
 use std::borrow::Cow;
 

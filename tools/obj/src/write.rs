@@ -247,12 +247,12 @@ impl Stream {
 impl<W: Write> Writer<'_, W> {
     fn write(mut self) -> io::Result<()> {
         let document = self.document;
-        let runs = document.layout.runs();
         let mut counts = [0; 3];
         let mut polygons = 0;
-        let mut text = &document.text[..];
-        for (i, run) in runs.iter().enumerate() {
+        let mut before = Kind::Text;
+        for (run, lines) in document.runs() {
             let count = run.count as usize;
+            let before = std::mem::replace(&mut before, run.kind);
             let which = match run.kind {
                 Kind::Polygon => {
                     for polygon in polygons..polygons + count {
@@ -262,12 +262,10 @@ impl<W: Write> Writer<'_, W> {
                     continue;
                 }
                 Kind::Text => {
-                    let (lines, rest) = text.split_at(count);
-                    text = rest;
                     // What is attached to the statements before it was written with these.
-                    let attached = match i.checked_sub(1).map(|before| runs[before].kind) {
-                        Some(Kind::Vertex | Kind::Texture | Kind::Normal) => attached_length(lines),
-                        _ => 0,
+                    let attached = match Kind::INDEXED.contains(&before) {
+                        true => attached_length(lines),
+                        false => 0,
                     };
                     self.out.text(&lines[attached..])?;
                     continue;

@@ -142,19 +142,6 @@ fn power(bytes: &[u8]) -> Option<(i32, usize)> {
     Some((if is_negative { -power } else { power }, signs + count))
 }
 
-/// The powers of ten up to that of a [`Word`].
-const WORD_POWERS: [u64; 9] = [
-    1,
-    10,
-    100,
-    1_000,
-    10_000,
-    100_000,
-    1_000_000,
-    10_000_000,
-    100_000_000,
-];
-
 /// Does what [`digits`] does, faster if there are many: eight by eight, and of the rest as many are
 /// expected as the last time.
 #[inline]
@@ -164,11 +151,13 @@ pub(super) fn many_digits(bytes: &[u8], value: &mut u64, expected: &mut Expected
         let word = Word::new(word);
         if !word.is_full() {
             let (last, count) = expected.digits(word);
-            *value = value.wrapping_mul(WORD_POWERS[count]).wrapping_add(last);
+            *value = value
+                .wrapping_mul(LARGE_POWERS[count] as u64)
+                .wrapping_add(last);
             return bytes.len() - rest.len() + count;
         }
         *value = value
-            .wrapping_mul(WORD_POWERS[8])
+            .wrapping_mul(LARGE_POWERS[8] as u64)
             .wrapping_add(word.value(8));
         rest = behind;
     }

@@ -43,13 +43,6 @@ impl Fault {
         self
     }
 
-    /// This fault with its columns shifted by `offset`, for a line that was read only from there
-    /// on.
-    pub(super) fn after(mut self: Box<Self>, offset: usize) -> Box<Fault> {
-        self.span = self.span.start + offset..self.span.end + offset;
-        self
-    }
-
     #[cold]
     #[expect(clippy::boxed_local, reason = "a fault travels in one word")]
     pub(super) fn at(self: Box<Self>, line: &Line<'_>) -> ReadError {

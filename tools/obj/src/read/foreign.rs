@@ -24,11 +24,12 @@ impl Reader {
                 let scan = Scan::new(*line).moved_to(start + keyword.len());
                 if let Some(bytes) = self.absolute_indices(scan, skipped)? {
                     self.tally.count_relative(keyword, line, start);
-                    return self.push_text(&bytes, line.number);
+                    let bytes = &bytes[..];
+                    return self.push_text(&Line { bytes, ..*line }, 0);
                 }
             }
         }
-        self.push_text(line.bytes, line.number)
+        self.push_text(line, 0)
     }
 
     /// The line with its relative indices made absolute; `None` if it has none.
@@ -75,17 +76,18 @@ impl Reader {
         let (line, at) = (scan.line, scan.at());
         let (length, behind, _) = first_line(scan.rest);
         let bytes = &line.bytes[..at + length];
-        if length > 0 && !self.record.takes(&Line { bytes, ..line }, at) {
-            let kept = self.push_text(&bytes[at..], line.number);
-            kept.map_err(|fault| fault.after(at))?;
+        let line = Line { bytes, ..line };
+        if length > 0 && !self.record.takes(&line, at) {
+            self.push_text(&line, at)?;
         }
         Ok(&scan.rest[behind..])
     }
 
-    /// Keeps bytes, with `\n` for every line end.
-    fn push_text(&mut self, bytes: &[u8], line: u32) -> Parsed<()> {
-        if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
-            return Err(binary(at, 0));
+    /// Keeps the bytes of a line from a place on, with `\n` for every line end.
+    fn push_text(&mut self, line: &Line<'_>, start: usize) -> Parsed<()> {
+        let bytes = &line.bytes[start..];
+        if let Some(at) = memchr::memchr(0, bytes) {
+            return Err(binary(start + at, 0));
         }
         let text = &mut self.document.text;
         let before = text.len();
@@ -99,7 +101,7 @@ impl Reader {
         extend(text, rest);
         push(text, b'\n');
         let length = text.len() - before;
-        self.document.layout.push_text(length, line);
+        self.document.layout.push_text(length, line.number);
         Ok(())
     }
 }

@@ -31,11 +31,11 @@ pub(super) struct Forward {
 }
 
 #[derive(Debug)]
-struct Step {
+pub(super) struct Step {
     /// As in the file, from 1.
     index: u32,
-    line: u32,
-    column: u32,
+    /// The line and the column.
+    pub(super) place: [u32; 2],
     excerpt: Option<Box<Excerpt>>,
 }
 
@@ -86,31 +86,21 @@ impl Forward {
     fn push(&mut self, index: u32, location: Location, excerpt: Option<Box<Excerpt>>) {
         let step = Step {
             index,
-            line: location.line as u32,
-            column: location.column as u32,
+            place: [location.line as u32, location.column as u32],
             excerpt,
         };
         push(&mut self.steps, step);
     }
 
-    /// The place of the first reference beyond the final count.
-    pub(super) fn first_beyond(&self, count: usize) -> Option<(Location, u32, Option<Excerpt>)> {
-        let step = self.steps.iter().find(|step| step.index as usize > count)?;
-        let location = Location {
-            line: step.line as usize,
-            column: step.column as usize,
-        };
-        Some((location, step.index, step.excerpt.as_deref().cloned()))
+    /// The first reference beyond the final count.
+    pub(super) fn first_beyond(&self, count: usize) -> Option<&Step> {
+        self.steps.iter().find(|step| step.index as usize > count)
     }
 }
 
 /// The error for an index that no element has, though the whole file is known.
-pub(super) fn beyond(
-    kind: Kind,
-    (location, index, excerpt): (Location, u32, Option<Excerpt>),
-    count: usize,
-) -> ReadError {
-    let [what, plural] = kind.names();
+pub(super) fn beyond(kind: Kind, step: &Step, count: usize) -> ReadError {
+    let ([what, plural], index) = (kind.names(), step.index);
     let message = match count {
         0 => format!("{what} {index} does not exist: the file has no {plural}"),
         1 => format!("{what} {index} does not exist: the file has 1 {what}"),
@@ -121,6 +111,9 @@ pub(super) fn beyond(
         _ => format!("expected 1 to {count}"),
     };
     let help = "indices count from 1 through the whole file, not from each object on";
+    let [line, column] = step.place.map(|place| place as usize);
+    let location = Location { line, column };
+    let excerpt = step.excerpt.as_deref().cloned();
     let excerpt = excerpt.map(|excerpt| excerpt.labelled(label));
     let error = Diagnostic::error("E-OBJ-RANGE", Some(location), message, help);
     Diagnostic { excerpt, ..error }.into()

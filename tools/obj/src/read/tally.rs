@@ -56,22 +56,16 @@ impl ForeignStatements {
     /// A warning for each keyword, in the order in which they were met.
     pub(super) fn report(self, diagnostics: &mut Vec<Diagnostic>) {
         for counted in self.keywords {
-            let (keyword, statements) = (quoted(&counted.keyword), counted.statements());
-            let (code, message) = match Class::of(&counted.keyword) {
-                Class::Element => (
-                    "W-OBJ-ELEMENT",
-                    format!("{keyword} elements are kept, but never cut ({statements})"),
+            let (code, kept) = match Class::of(&counted.keyword) {
+                Class::Element => ("W-OBJ-ELEMENT", "elements are kept, but never cut"),
+                _ if is_said_of_vertex(&counted.keyword) => (
+                    "W-OBJ-FOREIGN",
+                    "is not interpreted, and is kept as it is, but for no copy of its vertex",
                 ),
-                _ => {
-                    let but = match is_said_of_vertex(&counted.keyword) {
-                        true => ", but for no copy of its vertex",
-                        false => "",
-                    };
-                    let kept = format!("{keyword} is not interpreted, and is kept as it is");
-                    ("W-OBJ-FOREIGN", format!("{kept}{but} ({statements})"))
-                }
+                _ => ("W-OBJ-FOREIGN", "is not interpreted, and is kept as it is"),
             };
-            diagnostics.push(counted.warn(Level::Warning, code, message));
+            let message = format!("{} {kept}", quoted(&counted.keyword));
+            diagnostics.push(counted.warn(Level::Warning, code, &message));
         }
         if self.others > 0 {
             let others = self.others;
@@ -82,12 +76,9 @@ impl ForeignStatements {
             });
         }
         if let Some(counted) = self.relative {
-            let message = format!(
-                "negative indices of {} were made absolute ({})",
-                quoted(&counted.keyword),
-                counted.statements()
-            );
-            diagnostics.push(counted.warn(Level::Note, "W-OBJ-RELATIVE", message));
+            let keyword = quoted(&counted.keyword);
+            let message = format!("negative indices of {keyword} were made absolute");
+            diagnostics.push(counted.warn(Level::Note, "W-OBJ-RELATIVE", &message));
         }
     }
 }
@@ -103,14 +94,12 @@ impl Counted {
         }
     }
 
-    fn statements(&self) -> String {
-        match self.count {
-            1 => "1 statement".to_owned(),
-            count => format!("{count} statements, the first here"),
-        }
-    }
-
-    fn warn(self, level: Level, code: &'static str, message: String) -> Diagnostic {
+    /// A message at the first statement that says how many there are.
+    fn warn(self, level: Level, code: &'static str, message: &str) -> Diagnostic {
+        let message = match self.count {
+            1 => format!("{message} (1 statement)"),
+            count => format!("{message} ({count} statements, the first here)"),
+        };
         Diagnostic {
             level,
             location: Some(self.location),

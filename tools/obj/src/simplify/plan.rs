@@ -102,18 +102,15 @@ impl<'d> Undo<'d> {
     /// The roots within a divided face that might go, but are not as they were inserted: behind the
     /// slides of their cut, or before these.
     fn unlike_within(&self, divided: &Divided) -> Vec<(u32, [bool; 2])> {
-        let half_edges = divided.faces.iter().flat_map(|f| f.half_edges());
-        let corners = half_edges.map(|h| (self.past.root(h.index()), h.index()));
-        let mut corners: Vec<(u32, usize)> = corners.collect();
-        corners.sort_by_key(|&(root, _)| root);
-        corners.dedup_by_key(|&mut (root, _)| root);
-        let first = |root: u32| {
-            let found = corners.binary_search_by_key(&root, |&(root, _)| root);
-            found.ok().map(|at| corners[at].1)
-        };
+        let mut corners: BTreeMap<u32, usize> = BTreeMap::new();
+        for h in divided.faces.iter().flat_map(|f| f.half_edges()) {
+            let first = corners.entry(self.past.root(h.index()));
+            first.or_insert(h.index());
+        }
+        let first = |root: u32| corners.get(&root).copied();
         let might_go = |root: u32| self.may_go[root as usize] && !divided.corners.contains(&root);
-        let going = corners.iter().filter(|&&(root, _)| might_go(root));
-        let unlike = going.filter_map(|&(root, corner)| {
+        let going = corners.iter().filter(|&(&root, _)| might_go(root));
+        let unlike = going.filter_map(|(&root, &corner)| {
             let inserted = &self.inserted[self.place(root)?];
             let is_unlike = |since: u32| !self.past.is_as_inserted(corner, inserted, since, first);
             let unlike = [inserted.cut + 1, inserted.cut].map(is_unlike);

@@ -6,90 +6,77 @@
 //! normal likewise. Any face that has it has these too, or had them, and so comes later. Where a
 //! vertex comes from no later split and no merge changes, so undoing a cut moves no line.
 
+use tearmesh::VertexId;
+
 use super::TornDocument;
-use crate::order::Turn;
+use crate::order::{Order, Turn};
 use crate::sections::Sections;
 use crate::store::Kind;
 
 /// Behind all ranks of vertices: those of copies for fans.
 const COPIES: u64 = 1 << 32;
 
-/// When everything is written.
-pub(crate) struct Turns<'t> {
-    torn: &'t TornDocument<'t>,
-    sections: Sections,
-    /// Whether vertices are written in the order of their ids.
-    by_id: bool,
-    /// For each class that the document has not, the statement in whose section it belongs.
-    anchors: Vec<u32>,
-}
-
-impl<'t> Turns<'t> {
-    /// In sections, or vertices by id and all that was added behind what the document has. Linear in the
+impl TornDocument<'_> {
+    /// The orders of vertices, of which there are copies for fans, of texture coordinates and of normals: in
+    /// sections, or vertices by id and all that was added behind what the document has. Linear in the
     /// document.
-    pub(crate) fn new(torn: &'t TornDocument<'t>, by_id: bool) -> Turns<'t> {
-        let known = torn.document.positions.len();
-        let mut anchors = Vec::with_capacity(torn.ancestry.class_count() - known);
-        for inserted in &torn.inserted {
-            let Some(new) = (inserted.vertex as usize).checked_sub(known) else {
-                continue; // It is on record, and a vertex of the document.
-            };
-            assert_eq!(new, anchors.len(), "each new class was inserted");
-            let behind = inserted.between.map(|class| anchor(&anchors, known, class));
-            anchors.push(behind.into_iter().fold(0, u32::max));
-        }
+    pub(crate) fn orders(&self, copies: &[VertexId], by_id: bool) -> [Order; 3] {
         let sections = match by_id {
-            false => Sections::of(torn.document),
-            true => Sections::one(torn.document),
+            false => Sections::of(self.document),
+            true => Sections::one(self.document),
         };
-        Turns {
-            torn,
-            sections,
-            by_id,
-            anchors,
-        }
-    }
-
-    /// The turn of a vertex of the mesh, or of a copy of it, which is written for another fan.
-    pub(crate) fn vertex(&self, v: usize, is_copy: bool) -> Turn {
-        let home = match self.by_id {
-            false => self.torn.ancestry.node(v),
-            true => v as u32,
-        };
-        let known = self.torn.document.positions.len();
-        let is_own = (home as usize) < known;
-        if is_own && !is_copy {
-            return Turn::Own(home);
-        }
-        let anchor = match is_own {
-            true => home,
-            false => anchor(&self.anchors, known, self.torn.ancestry.class(v)),
-        };
-        Turn::Added {
-            behind: self.sections.end(Kind::Vertex, anchor),
-            rank: if is_copy { COPIES } else { 0 } + u64::from(home),
-        }
-    }
-
-    /// The turn of a texture coordinate or a normal.
-    pub(crate) fn index(&self, kind: Kind, index: usize) -> Turn {
-        match index.checked_sub(self.torn.document.counts()[kind as usize]) {
-            None => Turn::Own(index as u32),
-            Some(new) => {
-                let anchor = self.torn.corners.anchors[kind as usize - 1][new];
-                Turn::Added {
-                    behind: self.sections.end(kind, anchor),
-                    rank: new as u64,
-                }
+        let known = self.document.counts();
+        // For each class the statement in whose section it belongs: its own, if the document has that one.
+        let mut anchors: Vec<u32> = (0..known[0] as u32).collect();
+        for inserted in &self.inserted {
+            if inserted.vertex as usize >= known[0] {
+                assert_eq!(
+                    inserted.vertex as usize,
+                    anchors.len(),
+                    "each new class was inserted"
+                );
+                let behind = inserted.between.map(|class| anchors[class as usize]);
+                anchors.push(behind.into_iter().fold(0, u32::max));
             }
         }
-    }
-}
-
-/// The statement in whose section a class belongs: its own, if the document has that one.
-fn anchor(anchors: &[u32], known: usize, class: u32) -> u32 {
-    match (class as usize).checked_sub(known) {
-        None => class,
-        Some(new) => anchors[new],
+        let vertex = |v: usize, copy_rank: u64| {
+            let home = match by_id {
+                false => self.ancestry.node(v),
+                true => v as u32,
+            };
+            let is_own = (home as usize) < known[0];
+            if is_own && copy_rank == 0 {
+                return Turn::Own(home);
+            }
+            let anchor = match is_own {
+                true => home,
+                false => anchors[self.ancestry.class(v) as usize],
+            };
+            Turn::Added {
+                behind: sections.end(Kind::Vertex, anchor),
+                rank: copy_rank + u64::from(home),
+            }
+        };
+        let index = |kind: Kind, index: usize| {
+            let Some(new) = index.checked_sub(known[kind as usize]) else {
+                return Turn::Own(index as u32);
+            };
+            let anchor = self.corners.anchors[kind as usize - 1][new];
+            Turn::Added {
+                behind: sections.end(kind, anchor),
+                rank: new as u64,
+            }
+        };
+        let vertices = (0..self.vertex_count()).map(|v| vertex(v, 0));
+        let copies = copies.iter().map(|v| vertex(v.index(), COPIES));
+        let [texture, normals] = [Kind::Texture, Kind::Normal].map(|kind| {
+            let all = 0..self.corners.counts()[kind as usize - 1];
+            Order::new(known[kind as usize], all.map(|at| index(kind, at)))
+        });
+        [
+            Order::new(known[0], vertices.chain(copies)),
+            texture,
+            normals,
+        ]
     }
 }

@@ -6,10 +6,9 @@ use std::collections::BTreeSet;
 use tearmesh::{Mesh, Point};
 
 use super::separate::Separated;
-use crate::order::Order;
+use crate::order::{Added, Order};
 use crate::record::{Apart, Inserted, Record, runs};
-use crate::store::Kind;
-use crate::torn::{Slots, TornDocument, Turns};
+use crate::torn::{Slots, TornDocument};
 
 /// What is written, worked out before the first byte.
 #[derive(Debug)]
@@ -47,7 +46,7 @@ impl<'m> Prepared<'m> {
             slots,
             mesh_vertices: mesh.vertex_count(),
             apart,
-            orders: orders(torn, &Turns::new(torn, !is_separated), &separated),
+            orders: torn.orders(&separated.copies, !is_separated),
             separated,
             record: None,
         };
@@ -60,12 +59,12 @@ impl<'m> Prepared<'m> {
     /// How many statements about a vertex are not repeated for its copies, or have new vertices before
     /// them.
     pub(super) fn unspoken(&self, torn: &TornDocument<'_>) -> usize {
-        let added = self.orders[0].added().iter();
-        let origins = added.filter_map(|added| torn.origin(self.vertex(added.element)));
-        let copied: BTreeSet<usize> = origins.collect();
-        if self.orders[0].added().is_empty() {
+        let added = self.orders[0].added();
+        if added.is_empty() {
             return 0;
         }
+        let origin = |added: &Added| torn.origin(self.vertex(added.element));
+        let copied: BTreeSet<usize> = added.iter().filter_map(origin).collect();
         let about = torn.document().statements_about_vertices().into_iter();
         about
             .filter(|(vertex, is_behind)| !is_behind || copied.contains(vertex))
@@ -140,20 +139,4 @@ impl<'m> Prepared<'m> {
             Some(copy) => self.separated.copies[copy].index(),
         }
     }
-}
-
-/// The orders of vertices, texture coordinates and normals.
-fn orders(torn: &TornDocument<'_>, turns: &Turns<'_>, separated: &Separated<'_>) -> [Order; 3] {
-    let document = torn.document();
-    let vertices = (0..torn.vertex_count()).map(|v| turns.vertex(v, false));
-    let copies = separated.copies.iter();
-    let copies = copies.map(|v| turns.vertex(v.index(), true));
-    let [textures, normals] = torn.corners.counts();
-    let texture = (0..textures).map(|index| turns.index(Kind::Texture, index));
-    let normal = (0..normals).map(|index| turns.index(Kind::Normal, index));
-    [
-        Order::new(document.positions.len(), vertices.chain(copies)),
-        Order::new(document.texture.len(), texture),
-        Order::new(document.normals.len(), normal),
-    ]
 }
