@@ -166,11 +166,4 @@ impl fmt::Display for CoincidentError {
     }
 }
 
-impl std::error::Error for CoincidentError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            CoincidentError::Numbers { .. } => None,
-            CoincidentError::Mesh(error) => Some(error),
-        }
-    }
-}
+impl std::error::Error for CoincidentError {}

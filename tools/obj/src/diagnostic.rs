@@ -143,14 +143,7 @@ impl fmt::Display for ReadError {
     }
 }
 
-impl std::error::Error for ReadError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            ReadError::Input(error) => Some(error),
-            ReadError::Refused(_) => None,
-        }
-    }
-}
+impl std::error::Error for ReadError {}
 
 impl From<Diagnostic> for ReadError {
     fn from(diagnostic: Diagnostic) -> Self {

@@ -9,7 +9,6 @@ use tearmesh::{BuildError, Defect, FaceId, Faces, Fans, Mesh, TornError, VertexI
 
 use crate::diagnostic::{Diagnostic, Location};
 use crate::document::Document;
-use crate::record::Record;
 
 /// How many defects are put into words, and how many lines one of them lists.
 const SHOWN: usize = 20;
@@ -34,7 +33,13 @@ impl Document {
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
         let built = match &self.record {
             None => Mesh::build(self.positions.len(), self.triangles()),
-            Some(record) => self.torn_mesh(record),
+            Some(record) => {
+                let roots = record.roots(self.positions.len());
+                Mesh::build_torn(self.triangles(), &roots).map_err(|error| match error {
+                    TornError::Build(error) => error,
+                    _ => unreachable!("the reader has checked the roots of a record: {error}"),
+                })
+            }
         };
         built.map_err(|error| {
             let shown = error
@@ -44,14 +49,6 @@ impl Document {
                 .map(|defect| self.describe(defect))
                 .collect();
             MeshError { error, shown }
-        })
-    }
-
-    fn torn_mesh(&self, record: &Record) -> Result<Mesh, BuildError> {
-        let roots = record.roots(self.positions.len());
-        Mesh::build_torn(self.triangles(), &roots).map_err(|error| match error {
-            TornError::Build(error) => error,
-            _ => unreachable!("the reader has checked the roots of a record: {error}"),
         })
     }
 
@@ -198,8 +195,4 @@ impl fmt::Display for MeshError {
     }
 }
 
-impl std::error::Error for MeshError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.error)
-    }
-}
+impl std::error::Error for MeshError {}

@@ -102,7 +102,7 @@ impl TornDocument<'_> {
     /// ```
     pub fn simplified(&self, mesh: &Mesh, positions: &Positions) -> Result<Simplified, ReadError> {
         let mut bytes = Vec::new();
-        self.write_to(mesh, positions, &mut bytes, false)?;
+        self.write_as(mesh, positions, &mut bytes, true, false)?;
         let document = Document::read(&bytes[..])?;
         drop(bytes);
         let Some(record) = document.record.as_deref() else {

@@ -7,7 +7,6 @@
 
 mod ancestry;
 mod corners;
-mod extras;
 mod turns;
 
 pub(crate) use self::corners::{Slots, length, normal_between, numbers_between};
@@ -15,13 +14,12 @@ pub(crate) use self::corners::{Slots, length, normal_between, numbers_between};
 use std::borrow::Cow;
 
 use tearmesh::{
-    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mesh, Point,
-    Positions, Slide, VertexId, mend::Stitch,
+    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mix, Point,
+    Positions, Slide, VertexId, VertexOp, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
 use self::corners::Corners;
-use self::extras::Extras;
 use crate::document::Document;
 use crate::families::Families;
 use crate::record::{Apart, Inserted, Record, Slid, SplitOff, is_in, is_same_point};
@@ -299,20 +297,6 @@ impl<'d> TornDocument<'d> {
         faces.filter_map(|&f| FaceId::new(f as usize)).collect()
     }
 
-    /// Panics unless all edits of this mesh were followed, and its vertices have positions.
-    pub(crate) fn assert_in_step(&self, mesh: &Mesh, positions: &Positions) {
-        assert_eq!(
-            (mesh.vertex_count(), mesh.face_count()),
-            (self.vertex_count(), self.face_count()),
-            "the document has followed all edits of the mesh"
-        );
-        assert_eq!(
-            positions.len(),
-            mesh.vertex_count(),
-            "every vertex has a position"
-        );
-    }
-
     fn insert(&mut self, insert: &Insert<'_>) {
         if insert.points.is_empty() {
             return;
@@ -497,4 +481,47 @@ impl TornDocument<'_> {
         let runs = record.map(|record| &record.new_indices[which]);
         index >= known || runs.is_some_and(|runs| is_in(runs, index as u32))
     }
+}
+
+/// The extra numbers of each vertex of a mesh. Empty if the document has none at all.
+#[derive(Clone, Debug)]
+struct Extras(Vec<Vec<f64>>);
+
+impl Extras {
+    fn new(document: &Document) -> Extras {
+        let has_any = document.extras.len() > 0;
+        let vertices = (0..document.positions.len()).filter(|_| has_any);
+        Extras(vertices.map(|v| document.extras.row(v).to_vec()).collect())
+    }
+
+    /// The extra numbers of a vertex.
+    fn row(&self, vertex: usize) -> &[f64] {
+        self.0.get(vertex).map_or(&[], Vec::as_slice)
+    }
+
+    /// Follows an edit. Of two vertices that are merged, the one that is kept keeps its numbers,
+    /// whatever the other one has.
+    fn follow(&mut self, edit: &Edit<'_>) {
+        if self.0.is_empty() {
+            return;
+        }
+        for op in edit.vertex_ops() {
+            // Where sources do not have as many numbers as each other, there are none between them: a new
+            // vertex has none, and one that is set keeps its own.
+            let own = match op {
+                VertexOp::Set { .. } if matches!(edit, Edit::Merge(_)) => continue,
+                VertexOp::Set { at, .. } => self.0[at.index()].clone(),
+                VertexOp::Push { .. } | VertexOp::SwapRemove { .. } => Vec::new(),
+            };
+            op.apply(&mut self.0, |mix| mixed(mix).unwrap_or_else(|| own.clone()));
+        }
+    }
+}
+
+/// What rows give, number by number; `None` if they are not of one length.
+fn mixed(rows: Mix<&Vec<f64>>) -> Option<Vec<f64>> {
+    let length = rows.nearest().len();
+    let are_alike = rows.map(Vec::len) == rows.map(|_| length);
+    let number = |i: usize| f64::blend(rows.map(|row| &row[i]));
+    are_alike.then(|| (0..length).map(number).collect())
 }

@@ -82,21 +82,7 @@ impl TornDocument<'_> {
         positions: &Positions,
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
-        self.write_to(mesh, positions, out, true)
-    }
-
-    /// Writes the document. `moves_up` is false for our own reader, which takes a face that comes before
-    /// its vertices: no statement leaves its place.
-    pub(crate) fn write_to(
-        &self,
-        mesh: &Mesh,
-        positions: &Positions,
-        out: &mut impl Write,
-        moves_up: bool,
-    ) -> io::Result<WriteSummary> {
-        self.assert_in_step(mesh, positions);
-        let prepared = Prepared::new(self, mesh, self.apart(positions), true);
-        write(self, &prepared, positions, out, moves_up)
+        self.write_as(mesh, positions, out, true, true)
     }
 
     /// Returns the vertex of each `v` that [`TornDocument::write`] writes, in order. A vertex with several
@@ -143,39 +129,54 @@ impl TornDocument<'_> {
         positions: &Positions,
         out: &mut impl Write,
     ) -> io::Result<WriteSummary> {
-        self.assert_in_step(mesh, positions);
-        let prepared = Prepared::new(self, mesh, Vec::new(), false);
-        write(self, &prepared, positions, out, true)
+        self.write_as(mesh, positions, out, false, true)
     }
-}
 
-/// Writes what was prepared. Where a face comes before what it names, that may be moved up.
-fn write(
-    torn: &TornDocument<'_>,
-    prepared: &Prepared<'_>,
-    positions: &Positions,
-    out: &mut impl Write,
-    moves_up: bool,
-) -> io::Result<WriteSummary> {
-    let vertices = prepared.orders[0].count();
-    let writer = Writer {
-        document: torn.document(),
-        torn,
-        prepared,
-        positions,
-        moves_up,
-        ready: 0,
-        streams: Default::default(),
-        hash: Hash::of_faces(vertices),
-        out: Output::new(out),
-    };
-    writer.write()?;
-    Ok(WriteSummary {
-        vertices,
-        faces: prepared.face_count(),
-        separated: prepared.fans().count(),
-        unspoken: prepared.unspoken(torn),
-    })
+    /// Writes the document, with a vertex for each fan or with one for each of the mesh. `moves_up` is false
+    /// for our own reader, which takes a face that comes before its vertices: no statement leaves its place.
+    pub(crate) fn write_as(
+        &self,
+        mesh: &Mesh,
+        positions: &Positions,
+        out: &mut impl Write,
+        is_separated: bool,
+        moves_up: bool,
+    ) -> io::Result<WriteSummary> {
+        assert_eq!(
+            (mesh.vertex_count(), mesh.face_count()),
+            (self.vertex_count(), self.face_count()),
+            "the document has followed all edits of the mesh"
+        );
+        assert_eq!(
+            positions.len(),
+            mesh.vertex_count(),
+            "every vertex has a position"
+        );
+        let apart = match is_separated {
+            true => self.apart(positions),
+            false => Vec::new(),
+        };
+        let prepared = Prepared::new(self, mesh, apart, is_separated);
+        let vertices = prepared.orders[0].count();
+        let writer = Writer {
+            document: self.document(),
+            torn: self,
+            prepared: &prepared,
+            positions,
+            moves_up,
+            ready: 0,
+            streams: Default::default(),
+            hash: Hash::of_faces(vertices),
+            out: Output::new(out),
+        };
+        writer.write()?;
+        Ok(WriteSummary {
+            vertices,
+            faces: prepared.face_count(),
+            separated: prepared.fans().count(),
+            unspoken: prepared.unspoken(self),
+        })
+    }
 }
 
 struct Writer<'d, W> {

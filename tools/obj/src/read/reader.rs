@@ -60,22 +60,16 @@ const INDEX_MAX: i64 = 1 << 31;
 #[cold]
 pub(super) fn absolute(given: i64, count: usize, kind: Kind, span: &Range<usize>) -> Parsed<u32> {
     let [what, _] = kind.names();
+    let fault = |code, message, label: &str| Fault::new(code, span.clone(), message, label);
     if given == 0 {
-        return Err(Fault::new(
-            "E-OBJ-ZERO",
-            span.clone(),
-            format!("{what} 0 does not exist: OBJ counts from 1"),
-            "expected 1 or more, or a negative index to count back",
-        )
-        .help("if the program that wrote this counts from 0, add 1 to every index"));
+        let message = format!("{what} 0 does not exist: OBJ counts from 1");
+        let label = "expected 1 or more, or a negative index to count back";
+        let help = "if the program that wrote this counts from 0, add 1 to every index";
+        return Err(fault("E-OBJ-ZERO", message, label).help(help));
     }
     if given > INDEX_MAX {
-        return Err(Fault::new(
-            "E-OBJ-RANGE",
-            span.clone(),
-            format!("{what} index beyond the limit of {INDEX_MAX}"),
-            "too large",
-        ));
+        let message = format!("{what} index beyond the limit of {INDEX_MAX}");
+        return Err(fault("E-OBJ-RANGE", message, "too large"));
     }
     let absolute = if given > 0 {
         given
@@ -95,8 +89,8 @@ pub(super) fn absolute(given: i64, count: usize, kind: Kind, span: &Range<usize>
             format!("expected -{count} to -1"),
         ),
     };
-    Err(Fault::new("E-OBJ-RANGE", span.clone(), message, label)
-        .help("a negative index counts back from its own statement"))
+    let help = "a negative index counts back from its own statement";
+    Err(fault("E-OBJ-RANGE", message, &label).help(help))
 }
 
 #[cfg(test)]
