@@ -12,6 +12,7 @@ mod turns;
 pub(crate) use self::corners::{Slots, length, normal_between, numbers_between};
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 use tearmesh::{
     Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mix, Point,
@@ -81,7 +82,8 @@ pub struct TornDocument<'d> {
     /// Whether anything was split or inserted since that number was given.
     cut_is_used: bool,
     ancestry: Ancestry,
-    extras: Extras,
+    /// What the `v` of each vertex has behind z. Empty if the document has none of that at all.
+    extras: Vec<Vec<f64>>,
     /// What was inserted, by class, ascending: vertices are classes.
     pub(crate) inserted: Vec<Inserted>,
     /// What became of faces, and of their corners.
@@ -108,7 +110,12 @@ impl<'d> TornDocument<'d> {
             cut: record.map_or(0, Record::last_cut) + 1,
             cut_is_used: false,
             ancestry: Ancestry::new(count, record.map_or(&[], |record| &record.splits)),
-            extras: Extras::new(document),
+            extras: match document.extras.len() {
+                0 => Vec::new(),
+                _ => (0..count)
+                    .map(|v| document.extras.row(v).to_vec())
+                    .collect(),
+            },
             inserted: record.map_or(Vec::new(), |record| record.inserted.clone()),
             corners: Corners::new(document),
             families: record.map_or_else(Families::default, |record| record.families.clone()),
@@ -148,11 +155,9 @@ impl<'d> TornDocument<'d> {
     /// Returns the numbers of the cuts that still hold vertices apart, in ascending order.
     #[must_use]
     pub fn cuts(&self) -> Vec<u32> {
-        let split_off = self.ancestry.split_off(|v| v);
-        let mut cuts: Vec<u32> = split_off.iter().map(|split| split.cut).collect();
-        cuts.sort_unstable();
-        cuts.dedup();
-        cuts
+        let split_off = self.ancestry.split_off(|v| v).into_iter();
+        let cuts: BTreeSet<u32> = split_off.map(|split| split.cut).collect();
+        cuts.into_iter().collect()
     }
 
     /// Returns the stitches that undo the last `cuts` of [`TornDocument::cuts`], or all of these cuts if
@@ -358,6 +363,26 @@ impl<'d> TornDocument<'d> {
         self.cut_is_used = true;
     }
 
+    /// Follows an edit with the extra numbers. Of two vertices that are merged, the one that is kept keeps
+    /// its numbers, whatever the other one has.
+    fn follow_extras(&mut self, edit: &Edit<'_>) {
+        if self.extras.is_empty() {
+            return;
+        }
+        for op in edit.vertex_ops() {
+            // Where sources do not have as many numbers as each other, there are none between them: a new
+            // vertex has none, and one that is set keeps its own.
+            let own = match op {
+                VertexOp::Set { .. } if matches!(edit, Edit::Merge(_)) => continue,
+                VertexOp::Set { at, .. } => self.extras[at.index()].clone(),
+                VertexOp::Push { .. } | VertexOp::SwapRemove { .. } => Vec::new(),
+            };
+            op.apply(&mut self.extras, |mix| {
+                mixed(mix).unwrap_or_else(|| own.clone())
+            });
+        }
+    }
+
     /// Follows an edit with where vertices stand, once where they are has.
     fn follow_apart(&mut self, edit: &Edit<'_>) {
         let Some(shown) = &mut self.shown else {
@@ -387,7 +412,7 @@ impl<'d> TornDocument<'d> {
 
     /// What the `v` of a vertex has behind z.
     pub(crate) fn extra_numbers(&self, vertex: usize) -> &[f64] {
-        self.extras.row(vertex)
+        self.extras.get(vertex).map_or(&[], Vec::as_slice)
     }
 }
 
@@ -416,7 +441,7 @@ impl Follower for TornDocument<'_> {
         for op in edit.vertex_ops() {
             op.apply(self.places.to_mut(), Blend::blend);
         }
-        self.extras.follow(edit);
+        self.follow_extras(edit);
         self.follow_apart(edit);
         match edit {
             Edit::Split(split) => {
@@ -480,41 +505,6 @@ impl TornDocument<'_> {
         let record = self.document.record.as_deref();
         let runs = record.map(|record| &record.new_indices[which]);
         index >= known || runs.is_some_and(|runs| is_in(runs, index as u32))
-    }
-}
-
-/// The extra numbers of each vertex of a mesh. Empty if the document has none at all.
-#[derive(Clone, Debug)]
-struct Extras(Vec<Vec<f64>>);
-
-impl Extras {
-    fn new(document: &Document) -> Extras {
-        let has_any = document.extras.len() > 0;
-        let vertices = (0..document.positions.len()).filter(|_| has_any);
-        Extras(vertices.map(|v| document.extras.row(v).to_vec()).collect())
-    }
-
-    /// The extra numbers of a vertex.
-    fn row(&self, vertex: usize) -> &[f64] {
-        self.0.get(vertex).map_or(&[], Vec::as_slice)
-    }
-
-    /// Follows an edit. Of two vertices that are merged, the one that is kept keeps its numbers,
-    /// whatever the other one has.
-    fn follow(&mut self, edit: &Edit<'_>) {
-        if self.0.is_empty() {
-            return;
-        }
-        for op in edit.vertex_ops() {
-            // Where sources do not have as many numbers as each other, there are none between them: a new
-            // vertex has none, and one that is set keeps its own.
-            let own = match op {
-                VertexOp::Set { .. } if matches!(edit, Edit::Merge(_)) => continue,
-                VertexOp::Set { at, .. } => self.0[at.index()].clone(),
-                VertexOp::Push { .. } | VertexOp::SwapRemove { .. } => Vec::new(),
-            };
-            op.apply(&mut self.0, |mix| mixed(mix).unwrap_or_else(|| own.clone()));
-        }
     }
 }
 

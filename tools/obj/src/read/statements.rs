@@ -32,14 +32,8 @@ impl Reader {
 
     #[inline(always)]
     pub(super) fn texture(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
-        let mut numbers = [0.0; 3];
-        let count = read_numbers(
-            scan,
-            &mut self.widths.places,
-            &mut numbers,
-            1,
-            "a texture coordinate",
-        )?;
+        let (mut numbers, what) = ([0.0; 3], "a texture coordinate");
+        let count = read_numbers(scan, &mut self.widths.places, &mut numbers, 1, what)?;
         let texture = &mut self.document.texture;
         limit(texture.value_count(), Rows::LIMIT - NUMBERS_MAX, "numbers")?;
         texture.set(texture.len(), &numbers[..count]);
@@ -111,11 +105,7 @@ fn too_large(scan: Scan<'_>, numbers: &[f64; NUMBERS_MAX]) -> Box<Fault> {
     let span = scan.argument(at.unwrap_or(0));
     let text = quoted(&scan.line.bytes[span.clone()]);
     let message = format!("the coordinate {text} is too large");
-    Fault::new(
-        "E-OBJ-COORDINATE",
-        span,
-        message,
-        format!("expected at most {COORDINATE_MAX:e}"),
-    )
-    .help("scale the model: computations with larger numbers would overflow")
+    let label = format!("expected at most {COORDINATE_MAX:e}");
+    let fault = Fault::new("E-OBJ-COORDINATE", span, message, label);
+    fault.help("scale the model: computations with larger numbers would overflow")
 }
