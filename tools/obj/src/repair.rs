@@ -182,7 +182,7 @@ impl Document {
             Kind::Polygon => usize::from(counts[number]),
             _ => 1,
         };
-        self.layout.replace(&mut self.text, count, <[u8]>::to_vec);
+        self.replace_statements(count);
     }
 
     fn report_drops(&mut self, dropped: &[Drop]) {
@@ -190,18 +190,32 @@ impl Document {
             let all = dropped.iter().copied().zip(0..);
             let all = all.filter(|&(drop, _)| drop != STAYS && drop & (PILLOW | EDGE) == marks);
             let count = all.clone().count();
-            for (number, (drop, triangle)) in all.take(REPORTED + 1).enumerate() {
-                let line = self.line_of_triangle(triangle);
-                let message = match count - number {
-                    more if number == REPORTED => {
-                        format!("and {more} more faces are dropped (the first here)")
-                    }
-                    _ => self.why(triangle, (drop ^ marks) as usize, code),
-                };
-                let warning = Diagnostic::warning(code, line, message);
-                self.diagnostics.push(warning);
-            }
+            let first = all.take(REPORTED + 1).map(|(drop, triangle)| {
+                let why = self.why(triangle, (drop ^ marks) as usize, code);
+                (self.line_of_triangle(triangle), why)
+            });
+            let first = first.collect();
+            self.report(code, first, count, "faces are dropped");
         }
+    }
+
+    /// Reports some repairs one by one, each with its line, and counts the rest.
+    fn report(
+        &mut self,
+        code: &'static str,
+        first: Vec<(usize, String)>,
+        count: usize,
+        rest: &str,
+    ) {
+        let warnings = first.into_iter().enumerate();
+        let warnings = warnings.map(|(number, (line, message))| {
+            let message = match number {
+                REPORTED => format!("and {} more {rest} (the first here)", count - REPORTED),
+                _ => message,
+            };
+            Diagnostic::warning(code, line, message)
+        });
+        self.diagnostics.extend(warnings);
     }
 
     fn why(&self, triangle: usize, kept: usize, code: &str) -> String {
@@ -314,19 +328,14 @@ impl Document {
     }
 
     fn report_fans(&mut self, first: &[(VertexId, Fans)], count: usize) {
-        const CODE: &str = "W-OBJ-REPAIR-BOWTIE";
         let mut copy = self.positions.len();
-        for (vertex, fans) in first.iter().take(REPORTED) {
-            let new: Vec<String> = fans
-                .iter()
-                .skip(1)
-                .take(20)
-                .map(|fan| {
-                    copy += 1;
-                    let line = self.line_of_triangle(fan.first().index());
-                    format!("the fan on line {line} gets the new vertex {copy}")
-                })
-                .collect();
+        let first = first.iter().map(|(vertex, fans)| {
+            let new = fans.iter().skip(1).take(20).map(|fan| {
+                copy += 1;
+                let line = self.line_of_triangle(fan.first().index());
+                format!("the fan on line {line} gets the new vertex {copy}")
+            });
+            let new: Vec<String> = new.collect();
             copy += (fans.len() - 1).saturating_sub(20);
             let more = if fans.len() > 21 { ", …" } else { "" };
             let message = format!(
@@ -335,19 +344,13 @@ impl Document {
                 fans.len(),
                 new.join(", ")
             );
-            let line = self.line_of_vertex(vertex.index());
-            self.diagnostics
-                .push(Diagnostic::warning(CODE, line, message));
-        }
-        if let Some((next, _)) = first.get(REPORTED) {
-            let line = self.line_of_vertex(next.index());
-            let message = format!(
-                "and {} more vertices with several fans get new vertices (the first here)",
-                count - REPORTED
-            );
-            self.diagnostics
-                .push(Diagnostic::warning(CODE, line, message));
-        }
+            (self.line_of_vertex(vertex.index()), message)
+        });
+        let (first, rest) = (
+            first.collect(),
+            "vertices with several fans get new vertices",
+        );
+        self.report("W-OBJ-REPAIR-BOWTIE", first, count, rest);
     }
 }
 

@@ -14,7 +14,6 @@ use self::plan::Undo;
 use crate::diagnostic::ReadError;
 use crate::document::Document;
 use crate::polygons::Corner;
-use crate::read::text::without_statements_of_vertex;
 use crate::record::{Record, Slid, is_in, runs};
 use crate::store::Kind;
 use crate::torn::TornDocument;
@@ -251,8 +250,7 @@ impl<'d> Rest<'d> {
             Kind::Normal => usize::from(stays[2][number]),
             Kind::Polygon | Kind::Text => usize::from(self.faces[number].is_some()),
         };
-        let passes = without_statements_of_vertex;
-        simple.layout.replace(&mut simple.text, count, passes);
+        simple.replace_statements(count);
         simple
     }
 

@@ -180,7 +180,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// The line of each statement; the run is none of text.
+    /// The line of each statement; of text, the first one alone is known.
     pub(crate) fn lines(self) -> std::ops::Range<u32> {
         self.line..self.line + self.count
     }
@@ -260,49 +260,6 @@ impl Layout {
             added,
         );
         self.runs.splice(place..place, added);
-    }
-
-    /// Puts as many statements as `count` says in the place of each, given its kind and its number. Text
-    /// behind a vertex that is gone has to pass: what was said of the vertex goes with it.
-    pub(crate) fn replace(
-        &mut self,
-        text: &mut Vec<u8>,
-        count: impl Fn(Kind, usize) -> usize,
-        passes: impl Fn(&[u8]) -> Vec<u8>,
-    ) {
-        let mut layout = Layout::default();
-        // What stays of the text moves up to where the rest was.
-        let (mut seen, mut at, mut kept) = ([0; 4], 0, 0);
-        let mut is_gone = false;
-        for &run in &self.runs {
-            if run.kind == Kind::Text {
-                let lines = at..at + run.count as usize;
-                at = lines.end;
-                let before = kept;
-                if is_gone {
-                    let rest = passes(&text[lines]);
-                    kept += rest.len();
-                    text[before..kept].copy_from_slice(&rest);
-                } else {
-                    kept += lines.len();
-                    text.copy_within(lines, before);
-                }
-                if kept > before {
-                    layout.push_text(kept - before, run.line);
-                }
-                is_gone = false;
-                continue;
-            }
-            for line in run.lines() {
-                let number = &mut seen[run.kind as usize];
-                let count = count(run.kind, *number);
-                *number += 1;
-                is_gone = count == 0 && run.kind == Kind::Vertex;
-                (0..count).for_each(|_| layout.push(run.kind, line));
-            }
-        }
-        text.truncate(kept);
-        *self = layout;
     }
 
     pub(crate) fn runs(&self) -> &[Run] {

@@ -172,7 +172,7 @@ impl TornDocument<'_> {
         writer.write()?;
         Ok(WriteSummary {
             vertices,
-            faces: prepared.face_count(),
+            faces: self.face_count(),
             separated: prepared.fans().count(),
             unspoken: prepared.unspoken(self),
         })

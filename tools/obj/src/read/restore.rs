@@ -3,7 +3,6 @@
 
 use tearmesh::Point;
 
-use super::text::without_statements_of_vertex;
 use crate::diagnostic::Diagnostic;
 use crate::document::Document;
 use crate::record::{Apart, Record, SplitOff, are_same, is_same_point};
@@ -70,7 +69,16 @@ pub(super) fn join(document: &mut Document, record: &mut Record, fans: &[[u32; 2
     let vertices: Vec<u32> = moved.iter().map(|&[copy, _]| copy).collect();
     let warning = warning(document, "W-OBJ-RECORD-MOVED", &vertices, message, ", and");
     document.diagnostics.extend(warning);
-    document.drop_vertices(&copies.iter().map(|&[copy, _]| copy).collect::<Vec<_>>());
+    let stays = |v: usize| {
+        let copy = copies.binary_search_by_key(&(v as u32), |&[copy, _]| copy);
+        copy.is_err()
+    };
+    let count = document.positions.len();
+    document.extras = document.extras.staying(count, stays);
+    let mut vertices = 0..count;
+    let is_next = |_: &Point| vertices.next().is_some_and(stays);
+    document.positions.retain(is_next);
+    document.replace_statements(|kind, number| usize::from(kind != Kind::Vertex || stays(number)));
     let mut known = Record {
         copies,
         ..Record::default()
@@ -106,21 +114,4 @@ fn warning(
         many => format!("{and} {} more such", many - 1),
     };
     Some(Diagnostic::warning(code, line, message + &more))
-}
-
-impl Document {
-    /// Drops these vertices, which are ascending and no face names any more, with what is said
-    /// of them.
-    fn drop_vertices(&mut self, dropped: &[u32]) {
-        let is_dropped = |vertex: usize| dropped.binary_search(&(vertex as u32)).is_ok();
-        let count = self.positions.len();
-        self.extras = self.extras.staying(count, |vertex| !is_dropped(vertex));
-        let mut vertices = 0..count;
-        let stays = |_: &Point| vertices.next().is_some_and(|vertex| !is_dropped(vertex));
-        self.positions.retain(stays);
-        let count =
-            |kind: Kind, number: usize| usize::from(kind != Kind::Vertex || !is_dropped(number));
-        let passes = without_statements_of_vertex;
-        self.layout.replace(&mut self.text, count, passes);
-    }
 }

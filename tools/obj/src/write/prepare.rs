@@ -71,10 +71,6 @@ impl<'m> Prepared<'m> {
             .count()
     }
 
-    pub(super) fn face_count(&self) -> usize {
-        self.slots.faces.len()
-    }
-
     /// The copies that are written for fans, and the vertex that each is, as in the file; ascending.
     pub(super) fn fans(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         let added = self.orders[0].added().iter();

@@ -41,7 +41,7 @@ pub(super) fn write_record<W: Write>(
     writeln!(
         bytes,
         " {version} v {vertices} f {} vt {} {texture} vn {} {normals} faces {:016x}",
-        prepared.face_count(),
+        prepared.slots.faces.len(),
         texture - inserted(new_texture),
         normals - inserted(new_normals),
         faces.0
@@ -65,7 +65,7 @@ pub(super) fn write_record<W: Write>(
         let numbers = [is.x, is.y, is.z, shown.x, shown.y, shown.z];
         items.item("apart", &[vertex + 1], &numbers)?;
     }
-    items.write_again(&record.families, prepared.face_count())?;
+    items.write_again(&record.families, prepared.slots.faces.len())?;
     let Items { out, count, hash } = items;
     let bytes = &mut out.pending;
     bytes.extend_from_slice(END);
