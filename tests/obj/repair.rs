@@ -77,12 +77,12 @@ fn naive(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
 }
 
 proptest! {
-    #![proptest_config(super::properties(8))]
+    #![proptest_config(super::properties())]
 
     /// Any triangles and quads: what is left is a mesh, or refused for flipped faces alone; and
     /// the faces that stay are those that the rules name, with the corners that they had.
     #[test]
-    fn what_is_left_after_all_repairs_has_no_defect_but_flipped_faces(
+    fn repairs_leave_no_defect_but_flipped_faces(
         faces in prop::collection::vec(
             (prop::sample::subsequence((1..=9).collect::<Vec<u32>>(), 3..=4), any::<bool>()), 1..14),
     ) {
