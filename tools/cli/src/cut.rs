@@ -119,6 +119,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     session.timing.cut = milliseconds(start);
 
     let ledger = masses.ledger();
+    drop(masses); // To check and to write take the most memory.
     let moved = || session::moved(&document, &mesh, &positions);
     let broken = (!slid).then(moved).flatten();
     let mass = session.verify(&mesh, &ledger, report::AREA, broken)?;

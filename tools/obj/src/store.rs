@@ -167,10 +167,11 @@ impl Kind {
     }
 }
 
-/// Neighbouring statements of one kind, on consecutive lines.
+/// Neighbouring statements of one kind, on consecutive lines or all on one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Run {
     pub(crate) kind: Kind,
+    is_on_one_line: bool,
     /// How many statements, or for text, how many bytes.
     pub(crate) count: u32,
     /// The line of the first statement.
@@ -180,9 +181,13 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// The line of each statement; of text, the first one alone is known.
-    pub(crate) fn lines(self) -> std::ops::Range<u32> {
-        self.line..self.line + self.count
+    /// The line of a statement, by how many of the run come before it; of text, the first one alone is known.
+    pub(crate) fn line(self, before: u32) -> u32 {
+        self.line + if self.is_on_one_line { 0 } else { before }
+    }
+
+    fn ends_before(self, line: u32) -> bool {
+        self.line.wrapping_add(self.count) == line && !self.is_on_one_line
     }
 }
 
@@ -198,7 +203,7 @@ impl Layout {
     #[inline]
     pub(crate) fn push(&mut self, kind: Kind, line: u32) {
         match self.runs.last_mut() {
-            Some(run) if run.kind == kind && run.line.wrapping_add(run.count) == line => {
+            Some(run) if run.kind == kind && run.ends_before(line) => {
                 run.count += 1;
             }
             _ => self.begin(kind, 1, line),
@@ -209,6 +214,7 @@ impl Layout {
     fn begin(&mut self, kind: Kind, count: u32, line: u32) {
         let run = Run {
             kind,
+            is_on_one_line: false,
             count,
             line,
             polygons_before: self.polygons,
@@ -236,8 +242,7 @@ impl Layout {
         let vertices = self.runs.iter().rposition(|run| run.kind == Kind::Vertex);
         let mut place = vertices.expect("there is a vertex") + 1;
         let last = self.runs[place - 1];
-        let (line, count) = (last.line + last.count - 1, 1);
-        self.runs.reserve_exact(added + 1);
+        self.runs.reserve_exact(2);
         if attached > 0 {
             let text = &mut self.runs[place];
             let rest = text.count - attached as u32;
@@ -251,15 +256,13 @@ impl Layout {
                 self.runs.insert(place, behind);
             }
         }
-        let added = std::iter::repeat_n(
-            Run {
-                count,
-                line,
-                ..last
-            },
-            added,
-        );
-        self.runs.splice(place..place, added);
+        let added = Run {
+            is_on_one_line: true,
+            count: added as u32,
+            line: last.line(last.count - 1),
+            ..last
+        };
+        self.runs.insert(place, added);
     }
 
     pub(crate) fn runs(&self) -> &[Run] {
@@ -283,7 +286,7 @@ impl Layout {
         let mut before = 0;
         for run in self.runs.iter().filter(|run| run.kind == Kind::Vertex) {
             if vertex < before + run.count as usize {
-                return Some(run.line as usize + vertex - before);
+                return Some(run.line((vertex - before) as u32) as usize);
             }
             before += run.count as usize;
         }

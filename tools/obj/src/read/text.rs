@@ -76,12 +76,12 @@ impl Document {
                     self.text.copy_within(lines, before);
                 }
                 if kept > before {
-                    layout.push_text(kept - before, run.lines().start);
+                    layout.push_text(kept - before, run.line(0));
                 }
                 is_gone = false;
                 continue;
             }
-            for line in run.lines() {
+            for line in (0..run.count).map(|before| run.line(before)) {
                 let number = &mut seen[run.kind as usize];
                 let count = count(run.kind, *number);
                 *number += 1;

@@ -25,8 +25,8 @@ pub(super) struct Ancestry {
     classes: Vec<u32>,
     /// For each split, the cut and the two nodes.
     links: Vec<(u32, [u32; 2])>,
-    /// Sets of nodes that are one vertex.
-    merged: DisjointSets,
+    /// For each merge, the nodes of the two vertices.
+    merged: Vec<[u32; 2]>,
     class_count: u32,
 }
 
@@ -46,7 +46,7 @@ impl Ancestry {
             nodes: (0..count).collect(),
             classes,
             links: links.collect(),
-            merged: DisjointSets::new(count),
+            merged: Vec::new(),
             class_count: count,
         }
     }
@@ -74,9 +74,17 @@ impl Ancestry {
         for (&node, v) in self.nodes.iter().zip(0..) {
             vertices[node as usize] = v;
         }
-        let mut merged = self.merged.clone();
-        let leaders = merged.leaders().iter();
-        leaders.map(|&leader| vertices[leader as usize]).collect()
+        let leaders = self.leaders().into_iter();
+        leaders.map(|leader| vertices[leader as usize]).collect()
+    }
+
+    /// For each node the one that stands for all of its vertex.
+    fn leaders(&self) -> Vec<u32> {
+        let mut sets = DisjointSets::new(self.classes.len() as u32);
+        for &[kept, gone] in &self.merged {
+            sets.join(kept, gone);
+        }
+        sets.leaders().to_vec()
     }
 
     /// Above every class.
@@ -98,7 +106,7 @@ impl Ancestry {
     }
 
     fn push(&mut self, class: u32) -> u32 {
-        let node = self.merged.push();
+        let node = self.classes.len() as u32;
         self.classes.push(class);
         self.nodes.push(node);
         node
@@ -113,14 +121,13 @@ impl Ancestry {
         assert_eq!(self.class(kept), self.class(gone), "both have one root");
         assert!(kept < gone, "the lower id is kept");
         let gone = self.nodes.swap_remove(gone);
-        self.merged.join(self.nodes[kept], gone);
-        self.nodes[kept] = self.merged.leader(gone);
+        self.merged.push([self.nodes[kept], gone]);
+        self.nodes[kept] = self.nodes[kept].min(gone);
     }
 
     /// The links between vertices, the youngest first, with a number of each node's vertex.
     fn youngest_links(&self, number: impl Fn(u32) -> u32) -> Vec<(u32, [u32; 2])> {
-        let mut merged = self.merged.clone();
-        let leaders = merged.leaders();
+        let leaders = self.leaders();
         let number = |node: u32| number(leaders[node as usize]);
         let links = self.links.iter();
         let mut links: Vec<_> = links

@@ -90,6 +90,7 @@ impl<'m> Prepared<'m> {
         let of_faces = faces.map(|&face| torn.families.of(face as usize));
         let mut families = torn.families.of_faces(of_faces, |_| true);
         families.renumber(root);
+        drop(roots); // What was split off takes as much memory again.
         let mut apart = self.apart.clone();
         for apart in &mut apart {
             apart.vertex = number(apart.vertex);
