@@ -28,8 +28,7 @@ pub use cursor::Cursor;
 pub use form::{CornerOp, FaceFamily, VertexOp};
 pub use mix::Mix;
 pub use record::{
-    ChildFace, Edit, Insert, InsertLocation, InsertedPoint, Merge, Renumbered, Slide, Split,
-    TornLink,
+    ChildFace, Edit, Insert, InsertedPoint, Merge, Renumbered, Slide, Split, TornLink,
 };
 
 use crate::id::HalfEdgeId;
@@ -441,6 +440,16 @@ pub trait Follower {
     /// Applies the record that comes after the cursor. Only [`Edits::replay`] and [`Edit::pass_on`]
     /// may call this method; they advance the cursor afterwards.
     fn follow(&mut self, edit: &Edit<'_>);
+
+    /// Sets the place in the log at which this follower's values are those of the mesh.
+    #[must_use]
+    fn starting_at(mut self, seen: Cursor) -> Self
+    where
+        Self: Sized,
+    {
+        *self.cursor() = seen;
+        self
+    }
 }
 
 impl<F: Follower + ?Sized> Follower for &mut F {

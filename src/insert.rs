@@ -23,7 +23,7 @@ use std::fmt;
 
 pub use plan::{Chord, ChordEnd, Plan, Point, PointId};
 
-use crate::edit::{ChildFace, Edit, Edits, Insert, InsertLocation, InsertedPoint};
+use crate::edit::{ChildFace, Edit, Edits, Insert, InsertedPoint, Mix};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use face::{Fault, Retriangulation};
@@ -203,7 +203,7 @@ impl Work {
                     }
                     let place = |vertex: VertexId, ends: [HalfEdgeId; 2]| {
                         let ends = ends.map(|h| mesh.origin(h));
-                        let at = InsertLocation::Edge { ends, t };
+                        let at = Mix::Between { ends, t };
                         InsertedPoint { vertex, at }
                     };
                     let vertex = new_vertex();
@@ -232,9 +232,9 @@ impl Work {
                         return Err(InsertRefusal::Weights { face: f, weights });
                     }
                     let weights = weights.map(|w| w / sum);
-                    let vertices = mesh.face_vertices(f);
+                    let of = mesh.face_vertices(f);
                     let vertex = new_vertex();
-                    let at = InsertLocation::Face { vertices, weights };
+                    let at = Mix::Weighted { of, weights };
                     self.placed.push(InsertedPoint { vertex, at });
                     in_faces.push((f, vertex, weights));
                 }

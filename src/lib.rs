@@ -121,7 +121,7 @@ pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};
 pub use draw::{DrawBuffers, DrawChanges};
 pub use edit::{
     ChildFace, CornerOp, Cursor, Edit, Edits, FaceFamily, Follower, Followers, Insert,
-    InsertLocation, InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink, VertexOp,
+    InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink, VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};

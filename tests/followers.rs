@@ -6,8 +6,8 @@ mod values;
 
 use tearmesh::script::{Script, Step, World};
 use tearmesh::{
-    Blend, Cursor, DrawBuffers, Edit, Edits, FaceId, Follower, HalfEdgeId, InsertLocation, Masses,
-    Mesh, Mix, PerCorner, PerFace, PerVertex, Positions, VertexId, shapes, slide, split,
+    Blend, Cursor, DrawBuffers, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix,
+    PerCorner, PerFace, PerVertex, Positions, VertexId, shapes, slide, split,
 };
 
 use crate::foreign::panic_of;
@@ -101,7 +101,7 @@ fn kinds<'e>(mesh: &Mesh, edits: impl Iterator<Item = Edit<'e>>) -> [usize; 5] {
                 kinds[1] += 1;
                 let on_edge = insert.points.iter().filter(|point| {
                     let is_copy = mesh.root(point.vertex) != point.vertex;
-                    is_copy && matches!(point.at, InsertLocation::Edge { .. })
+                    is_copy && matches!(point.at, Mix::Between { .. })
                 });
                 kinds[2] += on_edge.count().min(1);
             }

@@ -18,20 +18,8 @@
 //! reads the records themselves.
 
 use super::mix::Mix;
-use super::record::{ChildFace, Edit, Insert, InsertLocation, Slide};
+use super::record::{ChildFace, Edit, Insert, Slide};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
-
-impl From<InsertLocation> for Mix<VertexId> {
-    fn from(at: InsertLocation) -> Mix<VertexId> {
-        match at {
-            InsertLocation::Edge { ends, t } => Mix::Between { ends, t },
-            InsertLocation::Face { vertices, weights } => Mix::Weighted {
-                of: vertices,
-                weights,
-            },
-        }
-    }
-}
 
 /// A change to a list that has one value for each vertex. The operations of one edit must be
 /// applied in order.
@@ -265,7 +253,7 @@ impl<'e> Edit<'e> {
         }
         let pushes = points.iter().map(|point| VertexOp::Push {
             new: point.vertex,
-            from: point.at.into(),
+            from: point.at,
         });
         pushes.chain(changes.into_iter().flatten())
     }

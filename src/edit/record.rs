@@ -65,12 +65,13 @@ impl Insert<'_> {
         hash.add_pair([self.points.len() as u32, self.children.len() as u32]);
         for point in self.points {
             match point.at {
-                InsertLocation::Edge { ends, t } => {
+                Mix::Copy(v) => hash.add(u32::from(v).into()),
+                Mix::Between { ends, t } => {
                     hash.add_pair(ends.map(u32::from));
                     hash.add(t.to_bits());
                 }
-                InsertLocation::Face { vertices, weights } => {
-                    hash.add_pair([vertices[0].into(), vertices[1].into()]);
+                Mix::Weighted { of, weights } => {
+                    hash.add_pair([of[0].into(), of[1].into()]);
                     hash.add(weights[0].to_bits());
                     hash.add(weights[1].to_bits());
                 }
@@ -152,28 +153,10 @@ pub struct Insert<'e> {
 pub struct InsertedPoint {
     /// The new vertex.
     pub vertex: VertexId,
-    /// The location of the new vertex, relative to vertices that existed before the insertion.
-    pub at: InsertLocation,
-}
-
-/// A location on an edge or in a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum InsertLocation {
-    /// The point `ends[0] + t (ends[1] − ends[0])` of an edge.
-    Edge {
-        /// The vertices at the ends of the edge.
-        ends: [VertexId; 2],
-        /// The fraction of the way from `ends[0]` to `ends[1]`, strictly between 0 and 1.
-        t: f64,
-    },
-    /// The weighted mean of the corners of a face.
-    Face {
-        /// The vertices of the face.
-        vertices: [VertexId; 3],
-        /// The weights of the vertices, in the same order. They are positive, and their sum is one
-        /// up to rounding.
-        weights: [f64; 3],
-    },
+    /// The location of the new vertex: between the ends of an edge, the parameter strictly between 0 and
+    /// 1, or among the corners of a face, the weights positive and their sum one up to rounding. All
+    /// are vertices that existed before the insertion.
+    pub at: Mix<VertexId>,
 }
 
 /// A face that replaced part of a divided face, its *parent*.

@@ -1,6 +1,6 @@
 //! Values beside a mesh, kept by reading what each kind of record says, and nothing derived from it.
 
-use tearmesh::{Edit, InsertLocation, Mix, VertexId};
+use tearmesh::{Edit, Mix, VertexId};
 
 pub(crate) type Value = [f64; 2];
 
@@ -33,10 +33,9 @@ impl Values {
             Edit::Insert(insert) => {
                 let at = |v: VertexId| self.vertices[v.index()];
                 let new = insert.points.iter().map(|point| match point.at {
-                    InsertLocation::Edge { ends: [a, b], t } => between(at(a), at(b), t),
-                    InsertLocation::Face { vertices, weights } => {
-                        weighted(vertices.map(at), weights)
-                    }
+                    Mix::Copy(v) => at(v),
+                    Mix::Between { ends: [a, b], t } => between(at(a), at(b), t),
+                    Mix::Weighted { of, weights } => weighted(of.map(at), weights),
                 });
                 let new: Vec<Value> = new.collect();
                 self.vertices.extend(new);

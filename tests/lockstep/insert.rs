@@ -1,7 +1,7 @@
 //! What an insertion must do, and what it must leave as it was.
 
 use tearmesh::insert::{Chord, ChordEnd, InsertRefusal, Plan, Point};
-use tearmesh::{Cursor, Edit, HalfEdgeId, Insert, InsertLocation, Mesh};
+use tearmesh::{Cursor, Edit, HalfEdgeId, Insert, Mesh, Mix};
 
 use super::beside::weights_in_parent;
 use super::mesh::euler;
@@ -92,12 +92,13 @@ impl Request {
             .iter()
             .map(|point| {
                 let place = match point.at {
-                    InsertLocation::Edge { ends, t } => Place::Edge {
+                    Mix::Copy(v) => panic!("{v} was inserted nowhere"),
+                    Mix::Between { ends, t } => Place::Edge {
                         ends: ends.map(u32::from),
                         t,
                     },
-                    InsertLocation::Face { vertices, weights } => Place::Face {
-                        vertices: vertices.map(u32::from),
+                    Mix::Weighted { of, weights } => Place::Face {
+                        vertices: of.map(u32::from),
                         weights,
                     },
                 };

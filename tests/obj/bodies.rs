@@ -124,8 +124,9 @@ impl Followed {
             Edit::Insert(insert) => {
                 for point in insert.points {
                     let sources = match point.at {
-                        tearmesh::InsertLocation::Edge { ends, .. } => ends.to_vec(),
-                        tearmesh::InsertLocation::Face { vertices, .. } => vertices.to_vec(),
+                        tearmesh::Mix::Copy(v) => vec![v],
+                        tearmesh::Mix::Between { ends, .. } => ends.to_vec(),
+                        tearmesh::Mix::Weighted { of, .. } => of.to_vec(),
                     };
                     let anchors = sources.into_iter().map(|v| root(self, v));
                     let last = anchors.max().expect("sources");

@@ -15,8 +15,8 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use tearmesh::{
-    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertLocation, InsertedPoint, Mix, Point,
-    Positions, Slide, VertexId, VertexOp, mend::Stitch,
+    Blend, Cursor, Edit, FaceId, Follower, Insert, InsertedPoint, Mix, Point, Positions, Slide,
+    VertexId, VertexOp, mend::Stitch,
 };
 
 use self::ancestry::Ancestry;
@@ -321,13 +321,12 @@ impl<'d> TornDocument<'d> {
                 None => {
                     let class = |v: VertexId| self.ancestry.class(v.index());
                     let (between, weights) = match point.at {
-                        InsertLocation::Edge { ends, t } => {
+                        Mix::Between { ends, t } => {
                             let [a, b] = ends.map(class);
                             ([a, b, b], [1.0 - t, t, 0.0])
                         }
-                        InsertLocation::Face { vertices, weights } => {
-                            (vertices.map(class), weights)
-                        }
+                        Mix::Weighted { of, weights } => (of.map(class), weights),
+                        Mix::Copy(v) => unreachable!("{v} was inserted nowhere"),
                     };
                     self.inserted.push(Inserted {
                         vertex: self.ancestry.class_count() as u32,
@@ -399,8 +398,7 @@ impl<'d> TornDocument<'d> {
     /// The nodes of the vertices on both sides of a torn edge, at each of its ends, if these two points are
     /// on both sides of one: the same place of an edge between the same roots.
     fn nodes_of_twins(&self, one: &InsertedPoint, other: &InsertedPoint) -> Option<[[u32; 2]; 2]> {
-        let (InsertLocation::Edge { ends, t }, InsertLocation::Edge { ends: others, t: u }) =
-            (one.at, other.at)
+        let (Mix::Between { ends, t }, Mix::Between { ends: others, t: u }) = (one.at, other.at)
         else {
             return None;
         };
