@@ -320,34 +320,6 @@ pub(crate) fn altitude([a, b, c]: [Point; 3]) -> f64 {
     }
 }
 
-/// The angle of the point (x, y) seen from the x-axis, in radians, for y >= 0.
-///
-/// Our own, because the last bits of the system's `atan2` differ from machine to
-/// machine. The argument is brought below 0.2 by two half-angle steps
-/// (tan(φ/2) = tan φ / (1 + √(1 + tan² φ))), where 15 terms of the series leave
-/// an error below 1e-16 of the angle.
-pub(crate) fn angle(x: f64, y: f64) -> f64 {
-    debug_assert!(y >= 0.0);
-    if x == 0.0 && y == 0.0 {
-        return 0.0;
-    }
-    // tan(φ/2) = y / (r + x), free of cancellation for x >= 0.
-    let r = (x * x + y * y).sqrt();
-    let half = if x >= 0.0 { y / (r + x) } else { y / (r - x) };
-    let quarter = half / (1.0 + (1.0 + half * half).sqrt());
-    let t = quarter / (1.0 + (1.0 + quarter * quarter).sqrt());
-    let mut series = 0.0;
-    for k in (0..15).rev() {
-        series = 1.0 / f64::from(2 * k + 1) - t * t * series;
-    }
-    let acute = 8.0 * t * series;
-    if x >= 0.0 {
-        acute
-    } else {
-        std::f64::consts::PI - acute
-    }
-}
-
 /// Returns the sine and the cosine of an angle in radians, in this order. The absolute value of the
 /// angle must be at most 8, which is more than a full turn.
 ///
@@ -411,19 +383,6 @@ mod tests {
         }
         assert!(furthest <= 2, "{furthest}");
         assert_eq!(sine_and_cosine(0.0), (0.0, 1.0));
-    }
-
-    #[test]
-    fn angles_agree_with_the_system_to_the_last_digits() {
-        for i in 0..=1000 {
-            let truth = std::f64::consts::PI * f64::from(i) / 1000.0;
-            let (y, x) = truth.sin_cos();
-            assert!(
-                (angle(x, y.abs()) - truth).abs() < 4e-16 * (1.0 + truth),
-                "{truth}"
-            );
-        }
-        assert_eq!(angle(0.0, 0.0), 0.0);
     }
 
     #[test]

@@ -18,7 +18,6 @@ mod outcome;
 mod paper;
 mod partition;
 mod pieces;
-mod quality;
 mod seam;
 mod strip;
 mod unshare;

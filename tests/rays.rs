@@ -7,8 +7,8 @@ use std::ops::Neg as _;
 
 use tearmesh::script::Script;
 use tearmesh::{
-    COORDINATE_MAX, Cursor, CutError, CutMethod, CutReport, CutTips, Edits, FaceId, Masses, Mesh,
-    Point, Positions, Ray, Scissor, ScissorError, Vector, VertexId, shapes, split,
+    COORDINATE_MAX, Cursor, CutError, CutMethod, CutReport, CutTips, Edits, FaceId, Follower as _,
+    Masses, Mesh, Point, Positions, Ray, Scissor, ScissorError, Vector, VertexId, shapes, split,
 };
 
 use crate::work::Work;
@@ -99,7 +99,6 @@ impl Case {
             report.seam_length_ratio,
             report.seam_deviation_max,
             report.seam_deviation_max_edges,
-            report.angle_min_deg,
             report.altitude_min,
             report.nearest_vertex,
         ];

@@ -10,11 +10,10 @@ use super::exact::{self, Trace, with_copies};
 use super::neck::{self, CutNeck};
 use super::outcome::{Outcome, side_of};
 use super::pieces::{Census, Pinch};
-use super::quality::Quality;
 use super::seam::Nodes;
 use super::way::Way;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
-use crate::geometry::{Point, Side, length};
+use crate::geometry::{Point, Side, altitude, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -64,8 +63,6 @@ pub struct CutReport {
     pub seam_deviation_max_edges: f64,
     /// The number of vertices inserted on edges and in faces.
     pub vertices_inserted: usize,
-    /// The smallest angle of any face after the cut, in degrees, or 0 for a mesh without faces.
-    pub angle_min_deg: f64,
     /// The smallest altitude of any face after the cut, or 0 for a mesh without faces.
     pub altitude_min: f64,
     /// Whether the slit meets no face.
@@ -257,7 +254,9 @@ impl<'w> Survey<'w> {
         let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
         let mut ends: Vec<VertexId> = Vec::new();
         let (pieces, expected) = (self.census.after(mesh), self.report.pieces_expected);
-        let quality = Quality::of(mesh, positions);
+        let places = mesh
+            .faces()
+            .map(|f| mesh.face_vertices(f).map(|v| positions.at(v)));
         let mut splits = 0;
         let mut vertices_inserted = 0;
         let mut seam_length = 0.0;
@@ -305,8 +304,7 @@ impl<'w> Survey<'w> {
             seam_deviation_max,
             seam_deviation_max_edges: ratio(seam_deviation_max, self.mean_edge),
             vertices_inserted,
-            angle_min_deg: quality.angle_min_deg,
-            altitude_min: quality.altitude_min,
+            altitude_min: places.map(altitude).reduce(f64::min).unwrap_or(0.0),
             missed: self.slit.is_empty(),
             tip_overshoots: self.overshoots(mesh, positions, ends),
             ..self.report.clone()
