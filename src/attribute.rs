@@ -169,18 +169,6 @@ impl<I, T> Values<I, T> {
         }
     }
 
-    /// Sets the place in the log up to which these values have been replayed.
-    #[must_use]
-    pub fn starting_at(self, seen: Cursor) -> Self {
-        Values { seen, ..self }
-    }
-
-    /// Returns the place in the log up to which these values have been replayed.
-    #[must_use]
-    pub fn seen(&self) -> Cursor {
-        self.seen.known()
-    }
-
     /// Reserves memory for `more` values. With as many as splits make vertices, replaying these
     /// allocates nothing except for cloning values.
     pub fn reserve(&mut self, more: usize) {

@@ -125,12 +125,6 @@ impl<T: Blend> DrawBuffers<T> {
         buffers
     }
 
-    /// Sets the place in the log up to which these buffers have been replayed.
-    #[must_use]
-    pub fn starting_at(self, seen: Cursor) -> DrawBuffers<T> {
-        DrawBuffers { seen, ..self }
-    }
-
     /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
     /// nothing.
     pub fn reserve(&mut self, vertices: usize) {

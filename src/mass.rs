@@ -207,18 +207,6 @@ impl Masses {
         masses
     }
 
-    /// Sets the place in the log up to which these masses have been replayed.
-    #[must_use]
-    pub fn starting_at(self, seen: Cursor) -> Masses {
-        Masses { seen, ..self }
-    }
-
-    /// Returns the place in the log up to which these masses have been replayed.
-    #[must_use]
-    pub fn seen(&self) -> Cursor {
-        self.seen
-    }
-
     /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
     /// nothing.
     pub fn reserve(&mut self, vertices: usize) {

@@ -99,12 +99,6 @@ impl Positions {
         Positions::new(points.into_iter().map(|point| point.map(f64::from)))
     }
 
-    /// Sets the place in the log up to which these positions have been replayed.
-    #[must_use]
-    pub fn starting_at(self, seen: Cursor) -> Positions {
-        Positions { seen, ..self }
-    }
-
     /// Returns the place in the log up to which these positions have been replayed.
     #[must_use]
     pub fn seen(&self) -> Cursor {

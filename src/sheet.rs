@@ -4,7 +4,7 @@
 //! each be held alone, as an engine does. Most programs hold them together: then nothing can be
 //! forgotten or out of step.
 
-use crate::edit::{Edits, Followers};
+use crate::edit::{Edits, Follower as _, Followers};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mass::{MassError, Masses};
 use crate::mend;

@@ -201,7 +201,7 @@ fn a_follower_that_is_not_in_step_is_told_why() {
     assert!(told.contains("has seen 0 edits was shown edit 3"), "{told}");
     // Who is in step sees just what is new.
     edits.replay(&mut seen);
-    let counts = (seen.as_slice().len(), seen.seen());
+    let counts = (seen.as_slice().len(), *seen.cursor());
     assert_eq!(counts, (mesh.vertex_count(), edits.cursor()));
 }
 

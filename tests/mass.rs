@@ -1,7 +1,8 @@
 //! Masses: what is refused, what they start from, and what is conserved; and the sums that tell.
 
 use tearmesh::{
-    Edits, ExactSum, MassError, MassLedger, Masses, Mesh, VertexId, mend, shapes, split,
+    Edits, ExactSum, Follower as _, MassError, MassLedger, Masses, Mesh, VertexId, mend, shapes,
+    split,
 };
 
 const USUAL: &str = "nothing unusual";

@@ -30,15 +30,13 @@ pub struct World {
     pub half: Option<Masses>,
     /// The index buffer of the mesh, which has seen every edit by the records alone.
     pub indices: Vec<u32>,
-    /// A second index buffer, replayed only just before the log is cleared, so that it replays many
-    /// edits at once.
-    pub late_indices: Vec<u32>,
     /// The position of each corner, which has seen every edit. It equals the position of the
     /// corner's vertex up to rounding, until copies that slid apart are merged. The merged vertex
     /// then lies between them, and its corner values do not change.
     pub corners: PerCorner<[f64; 3]>,
     /// Of the two index buffers.
-    seen: [Cursor; 2],
+    /// Up to which the index buffer has.
+    seen: Cursor,
 }
 
 /// A step of a [`World`]: an attempted operation with its outcome. An edit is identified by the place
@@ -119,7 +117,7 @@ pub enum Step<'s> {
 
 impl Script {
     /// Builds the mesh, applies the operations in order, and calls `observe` with the world after
-    /// each step. All followers except [`World::late_indices`] have then replayed the log.
+    /// each step. All followers have then replayed the log.
     ///
     /// [`Operation::Tear`] consists of many steps, one for each split. A cut is one step.
     pub fn run(&self, mut observe: impl FnMut(&World, &Step<'_>)) -> World {
@@ -158,8 +156,7 @@ impl World {
             area: Masses::area(&mesh, &positions, 1.0).expect(masses),
             half: Some(Masses::half(&mesh, &positions, 1.0).expect(masses)),
             indices: mesh.indices().to_vec(),
-            late_indices: mesh.indices().to_vec(),
-            seen: [Cursor::START; 2],
+            seen: Cursor::START,
             corners: PerCorner::new(mesh.half_edges().map(place).collect()),
             edits: Edits::new(),
             mesh,
@@ -306,8 +303,6 @@ impl World {
                 }
             }
             Operation::Clear => {
-                let [_, seen] = &mut self.seen;
-                self.edits.replay_indices(seen, &mut self.late_indices);
                 self.edits.clear();
                 observe(self, &Step::Cleared);
             }
@@ -413,8 +408,7 @@ impl World {
         }
         let beside = (&mut self.positions, &mut self.area, &mut self.corners);
         self.edits.replay(&mut { beside });
-        let [seen, _] = &mut self.seen;
-        self.edits.replay_indices(seen, &mut self.indices);
+        self.edits.replay_indices(&mut self.seen, &mut self.indices);
         observe(self, step);
     }
 }

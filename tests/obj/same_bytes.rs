@@ -3,7 +3,9 @@
 //! The fuzz targets `obj_read` and `obj_roundtrip` and the replay of their seeds use this.
 
 use tearmesh::insert::Plan;
-use tearmesh::{Cursor, Edits, FaceId, HalfEdgeId, Mesh, Positions, VertexId, mend, slide, split};
+use tearmesh::{
+    Cursor, Edits, FaceId, Follower as _, HalfEdgeId, Mesh, Positions, VertexId, mend, slide, split,
+};
 use tearmesh_obj::{Document, TornDocument};
 
 /// A file, and behind a zero byte (which no OBJ file has) what is split. Whether it is a mesh.

@@ -5,7 +5,7 @@ pub(crate) mod error;
 pub use error::ClothError;
 
 use tearmesh::geometry::{Point, cross, length};
-use tearmesh::{Cursor, HalfEdgeId, Masses, Mesh, Positions, VertexId};
+use tearmesh::{Cursor, Follower as _, HalfEdgeId, Masses, Mesh, Positions, VertexId};
 
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Bending, Fabric, Stretch};

@@ -27,8 +27,8 @@ pub use report::{CutId, Event, Picked, Reached};
 
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
-    Cut, CutError, CutMethod, CutReport, Edit, Edits, Masses, Mesh, Mix, PerVertex, PositionError,
-    Positions, Scissor, VertexId, mend, pick,
+    Cut, CutError, CutMethod, CutReport, Edit, Edits, Follower as _, Masses, Mesh, Mix, PerVertex,
+    PositionError, Positions, Scissor, VertexId, mend, pick,
 };
 
 use self::hand::Hands;
