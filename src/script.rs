@@ -108,9 +108,7 @@
 //! ```
 //!
 //! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. With the
-//! features `arbitrary` and `proptest`, [`Script`] is `Arbitrary` for these crates: a target may take a
-//! script, from the same bytes, and a property test `any::<Script>()`. If
-//! it fails, [`Script::shrink`] reduces the script to the few lines that matter. The message ends
+//! feature `proptest`, a property test may take `any::<Script>()`. If it fails, [`Script::shrink`] reduces the script to the few lines that matter. The message ends
 //! with the script as text, which a regression test can parse with `text.parse::<Script>()`. The
 //! folder `fuzz` of this library's repository runs its targets on the stable toolchain
 //! (`fuzz/run`), and can be copied.

@@ -53,18 +53,6 @@ impl Script {
     }
 }
 
-#[cfg(feature = "arbitrary")]
-impl<'a> arbitrary::Arbitrary<'a> for Script {
-    fn arbitrary(unstructured: &mut arbitrary::Unstructured<'a>) -> arbitrary::Result<Script> {
-        let bytes = unstructured.arbitrary_len::<u8>()?;
-        unstructured.bytes(bytes).map(Script::from_bytes)
-    }
-
-    fn arbitrary_take_rest(unstructured: arbitrary::Unstructured<'a>) -> arbitrary::Result<Script> {
-        Ok(Script::from_bytes(unstructured.take_rest()))
-    }
-}
-
 /// Returns scripts of up to [`Script::OPERATIONS_MAX`] operations. Shape and operations have bytes of
 /// their own, so that a failing case shrinks by dropping operations; [`Script::shrink`] shrinks it further.
 #[cfg(feature = "proptest")]
