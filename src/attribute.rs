@@ -246,9 +246,7 @@ impl<T: Blend> Follower for PerCorner<T> {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        for op in edit.corner_ops() {
-            op.apply(&mut self.values, T::blend);
-        }
+        edit.apply_to_corners(&mut self.values, T::blend);
     }
 }
 
@@ -258,8 +256,6 @@ impl<T: Clone> Follower for PerFace<T> {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        for family in edit.families() {
-            family.apply_to_faces(&mut self.values);
-        }
+        edit.apply_to_faces(&mut self.values);
     }
 }

@@ -15,7 +15,7 @@
 //! ```
 
 use crate::attribute::Blend;
-use crate::edit::{CornerOp, Cursor, Edit, Follower};
+use crate::edit::{Cursor, Edit, Follower, divide_corners};
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
@@ -359,11 +359,11 @@ impl<T: Blend> Follower for DrawBuffers<T> {
                 let vertices = self.slots_of.len() + insert.points.len();
                 self.slots_of.resize(vertices, NONE);
                 for family in insert.families() {
-                    self.detach(&family.parent().half_edges());
-                    CornerOp::Divide(family).apply(&mut self.values, T::blend);
+                    self.detach(&family[0].parent.half_edges());
+                    divide_corners(family, &mut self.values, T::blend);
                     self.indices.resize(self.values.len(), NONE);
                     self.rings.resize(self.values.len(), [NONE; 2]);
-                    for child in family.children() {
+                    for child in family {
                         let corners = child.face.half_edges().into_iter();
                         corners
                             .zip(child.vertices)
@@ -389,8 +389,7 @@ impl<T: Blend> Follower for DrawBuffers<T> {
             }
             Edit::Slide(slide) => {
                 self.detach(slide.corners);
-                edit.corner_ops()
-                    .for_each(|op| op.apply(&mut self.values, T::blend));
+                edit.apply_to_corners(&mut self.values, T::blend);
                 slide
                     .corners
                     .iter()

@@ -13,7 +13,7 @@
 //!
 //! A record can be read in two forms. [`Edit`] says what happened, for followers that need
 //! structure: constraints, the record in a file, masses. For plain values there is a normal form
-//! ([`VertexOp`], [`CornerOp`], [`FaceFamily`]): [`Edits::replay_vertices`] and its siblings bring
+//! ([`VertexOp`], [`Edit::apply_to_corners`]): [`Edits::replay_vertices`] and its siblings bring
 //! a list of any type up to date.
 //!
 //! The log is flat: the lists of all records lie one after another in a few vectors.
@@ -25,7 +25,8 @@ mod mix;
 mod record;
 
 pub use cursor::Cursor;
-pub use form::{CornerOp, FaceFamily, VertexOp};
+pub use form::VertexOp;
+pub(crate) use form::divide_corners;
 pub use mix::Mix;
 pub use record::{
     ChildFace, Edit, Insert, InsertedPoint, Merge, Renumbered, Slide, Split, TornLink,
@@ -239,21 +240,7 @@ impl Edits {
         mut mix: impl FnMut(Mix<&T>) -> T,
     ) {
         for edit in self.unseen(seen, values.len(), |size| 3 * size.faces) {
-            edit.corner_ops().for_each(|op| op.apply(values, &mut mix));
-        }
-        *seen = self.end;
-    }
-
-    /// Replays the log on an index buffer, and advances `seen` to the end of the log. The buffer holds
-    /// the vertex of each corner, three per face, as [`Mesh::indices`](crate::Mesh::indices) does.
-    ///
-    /// # Panics
-    ///
-    /// For the same reasons as [`Edits::replay`], or if `indices` does not have three entries for each face.
-    pub fn replay_indices(&self, seen: &mut Cursor, indices: &mut Vec<u32>) {
-        for edit in self.unseen(seen, indices.len(), |size| 3 * size.faces) {
-            edit.corner_ops()
-                .for_each(|op| op.apply_to_indices(indices));
+            edit.apply_to_corners(values, &mut mix);
         }
         *seen = self.end;
     }
@@ -266,8 +253,7 @@ impl Edits {
     /// For the same reasons as [`Edits::replay`], or if `values` does not have one value for each face.
     pub fn replay_faces<T: Clone>(&self, seen: &mut Cursor, values: &mut Vec<T>) {
         for edit in self.unseen(seen, values.len(), |size| size.faces) {
-            edit.families()
-                .for_each(|family| family.apply_to_faces(values));
+            edit.apply_to_faces(values);
         }
         *seen = self.end;
     }

@@ -120,8 +120,8 @@ pub mod weld;
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};
 pub use draw::{DrawBuffers, DrawChanges};
 pub use edit::{
-    ChildFace, CornerOp, Cursor, Edit, Edits, FaceFamily, Follower, Followers, Insert,
-    InsertedPoint, Merge, Mix, Renumbered, Slide, Split, TornLink, VertexOp,
+    ChildFace, Cursor, Edit, Edits, Follower, Followers, Insert, InsertedPoint, Merge, Mix,
+    Renumbered, Slide, Split, TornLink, VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};

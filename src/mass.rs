@@ -378,7 +378,7 @@ impl Follower for Masses {
                 }
                 vertices.resize(count + insert.points.len(), 0);
                 for family in insert.families() {
-                    divide(family.children(), corners, vertices);
+                    divide(family, corners, vertices);
                 }
             }
             (Edit::Insert(_), Store::Half { .. }) => {

@@ -28,15 +28,10 @@ pub struct World {
     /// The masses by halves with density 1, which have seen every edit. `None` from the first
     /// insertion on, which they cannot follow.
     pub half: Option<Masses>,
-    /// The index buffer of the mesh, which has seen every edit by the records alone.
-    pub indices: Vec<u32>,
     /// The position of each corner, which has seen every edit. It equals the position of the
     /// corner's vertex up to rounding, until copies that slid apart are merged. The merged vertex
     /// then lies between them, and its corner values do not change.
     pub corners: PerCorner<[f64; 3]>,
-    /// Of the two index buffers.
-    /// Up to which the index buffer has.
-    seen: Cursor,
 }
 
 /// A step of a [`World`]: an attempted operation with its outcome. An edit is identified by the place
@@ -155,8 +150,6 @@ impl World {
         let mut world = World {
             area: Masses::area(&mesh, &positions, 1.0).expect(masses),
             half: Some(Masses::half(&mesh, &positions, 1.0).expect(masses)),
-            indices: mesh.indices().to_vec(),
-            seen: Cursor::START,
             corners: PerCorner::new(mesh.half_edges().map(place).collect()),
             edits: Edits::new(),
             mesh,
@@ -408,7 +401,6 @@ impl World {
         }
         let beside = (&mut self.positions, &mut self.area, &mut self.corners);
         self.edits.replay(&mut { beside });
-        self.edits.replay_indices(&mut self.seen, &mut self.indices);
         observe(self, step);
     }
 }

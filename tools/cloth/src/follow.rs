@@ -215,8 +215,7 @@ impl Cloth {
         }
         edit.pass_on(&mut self.masses);
         edit.pass_on(&mut self.rest);
-        let faces = &mut self.system.model.faces;
-        edit.corner_ops().for_each(|op| op.apply_to_indices(faces));
+        edit.apply_to_indices(&mut self.system.model.faces);
     }
 
     /// An edge that was there stays; what is across it may be another vertex.

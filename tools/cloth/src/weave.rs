@@ -66,12 +66,10 @@ impl Cloth {
         if self.fabric.weave.is_none() {
             return;
         }
-        for family in insert.families() {
-            for child in family.children() {
-                let triangle = self.woven(child.face);
-                let triangles = &mut self.system.model.triangles;
-                triangles.put(child.face.index(), triangle);
-            }
+        for child in insert.children {
+            let triangle = self.woven(child.face);
+            let triangles = &mut self.system.model.triangles;
+            triangles.put(child.face.index(), triangle);
         }
     }
 

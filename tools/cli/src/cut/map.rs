@@ -156,11 +156,7 @@ impl Follower for Map {
         for op in edit.vertex_ops() {
             op.apply(&mut self.vertices, mixed);
         }
-        for op in edit.corner_ops() {
-            op.apply(&mut self.corners, Corner::mixed);
-        }
-        for family in edit.families() {
-            family.apply_to_faces(&mut self.faces);
-        }
+        edit.apply_to_corners(&mut self.corners, Corner::mixed);
+        edit.apply_to_faces(&mut self.faces);
     }
 }

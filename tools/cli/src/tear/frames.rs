@@ -8,7 +8,7 @@
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use tearmesh::{Blend, Edits, Mesh, Mix, Point, Positions, VertexId, VertexOp};
+use tearmesh::{Blend, Edit, Edits, Mesh, Mix, Point, Positions, VertexId, VertexOp};
 use tearmesh_cloth::scene::Run;
 use tearmesh_obj::TornDocument;
 use tearmesh_view::{MOMENTS_PER_S, write_pc2};
@@ -86,9 +86,9 @@ impl Frames {
                     self.sources.push(from);
                 }
             }
-            for family in edit.families() {
-                self.divided[family.parent().index()] = true;
-                for child in family.children() {
+            if let Edit::Insert(insert) = edit {
+                for child in insert.children {
+                    self.divided[child.parent.index()] = true;
                     let count = self.divided.len().max(child.face.index() + 1);
                     self.divided.resize(count, true);
                 }

@@ -36,9 +36,9 @@ impl Seams {
     /// The parts of a divided edge were torn by what tore the edge.
     fn insert(&mut self, insert: &Insert<'_>) {
         for family in insert.families() {
-            let parent = family.parent().half_edges();
+            let parent = family[0].parent.half_edges();
             let before = parent.map(|h| self.cut_of[h.index()]);
-            for child in family.children() {
+            for child in family {
                 let start = 3 * child.face.index();
                 self.cut_of.resize(self.cut_of.len().max(start + 3), 0);
                 for corner in 0..3 {

@@ -107,14 +107,14 @@ impl<'d> Corners<'d> {
     ) {
         let mut made = [BTreeMap::new(), BTreeMap::new()];
         for family in insert.families() {
-            let parent = family.parent().index();
+            let parent = family[0].parent.index();
             let slot = self.slots[parent];
-            let corners = original(family.children(), &class);
-            let children = family.children().iter().map(|child| child.face.index());
+            let corners = original(family, &class);
+            let children = family.iter().map(|child| child.face.index());
             families.divide(parent, corners, children);
             let before =
                 [0, 1].map(|which| [0, 1, 2].map(|corner| self.raw(which, 3 * parent + corner)));
-            for child in family.children() {
+            for child in family {
                 let face = child.face.index();
                 if face >= self.slots.len() {
                     assert_eq!(face, self.slots.len(), "new faces come without a gap");
