@@ -342,10 +342,6 @@ impl Edits {
         self.ends_before(self.records.len()).corners..self.corners.len()
     }
 
-    pub(crate) fn has_noted(&self) -> bool {
-        !self.noted().is_empty()
-    }
-
     /// Forgets the corners noted since the last record.
     pub(crate) fn discard_noted(&mut self) {
         self.corners.truncate(self.noted().start);

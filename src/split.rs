@@ -164,7 +164,7 @@ pub fn by_plane<'e>(
             stays = Some(stays.map_or(h, |least: HalfEdgeId| least.min(h)));
         }
     }
-    let stays = stays.filter(|_| noting.0.has_noted())?;
+    let stays = stays.filter(|_| !noting.0.noted().is_empty())?;
     std::mem::forget(noting);
     Some(commit(mesh, v, stays, edits))
 }

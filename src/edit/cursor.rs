@@ -33,10 +33,6 @@ impl Cursor {
         hash: 0,
     };
 
-    pub(super) const fn new(number: u64, hash: u64) -> Cursor {
-        Cursor { number, hash }
-    }
-
     /// Returns the number of records before this place. It is also the number of the next record,
     /// since records are numbered from 0.
     #[must_use]
@@ -56,44 +52,24 @@ impl Cursor {
             self
         }
     }
-}
 
-impl PartialEq for Cursor {
-    fn eq(&self, other: &Cursor) -> bool {
-        let parts = |cursor: &Cursor| {
-            let Cursor { number, hash } = cursor.known();
-            (number, hash)
-        };
-        parts(self) == parts(other)
-    }
-}
-
-/// Returns [`Cursor::START`].
-impl Default for Cursor {
-    fn default() -> Cursor {
-        Cursor::START
-    }
-}
-
-/// A running hash of the words of a record.
-///
-/// Each word is folded in by one multiplication of 64 by 64 bits, whose halves are added up: a few
-/// cycles. It tells logs apart that differ by accident, and is no defence against anybody.
-pub(super) struct RunningHash(u64);
-
-impl RunningHash {
-    /// Goes on from a cursor.
-    pub(super) fn after(cursor: Cursor) -> RunningHash {
-        RunningHash(cursor.hash)
+    /// The place after one record more, once the words of that have been added.
+    pub(super) fn advanced(self) -> Cursor {
+        Cursor {
+            number: self.number + 1,
+            ..self
+        }
     }
 
-    /// Adds a word of up to 64 bits.
+    /// Adds a word of up to 64 bits of a record to the hash: by one multiplication of 64 by 64 bits, whose
+    /// halves are added up, which takes a few cycles. It tells logs apart that differ by accident, and
+    /// is no defence against anybody.
     #[inline]
     pub(super) fn add(&mut self, word: u64) {
         // A hash of zero would not change with a word of zero.
-        let mixed = u128::from(self.0 ^ word ^ 0x9e37_79b9_7f4a_7c15)
+        let mixed = u128::from(self.hash ^ word ^ 0x9e37_79b9_7f4a_7c15)
             * u128::from(0xd6e8_feb8_6659_fd93_u64);
-        self.0 = (mixed as u64) ^ (mixed >> 64) as u64 ^ word.rotate_left(32);
+        self.hash = (mixed as u64) ^ (mixed >> 64) as u64 ^ word.rotate_left(32);
     }
 
     /// Adds two words of 32 bits.
@@ -101,8 +77,18 @@ impl RunningHash {
     pub(super) fn add_pair(&mut self, [high, low]: [u32; 2]) {
         self.add(u64::from(high) << 32 | u64::from(low));
     }
+}
 
-    pub(super) fn get(&self) -> u64 {
-        self.0
+impl PartialEq for Cursor {
+    fn eq(&self, other: &Cursor) -> bool {
+        let [one, other] = [self, other].map(|cursor| cursor.known());
+        (one.number, one.hash) == (other.number, other.hash)
+    }
+}
+
+/// Returns [`Cursor::START`].
+impl Default for Cursor {
+    fn default() -> Cursor {
+        Cursor::START
     }
 }

@@ -1,6 +1,6 @@
 //! The records of the log: what each split, insertion, merge and slide did.
 
-use super::cursor::{Cursor, RunningHash};
+use super::cursor::Cursor;
 use super::mix::Mix;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
@@ -38,70 +38,53 @@ impl Edit<'_> {
     /// Returns the place in the log after this record. Linear in the size of the record.
     #[must_use]
     pub fn after(&self) -> Cursor {
-        let before = self.before();
-        let mut hash = RunningHash::after(before);
+        let mut after = self.before().advanced();
+        // What cannot be told from the rest, each list with its length.
         match self {
-            Edit::Split(split) => split.add_to(&mut hash),
-            Edit::Insert(insert) => insert.add_to(&mut hash),
-            Edit::Merge(merge) => merge.add_to(&mut hash),
-            Edit::Slide(slide) => slide.add_to(&mut hash),
-        }
-        Cursor::new(before.number() + 1, hash.get())
-    }
-}
-
-// What records add to the hash of a log: what cannot be told from the rest, each list with its
-// length.
-
-impl Split<'_> {
-    fn add_to(&self, hash: &mut RunningHash) {
-        hash.add_pair([self.old.into(), self.new.into()]);
-        add_corners(hash, self.corners);
-    }
-}
-
-impl Insert<'_> {
-    fn add_to(&self, hash: &mut RunningHash) {
-        hash.add_pair([self.points.len() as u32, self.children.len() as u32]);
-        for point in self.points {
-            match point.at {
-                Mix::Copy(v) => hash.add(u32::from(v).into()),
-                Mix::Between { ends, t } => {
-                    hash.add_pair(ends.map(u32::from));
-                    hash.add(t.to_bits());
-                }
-                Mix::Weighted { of, weights } => {
-                    hash.add_pair([of[0].into(), of[1].into()]);
-                    hash.add(weights[0].to_bits());
-                    hash.add(weights[1].to_bits());
-                }
+            Edit::Split(split) => {
+                after.add_pair([split.old.into(), split.new.into()]);
+                add_corners(&mut after, split.corners);
+            }
+            Edit::Insert(insert) => add_insert(&mut after, insert),
+            Edit::Merge(merge) => {
+                after.add_pair([merge.kept.into(), merge.gone.into()]);
+                after.add(merge.share.to_bits());
+                add_corners(&mut after, merge.corners);
+            }
+            Edit::Slide(slide) => {
+                after.add_pair([slide.vertex.into(), slide.toward.into()]);
+                after.add(slide.t.to_bits());
+                after.add(slide.slides_before.into());
             }
         }
-        for child in self.children {
-            let [a, b, c] = child.vertices.map(u32::from);
-            hash.add_pair([child.parent.into(), a]);
-            hash.add_pair([b, c]);
+        after
+    }
+}
+
+fn add_insert(hash: &mut Cursor, insert: &Insert<'_>) {
+    hash.add_pair([insert.points.len() as u32, insert.children.len() as u32]);
+    for point in insert.points {
+        match point.at {
+            Mix::Copy(v) => hash.add(u32::from(v).into()),
+            Mix::Between { ends, t } => {
+                hash.add_pair(ends.map(u32::from));
+                hash.add(t.to_bits());
+            }
+            Mix::Weighted { of, weights } => {
+                hash.add_pair([of[0].into(), of[1].into()]);
+                hash.add(weights[0].to_bits());
+                hash.add(weights[1].to_bits());
+            }
         }
     }
-}
-
-impl Merge<'_> {
-    fn add_to(&self, hash: &mut RunningHash) {
-        hash.add_pair([self.kept.into(), self.gone.into()]);
-        hash.add(self.share.to_bits());
-        add_corners(hash, self.corners);
+    for child in insert.children {
+        let [a, b, c] = child.vertices.map(u32::from);
+        hash.add_pair([child.parent.into(), a]);
+        hash.add_pair([b, c]);
     }
 }
 
-impl Slide<'_> {
-    fn add_to(&self, hash: &mut RunningHash) {
-        hash.add_pair([self.vertex.into(), self.toward.into()]);
-        hash.add(self.t.to_bits());
-        hash.add(self.slides_before.into());
-    }
-}
-
-fn add_corners(hash: &mut RunningHash, corners: &[HalfEdgeId]) {
+fn add_corners(hash: &mut Cursor, corners: &[HalfEdgeId]) {
     hash.add(corners.len() as u64);
     corners.iter().for_each(|&h| hash.add(u32::from(h).into()));
 }
