@@ -26,11 +26,12 @@ mod words;
 
 use std::fmt;
 
-pub use cut::{Cut, CutEnd, CutPieces, SeamLine};
+pub use cut::{Cut, CutEnd, CutPieces};
 pub use exact::layers::{CutLayers, LayerHit};
 pub use measure::CutReport;
 pub use neck::CutNeck;
 pub use partition::CutTips;
+pub use seam::SeamLine;
 
 use crate::edit::{Cursor, Edits};
 use crate::geometry::{Plane, Ray, max_abs};

@@ -63,7 +63,7 @@ impl Made {
             *ends.entry(self.roots(h)[0]).or_default() += 1;
         }
         for line in self.cut.seam() {
-            for &[front, back] in line.lips {
+            for &[front, back] in &line.lips {
                 assert_eq!(mesh.ghost_pair(front), Some(back), "{what}");
             }
             for two in line.lips.windows(2) {
@@ -226,7 +226,7 @@ fn straight_cuts_satisfy_the_oracle_and_tell_what_it_sees() {
             faces += 1;
             sideless += usize::from(side.is_none());
         }
-        for [front, back] in made.cut.seam().flat_map(|line| line.lips) {
+        for [front, back] in made.cut.seam().flat_map(|line| &line.lips) {
             let heights = [front, back].map(|h| made.height(&scissor.plane(), h.face()));
             assert!(heights[0] > 0.0 && heights[1] < 0.0, "{heights:?}");
         }

@@ -3,10 +3,10 @@
 
 use super::exact::layers::LayerHit;
 use super::outcome::{Sides, side_of};
-use super::seam::Line;
+use super::seam::SeamLine;
 use crate::edit::{Cursor, Edit, Follower};
 use crate::geometry::{Ray, Side};
-use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::id::{FaceId, VertexId};
 use crate::mesh::{Components, Mesh};
 
 /// The result of a cut. The divided faces and new vertices are in the log.
@@ -35,7 +35,7 @@ use crate::mesh::{Components, Mesh};
 #[derive(Clone, Debug, Default)]
 pub struct Cut {
     pub(super) touched: Sides,
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<SeamLine>,
     pub(super) hits: [Option<LayerHit>; 2],
     pub(super) ends: Option<[CutEnd; 2]>,
 }
@@ -58,11 +58,8 @@ impl Cut {
     /// Returns the lines of the seam. A line consists of edges that the cut tore, and ends where
     /// the seam ends or branches. Closed lines come last.
     #[must_use]
-    pub fn seam(&self) -> impl ExactSizeIterator<Item = SeamLine<'_>> {
-        self.lines.iter().map(|line| SeamLine {
-            lips: &line.lips,
-            tips: line.tips,
-        })
+    pub fn seam(&self) -> impl ExactSizeIterator<Item = &SeamLine> {
+        self.lines.iter()
     }
 
     /// Returns the vertices at which the seam ends inside the mesh, in the order of the lines.
@@ -105,17 +102,6 @@ impl Cut {
             components,
         }
     }
-}
-
-/// A line of the seam: a chain of edges that the cut tore.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SeamLine<'c> {
-    /// The edges of the line, in order. Each is given as the half-edge on the front lip, which runs along
-    /// the line, and its ghost pair on the back lip, which runs against the line. For the two methods of
-    /// the paper, either lip may come first in an edge that was torn on one side of the plane.
-    pub lips: &'c [[HalfEdgeId; 2]],
-    /// The vertices at the start and the end of the line. Each is `None` if the two lips are separate there.
-    pub tips: [Option<VertexId>; 2],
 }
 
 /// The pieces of a mesh after a cut. Piece `i` is component `i`.

@@ -45,12 +45,15 @@ impl Nodes {
     }
 }
 
-/// A line of edges that follow one another.
-#[derive(Clone, Debug)]
-pub(super) struct Line {
-    pub(super) lips: Vec<[HalfEdgeId; 2]>,
-    /// Where it ends, as far as both lips do there.
-    pub(super) tips: [Option<VertexId>; 2],
+/// A line of the seam: a chain of edges that the cut tore.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SeamLine {
+    /// The edges of the line, in order. Each is given as the half-edge on the front lip, which runs along
+    /// the line, and its ghost pair on the back lip, which runs against the line. For the two methods of
+    /// the paper, either lip may come first in an edge that was torn on one side of the plane.
+    pub lips: Vec<[HalfEdgeId; 2]>,
+    /// The vertices at the start and the end of the line. Each is `None` if the two lips are separate there.
+    pub tips: [Option<VertexId>; 2],
 }
 
 /// What a cut tore. `sides` are those of the faces along it.
@@ -60,7 +63,7 @@ pub(super) fn lines(
     mesh: &Mesh,
     vertices_before: usize,
     sides: &[(FaceId, Option<Side>)],
-) -> Vec<Line> {
+) -> Vec<SeamLine> {
     let nodes = Nodes::new(edits, first_edit, vertices_before);
     let splits = edits.since(first_edit).filter_map(|edit| match edit {
         Edit::Split(split) => Some(split),
@@ -121,7 +124,7 @@ pub(super) fn lines(
                         [mesh.target(end[0]), mesh.origin(end[1])],
                     ];
                     let tips = ends.map(|[one, other]| (one == other).then_some(one));
-                    lines.push(Line { lips, tips });
+                    lines.push(SeamLine { lips, tips });
                 }
             }
         }

@@ -19,7 +19,7 @@ impl Seams {
     pub(super) fn add(&mut self, cut: &Cut) -> CutId {
         let id = CutId(self.cuts);
         self.cuts += 1;
-        for h in cut.seam().flat_map(|line| line.lips).flatten() {
+        for h in cut.seam().flat_map(|line| line.lips.as_flattened()) {
             self.cut_of[h.index()] = self.cuts;
         }
         id
