@@ -240,14 +240,8 @@ fn refused(f: &mut fmt::Formatter<'_>, part: &str, v: Vector, of: &str) -> fmt::
 ///
 /// The first coordinate, in the order x, y, z, that fails the check.
 pub fn check_point(p: Point) -> Result<(), f64> {
-    match p
-        .coords
-        .iter()
-        .find(|x| !x.is_finite() || x.abs() > COORDINATE_MAX)
-    {
-        Some(&bad) => Err(bad),
-        None => Ok(()),
-    }
+    let is_bad = |x: &&f64| !x.is_finite() || x.abs() > COORDINATE_MAX;
+    p.coords.iter().find(is_bad).map_or(Ok(()), |&bad| Err(bad))
 }
 
 /// The vector times the power of two that brings its largest component into

@@ -79,26 +79,6 @@ impl Positions {
         }
     }
 
-    /// Creates the list from the positions of all vertices as `f32`, as game engines store them.
-    /// Every `f32` is also an `f64`, so [`Positions::tail_f32`] returns the same bits.
-    ///
-    /// # Errors
-    ///
-    /// [`PositionError`] lists every vertex with a coordinate that is not finite.
-    ///
-    /// ```
-    /// use tearmesh::Positions;
-    ///
-    /// let buffer = [[0.1_f32, 0.0, -2.5], [1.0, 0.3, 0.0]];
-    /// assert_eq!(Positions::from_f32(buffer)?.tail_f32(0), buffer);
-    /// # Ok::<(), tearmesh::PositionError>(())
-    /// ```
-    pub fn from_f32(
-        points: impl IntoIterator<Item = [f32; 3]>,
-    ) -> Result<Positions, PositionError> {
-        Positions::new(points.into_iter().map(|point| point.map(f64::from)))
-    }
-
     /// Returns the place in the log up to which these positions have been replayed.
     #[must_use]
     pub fn seen(&self) -> Cursor {

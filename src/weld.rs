@@ -56,7 +56,7 @@ pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, W
         return Err(WeldError::Index { index, known });
     }
     // The error names the vertices of the buffer.
-    Positions::from_f32(places.iter().copied()).map_err(WeldError::Place)?;
+    positions(places)?;
     // Minus zero is zero, and only then do equal numbers have equal bits.
     let key = |i: u32| places[i as usize].map(|x| (x + 0.0).to_bits());
     let mut by_place: Vec<u32> = (0..known as u32).collect();
@@ -80,9 +80,14 @@ pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, W
     let mesh = Mesh::build(welded.len(), &faces.collect::<Vec<_>>()).map_err(WeldError::Build)?;
     Ok(Welded {
         mesh,
-        positions: Positions::from_f32(welded).map_err(WeldError::Place)?,
+        positions: positions(&welded)?,
         vertices,
     })
+}
+
+fn positions(places: &[[f32; 3]]) -> Result<Positions, WeldError> {
+    let places = places.iter().map(|place| place.map(f64::from));
+    Positions::new(places).map_err(WeldError::Place)
 }
 
 /// The reason why buffers were refused.

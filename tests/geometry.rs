@@ -50,13 +50,14 @@ fn positions_of_an_engine_keep_their_bits() {
     let special = [0.0, -0.0, 1e-45, -3.4e38, 0.1, f32::MIN_POSITIVE, one_more];
     let point = |i: usize| [special[i % 7], special[i / 7 % 7], special[i / 49]];
     let mut points: Vec<[f32; 3]> = (0..343).map(point).collect();
-    let positions = Positions::from_f32(points.iter().copied()).expect("finite");
+    let as_f64 = |p: &[f32; 3]| p.map(f64::from);
+    let positions = Positions::new(points.iter().map(as_f64)).expect("finite");
     let bits = |p: &[f32; 3]| p.map(f32::to_bits);
     for first in [0, 300] {
         let tail = positions.tail_f32(first);
         assert!(tail.iter().map(bits).eq(points[first..].iter().map(bits)));
     }
     (points[7][1], points[9][2]) = (f32::NAN, f32::NEG_INFINITY);
-    let error = Positions::from_f32(points).expect_err("two are not finite");
+    let error = Positions::new(points.iter().map(as_f64)).expect_err("two are not finite");
     assert!(error.unusable().iter().map(|(v, _)| v.index()).eq([7, 9]));
 }
