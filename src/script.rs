@@ -172,7 +172,7 @@ mod shrink;
 mod text;
 mod world;
 
-pub use shape::{GROWN_MAX, Shape};
+pub use shape::Shape;
 pub use text::ScriptError;
 pub use world::{Step, World};
 
@@ -227,7 +227,7 @@ pub enum Operation {
     Insert {
         /// The number of the half-edge to which the offsets of the spots are added.
         half_edge: u16,
-        /// The places at which to insert: at most [`SPOTS_MAX`], or none.
+        /// The places at which to insert: at most 4, or none.
         spots: Vec<Spot>,
         /// The ends of a required edge, which crosses the face of the first spot, or that of
         /// `half_edge` if there are no spots. Each end is a corner of that face or one of the spots,
@@ -271,7 +271,7 @@ pub enum Operation {
 }
 
 /// The largest number of spots of an insertion that scripts from bytes or text may have.
-pub const SPOTS_MAX: usize = 4;
+const SPOTS_MAX: usize = 4;
 
 /// A place at which to insert a vertex. One invalid spot causes the whole insertion to be refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

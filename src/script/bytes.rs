@@ -10,32 +10,19 @@ const SHAPES: &str = "grid fan saddle tube torus tetrahedron octahedron grown gl
 
 /// The names of operations, by code. Further codes make most operations sound ones; tearing to pieces
 /// ends what can happen, so it is rare.
-fn operation_of(code: u8) -> &'static str {
-    match code {
-        0..=6 => "split",
-        7 => "split repeated",
-        8 => "split foreign",
-        9..=12 => "plane",
-        13 => "cut",
-        14 => "tear",
-        15 => "clear",
-        16 => "insert",
-        17 => "merge",
-        18 => "sew",
-        19 => "slide",
-        _ if code % 16 == 15 => {
-            ["split repeated", "split foreign", "clear", "sew"][usize::from(code / 16 % 4)]
-        }
-        _ => match code % 16 {
-            0..=3 => "split",
-            4 => "slide",
-            5..=7 => "plane",
-            8 => "cut",
-            9..=11 => "insert",
-            12 | 13 => "merge",
-            _ => "sew",
-        },
-    }
+const OPERATIONS: &str = "split/split/split/split/split/split/split/split repeated/split foreign/plane/\
+    plane/plane/plane/cut/tear/clear/insert/merge/sew/slide";
+const FURTHER: &str = "split/split/split/split/slide/plane/plane/plane/cut/insert/insert/insert/merge/\
+    merge/sew";
+const SELDOM: &str = "split repeated/split foreign/clear/sew";
+
+fn operation_of(code: usize) -> &'static str {
+    let (names, at) = match code {
+        0..20 => (OPERATIONS, code),
+        _ if code % 16 == 15 => (SELDOM, code / 16 % 4),
+        _ => (FURTHER, code % 16),
+    };
+    names.split('/').nth(at).expect("every code has a name")
 }
 
 impl Script {
@@ -93,7 +80,7 @@ impl Bytes<'_> {
     }
 
     fn operation(&mut self) -> Operation {
-        let name = operation_of(self.byte());
+        let name = operation_of(self.byte().into());
         Operation::read(name, self).expect("every operation has a name")
     }
 }

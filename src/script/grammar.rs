@@ -3,7 +3,8 @@
 
 use std::ops::RangeInclusive;
 
-use super::{Fault, GROWN_MAX, Operation, SPOTS_MAX, Shape, Spot};
+use super::shape::{GROWN_MAX, Shape};
+use super::{Fault, Operation, SPOTS_MAX, Spot};
 use crate::scissor::CutTips;
 
 /// What the parts of a script are read from. Bytes are a script whatever they are; words that are

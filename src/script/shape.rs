@@ -55,7 +55,7 @@ pub enum Shape {
         subdivisions: u8,
     },
     /// A triangulation of a disc, a sphere or a surface with holes, grown from one triangle by up
-    /// to [`GROWN_MAX`] moves. Modulo 4, each byte inserts a vertex in a face, adds a triangle to a
+    /// to 48 moves. Modulo 4, each byte inserts a vertex in a face, adds a triangle to a
     /// boundary edge, flips an edge, or closes the gap between two boundary edges. The rest of the
     /// byte selects the place. A move that would not leave a manifold is skipped.
     Grown(
@@ -68,13 +68,13 @@ pub enum Shape {
     Glued {
         /// The number of triangles, 1 to 24.
         faces: u8,
-        /// The pairs of sides, up to [`GROWN_MAX`], each number modulo three times `faces`.
+        /// The pairs of sides, up to 48, each number modulo three times `faces`.
         sides: Vec<[u8; 2]>,
     },
 }
 
 /// The largest number of moves of a grown mesh, and of gluings of a glued one.
-pub const GROWN_MAX: usize = 48;
+pub(super) const GROWN_MAX: usize = 48;
 
 impl Shape {
     /// Creates the mesh of this shape and the positions of its vertices.

@@ -1,6 +1,6 @@
 //! The smallest script that still fails.
 
-use super::{Script, Shape};
+use super::Script;
 
 impl Script {
     /// Reduces a failing script to a small script that still fails. Operations are removed, first many at
@@ -76,29 +76,12 @@ fn drop_operations(least: &mut Script, fails: &mut impl FnMut(&Script) -> bool) 
 
 /// Makes the mesh and each operation simpler. Says whether any became so.
 fn simplify(least: &mut Script, fails: &mut impl FnMut(&Script) -> bool) -> bool {
-    let mut any = false;
     let faces = |script: &Script| script.shape.make().0.face_count();
     let most = faces(least);
-    // A move that could not be made before may be possible once another one is gone.
+    // A shorter line may be that of a larger mesh: a move that could not be made before is possible once
+    // another one is gone.
     let mut fails_smaller = |script: &Script| faces(script) <= most && fails(script);
-    if !matches!(least.shape, Shape::Grid { .. }) {
-        // Numbers are taken modulo what there is, so what fails on a torus may fail on a grid.
-        let grids = [1, 2, 3].map(|cells| Shape::Grid {
-            columns: cells,
-            rows: cells,
-            rising: 0,
-        });
-        let operations = &least.operations;
-        let mut grids = grids.map(|shape| Script {
-            shape,
-            operations: operations.clone(),
-        });
-        if let Some(grid) = grids.iter_mut().find(|grid| fails_smaller(grid)) {
-            std::mem::swap(least, grid);
-            any = true;
-        }
-    }
-    any |= simplify_line(least, 0, &mut fails_smaller);
+    let mut any = simplify_line(least, 0, &mut fails_smaller);
     for line in 1..=least.operations.len() {
         any |= simplify_line(least, line, fails);
     }
