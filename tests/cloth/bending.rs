@@ -52,7 +52,7 @@ fn arc_energy(k: f64, l: f64, d: f64) -> f64 {
 }
 
 #[test]
-fn one_bend_has_the_force_of_an_arc_or_of_the_spring_before_it() {
+fn a_bend_has_the_force_of_an_arc_or_the_spring_before() {
     let (l, c) = (0.2, 7.0);
     for below in [0.6, 0.8, 0.95, 0.999] {
         let mut system = on_a_line([0.0, l], 1.0);
@@ -125,7 +125,7 @@ fn the_limit_is_known_before_it_folds() {
 
 /// A strip that is held at both ends, which are nearer than they were: it buckles.
 #[test]
-fn a_folded_strip_rests_where_the_forces_of_the_paper_balance() {
+fn a_folded_strip_rests_where_forces_of_the_paper_balance() {
     for (name, rigidity, below, gap) in [
         ("hanging", 4e-3, 0.95, 1.0),
         ("folded", 1e-3, 0.998, 0.8),
@@ -195,7 +195,7 @@ fn a_folded_strip_rests_where_the_forces_of_the_paper_balance() {
 }
 
 #[test]
-fn methods_that_project_springs_are_refused_where_bends_buckle() {
+fn methods_that_project_refuse_bends_that_buckle() {
     let mut cloth = crumpled(arcs(6e-3, 0.9), 0.05, 1);
     let count = cloth.system().bends().len();
     for solver in [&mut Pbd::default() as &mut dyn Solver, &mut Xpbd::default()] {
@@ -213,7 +213,7 @@ fn methods_that_project_springs_are_refused_where_bends_buckle() {
 /// one direction of edges bend there, which are √5 / 2 times as long as with alternating diagonals, and the
 /// resistance to the same curve falls with the fourth power of that, 1.56.
 #[test]
-fn a_clamped_strip_sags_as_a_plate_but_for_diagonals_of_one_direction() {
+fn a_clamped_strip_sags_as_a_plate_unless_diagonals_align() {
     let even = |i: u32, j: u32| (i + j).is_multiple_of(2);
     for (rising, jitter, multiple) in [
         (&even as &dyn Fn(u32, u32) -> bool, 0.0, 1.0),

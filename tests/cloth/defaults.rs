@@ -45,7 +45,7 @@ fn shock(sheet: &Sheet, order: sheets::Order, dt_s: f64) -> f64 {
 /// So a threshold tears if and only if the reference does, outside of 1 % about it; at twice the step
 /// that suits, of 2.5 %.
 #[test]
-fn the_largest_strain_under_a_sudden_load_is_that_of_a_tenth_of_the_step() {
+fn the_largest_strain_of_a_load_is_that_of_tiny_steps() {
     for sheet in Sheet::all() {
         let suited_s = recommended_step_s(&mut sheet.system(ORDERS[0]));
         let exact = shock(&sheet, ORDERS[0], suited_s / 10.0);
@@ -84,10 +84,8 @@ fn strains_at_rest_are_those_of_backward_euler() {
         {
             let strains = at_rest(order, &mut Verlet::new(), times * suited_s, 60.0);
             for (own, exact) in strains.into_iter().zip(&exact) {
-                assert!(
-                    *exact < 0.1 * largest || (own / exact - 1.0).abs() < 1e-3,
-                    "{order:?}"
-                );
+                let is_small = *exact < 0.1 * largest;
+                assert!(is_small || (own / exact - 1.0).abs() < 1e-3, "{order:?}");
             }
         }
         let soft = at_rest(ORDERS[0], &mut Xpbd::new(1, 1), sheet.edge_s(), 60.0);

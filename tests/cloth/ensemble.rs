@@ -92,7 +92,7 @@ fn from_smallest(face: &[u32; 3]) -> [u32; 3] {
 }
 
 #[test]
-fn a_disturbance_shuffles_faces_and_displaces_by_at_most_the_noise() {
+fn a_disturbance_shuffles_faces_and_moves_by_the_noise() {
     let (mesh, _) = square(8);
     let disturbance = Disturbance::new(&mesh, 5);
     let faces = |mesh: &Mesh| mesh.indices().as_chunks::<3>().0.to_vec();
@@ -154,10 +154,8 @@ fn an_interrupted_run_is_a_member_without_numbers() {
         let stopped = ensemble::member(staged.subject(), ONE, 1, &stop);
         let is_done = allowed == checks_of_a_run;
         let status = [MemberStatus::Interrupted, MemberStatus::Done][usize::from(is_done)];
-        assert_eq!(
-            (stopped.status, stopped.observed.is_some()),
-            (status, is_done)
-        );
+        assert_eq!(stopped.status, status);
+        assert_eq!(stopped.observed.is_some(), is_done);
         let numbers = gathered(vec![whole.clone(), stopped]).numbers(TORN);
         assert_eq!(numbers, (vec![0.0; 1 + usize::from(is_done)], is_done));
     }

@@ -2,17 +2,18 @@
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::{
-    BlowUpSite, Constraint, Loads, Path, Pbd, Provot, StepError, StepLimit, System, SystemError,
-    Unstable, Verlet, Xpbd, frequency_bound, stable_step_s,
+    BlowUpSite, Constraint, Loads, Path, Pbd, StepError, System, SystemError, Unstable, Verlet,
+    Xpbd, frequency_bound,
 };
 
 use crate::parts::nets::{chain, framed, row};
 use crate::parts::vibration::largest_frequency;
-use crate::parts::{blown, gravity, limited, near, on_a_line, path, pulled, residual_n, run};
+use crate::parts::{blown, gravity, near, on_a_line, residual_n, run, shake};
 use crate::plain_verlet::PlainVerlet;
+use crate::random::Random;
 
 #[test]
-fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
+fn f1_growth_beyond_the_limit_is_of_theory_and_refused() {
     // λ + 1/λ = z² − 2 at ω Δt = z.
     let z: f64 = 2.002;
     let half = (z * z - 2.0) / 2.0;
@@ -47,60 +48,17 @@ fn f1_growth_beyond_the_limit_is_that_of_theory_and_refused_in_words() {
     assert!(matches!(at, BlowUpSite::Constraint([0, 1], ratio) if ratio > 100.0));
 }
 
-/// A light particle between two springs whose far ends are led from a right angle to one side. At a
-/// right angle each direction has one spring: ω² = k/m. Side by side both pull along one line:
-/// 2 k/m. Between them the step is stable before and unstable after.
-fn closing(unstable: Unstable) -> (System, f64) {
-    let (mass, stiffness) = (1e-3, 40.0);
-    let at = [[1.0, 0.0, 0.0], [0.0; 3], [0.0, 1.0, 0.0]].map(Point::from);
-    let mut system = System::new(at, vec![1.0, mass, 1.0]).expect("a system");
-    for end in [0, 2] {
-        system.stretch([1, end], 1.0, stiffness).expect("a spring");
-    }
-    system.hold(0);
-    let way = [[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 1e-3, 0.0]];
-    system.grab(2, path([(0.0, way[0]), (1.0, way[1]), (2.0, way[2])]));
-    system.when_unstable(unstable);
-    let drag = pulled(Vector::zeros(), 1.0);
-    system.set_loads(drag).expect("loads");
-    (system, 1.7 / (stiffness / mass).sqrt())
-}
-
 #[test]
-fn f1_a_step_stays_stable_while_the_configuration_gets_stiffer() {
-    let led = |unstable| {
-        let (mut system, dt) = closing(unstable);
-        let mut fastest = 0.0_f64;
-        let error = (0..(4.0 / dt) as usize).find_map(|_| {
-            let error = system.step(&mut PlainVerlet::new(), dt).err();
-            fastest = fastest.max(system.velocities()[1].norm());
-            error
-        });
-        (fastest, error, dt)
-    };
-    // Led at 1 m/s.
-    let (divided, error, _) = led(Unstable::Substep);
-    assert!(divided < 10.0 && error.is_none(), "{divided} {error:?}");
-    let (refused, error, dt) = led(Unstable::Refuse);
-    let Some(StepError::Unstable {
-        by: StepLimit::Springs(frequency),
-        ..
-    }) = error
-    else {
-        panic!("{error:?}");
-    };
-    assert!(frequency.omega_rad_per_s * dt > 1.89 && refused < 10.0);
-    let (unwatched, error, _) = led(Unstable::Allow);
-    assert!(unwatched > 30.0 || error.is_some(), "it does not shake");
-}
-
-#[test]
-fn f4_the_bound_holds_is_not_far_off_and_names_the_spring_that_sets_it() {
+fn f4_the_bound_holds_is_near_and_names_its_spring() {
     for stiffness in [1e2, 1e5] {
         let mut net = framed(6, stiffness, 0.0);
         let bound = frequency_bound(&mut net).omega_rad_per_s;
-        let omega = largest_frequency(&net);
-        assert!(omega < bound && omega > 0.5 * bound);
+        // It holds wherever particles are, also where springs have turned to pull side by side.
+        for seed in 0..6 {
+            let omega = largest_frequency(&net);
+            assert!(omega < bound && omega > 0.5 * bound);
+            shake(&mut net, 0.1 * seed as f64, 0.0, &mut Random(seed));
+        }
         let id = net.stretches().between(24, 25).expect("a spring");
         let spring = net.cut(id);
         let stiffer = net.stretch(spring.ends, spring.rest_length_m, 9.0 * stiffness);
@@ -110,26 +68,6 @@ fn f4_the_bound_holds_is_not_far_off_and_names_the_spring_that_sets_it() {
         let [a, b] = stiffer.ends.expect("a spring");
         assert_eq!(net.stretches().between(a, b), Some(id));
     }
-}
-
-#[test]
-fn f5_the_limiter_says_what_it_did() {
-    let stats = |mut system: System, steps: usize| {
-        let mut provot = Provot::default();
-        run(&mut system, &mut provot, 0.005, steps);
-        limited(&provot, &system)
-    };
-    // A weight that pulls a soft chain beyond the limit.
-    let mut chain = row(10, 0.02, 50.0, 0.1, Vector::z() * -0.1);
-    chain.set_loads(gravity(0.0)).expect("loads");
-    let heavy = stats(chain, 400);
-    assert!(heavy.passes > 400 && heavy.steps_limited > 0 && heavy.steps_infeasible == 0);
-    // Nails 1.3 m apart, for links of one metre in all.
-    let mut taut = row(10, 0.02, 50.0, 0.1, Vector::x() * 0.13);
-    taut.hold(10);
-    let taut = stats(taut, 10);
-    assert_eq!((taut.steps_infeasible, taut.passes), (10, 200));
-    assert!(taut.excess_max > 0.15, "{taut:?}");
 }
 
 #[test]
@@ -175,22 +113,6 @@ fn f8_xpbd_says_that_it_is_wrong_under_pretension() {
     let [few, many] = [16, 1024].map(|substeps| wrong(Xpbd::new(substeps, 1)));
     assert!(few.0 > 1.0 && few.1 > 0.5, "{few:?}");
     assert!(many.0 < 0.01 * few.0 && many.1 < 0.1 * few.1, "{many:?}");
-}
-
-#[test]
-fn f14_a_light_particle_shortens_the_step() {
-    let [even, light] = [1.0, 0.01].map(|mass| {
-        let points = (0..4).map(|i| Point::new(f64::from(i), 0.0, 0.0));
-        let mut chain = System::new(points, vec![1.0, mass, 1.0, 1.0]).expect("particles");
-        for i in 0..3 {
-            chain.stretch([i, i + 1], 1.0, 100.0).expect("a spring");
-        }
-        chain.hold(0);
-        let ends = frequency_bound(&mut chain).ends.expect("a spring");
-        assert!(mass == 1.0 || ends.contains(&1), "{ends:?}");
-        stable_step_s(&mut chain, 2.0)
-    });
-    assert!(even / light > 6.0, "{even} {light}");
 }
 
 #[test]

@@ -379,10 +379,8 @@ fn a_cloth_that_cannot_be_is_refused_with_ids() {
         let made = Cloth::new(&mesh, positions, masses.clone(), fabric);
         made.expect_err("no cloth").to_string()
     };
-    assert_eq!(
-        refused(&positions, Fabric::new(-1.0)),
-        "modulus_n_per_m is -1, and has to be finite and above 0"
-    );
+    let text = "modulus_n_per_m is -1, and has to be finite and above 0";
+    assert_eq!(refused(&positions, Fabric::new(-1.0)), text);
     let twice = [[0.0; 3], [0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let twice = Positions::new(twice).expect("positions");
     assert!(refused(&twice, Fabric::new(1.0)).ends_with("has the rest length 0 m"));
@@ -390,7 +388,7 @@ fn a_cloth_that_cannot_be_is_refused_with_ids() {
 
 #[test]
 #[should_panic(expected = "masses and positions are those of the mesh")]
-fn a_cloth_with_positions_of_another_mesh_is_a_bug_of_the_caller() {
+fn a_cloth_with_positions_of_another_mesh_panics() {
     let (mesh, positions) = shapes::grid(1, 1);
     let masses = Masses::area(&mesh, &positions, 1.0).expect("masses");
     let few = Positions::new([[0.0; 3]]).expect("positions");

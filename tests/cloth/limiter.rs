@@ -48,25 +48,24 @@ fn kicked(name: &str, seed: u64) -> System {
     let rests = springs.iter().map(|id| springs.get(id).rest_length_m);
     let speed = 0.1 * rests.fold(f64::INFINITY, f64::min) * largest_frequency(&system);
     shake(&mut system, 0.0, speed, &mut Random(seed));
-    let held: Vec<usize> = (0..system.positions().len())
-        .filter(|&i| system.is_held(i))
-        .collect();
-    held.into_iter()
-        .for_each(|i| system.state_mut().1[i].fill(0.0));
+    for i in 0..system.positions().len() {
+        if system.is_held(i) {
+            system.state_mut().1[i].fill(0.0);
+        }
+    }
     system
 }
 
-/// Whether energy stays below four times what it was, and in how many steps the limiter worked.
-fn survives(mut system: System, mut provot: Provot, part: f64) -> (bool, u64) {
+/// Whether energy stays below four times what it was; in nets that are shaken the limiter has work to do.
+fn survives(mut system: System, passes: u32, part: f64) -> bool {
+    let mut provot = with_passes(passes);
     let dt = part * 2.0 / largest_frequency(&system);
     let start = mechanical_j(&system);
-    for _ in 0..2000 {
-        let taken = system.step(&mut provot, dt);
-        if taken.is_err() || mechanical_j(&system) > 4.0 * start {
-            return (false, limited(&provot, &system).steps_limited);
-        }
-    }
-    (true, limited(&provot, &system).steps_limited)
+    let is_calm = (0..2000)
+        .all(|_| system.step(&mut provot, dt).is_ok() && mechanical_j(&system) <= 4.0 * start);
+    let worked = limited(&provot, &system).steps_limited;
+    assert!(passes != 1 || part != 0.5 || worked > 10, "{worked}");
+    is_calm
 }
 
 #[test]
@@ -74,31 +73,25 @@ fn the_limiter_keeps_shaken_nets_together_at_any_step() {
     for name in ["chain", "string", "frame"] {
         for passes in [0].into_iter().chain(PASSES) {
             for part in [0.2, 0.5, 0.8, 0.999] {
-                let shaken = kicked(name, u64::from(passes));
-                let (survives, _) = survives(shaken, with_passes(passes), part);
-                assert_eq!(
-                    survives,
-                    part < 0.9 || passes > 0,
-                    "{name}, {passes}, {part}"
-                );
+                let survives = survives(kicked(name, u64::from(passes)), passes, part);
+                assert_eq!(survives, part < 0.9 || passes > 0, "{name} {passes}");
             }
         }
-        let (_, worked) = survives(kicked(name, 0), with_passes(1), 0.5);
-        assert!(worked > 10, "{name}: the limiter worked in {worked} steps");
     }
 }
 
 /// It could fall by a tenth of a metre: 0.2 J at most.
 #[test]
 fn a_chain_too_heavy_for_the_limit_comes_to_rest() {
-    for (part, passes) in [0.05, 0.2, 0.5, 0.9]
-        .into_iter()
-        .flat_map(|p| PASSES.map(|n| (p, n)))
-    {
+    let cases = [0.05, 0.2, 0.5, 0.9].map(|part| PASSES.map(|passes| (part, passes)));
+    for &(part, passes) in cases.as_flattened() {
         let mut chain = row(10, 0.02, 50.0, 0.1, Vector::z() * -0.1);
         chain.set_loads(gravity(0.0)).expect("loads");
         let dt = part * 2.0 / largest_frequency(&chain);
-        run(&mut chain, with_passes(passes), dt, (20.0 / dt) as usize);
+        let mut provot = with_passes(passes);
+        run(&mut chain, &mut provot, dt, (20.0 / dt) as usize);
+        let stats = limited(&provot, &chain);
+        assert!(stats.passes >= stats.steps_limited && stats.steps_limited > 0);
         let kinetic = energy::kinetic_j(&chain);
         assert!(kinetic < 0.2, "{part}, {passes}: {kinetic}");
     }

@@ -57,9 +57,12 @@ pub(crate) fn blown(velocity_m_per_s: Vector, coefficient: f64, loads: Loads) ->
 }
 
 /// These loads, and a body in the way.
-pub(crate) fn onto(collider: Collider, loads: Loads) -> Loads {
+pub(crate) fn onto(collider: Collider, loads: &Loads) -> Loads {
     let colliders = vec![collider];
-    Loads { colliders, ..loads }
+    Loads {
+        colliders,
+        ..*loads
+    }
 }
 
 /// This gravity, and drag in 1/s; none at all if that is 0.

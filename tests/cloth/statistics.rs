@@ -30,7 +30,7 @@ fn around(middle: f64, width: f64, count: usize, seed: u64) -> Vec<f64> {
 }
 
 #[test]
-fn no_more_than_half_of_a_sample_is_on_either_side_of_its_median() {
+fn at_most_half_a_sample_is_on_a_side_of_its_median() {
     for count in 1..40 {
         let sample = around(1.0, 0.5, count, count as u64);
         let middle = median(sample.clone()).expect("a value");

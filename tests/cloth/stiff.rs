@@ -1,16 +1,14 @@
 //! Springs under the implicit solver where linearised forces are not enough: what is turned, thrown or
 //! stretched too far in a step, what a step costs, and that it makes no energy.
 
-use tearmesh::{Vector, shapes};
-use tearmesh_cloth::implicit::{self, Method, Settings};
+use tearmesh::Vector;
+use tearmesh_cloth::implicit::{self, Method};
 use tearmesh_cloth::statistics::Random;
-use tearmesh_cloth::{BlowUpSite, Buckling, Fabric, Implicit, StepError, System, Verlet, energy};
+use tearmesh_cloth::{Implicit, StepError, System, energy};
 
-use crate::parts::cloths::cloth;
 use crate::parts::nets::row;
 use crate::parts::{
-    gravity, implicit, implicit_by_default, implicit_to, longest, mechanical_j, on_a_line,
-    particles, run, solved, state,
+    implicit, implicit_to, longest, mechanical_j, on_a_line, particles, run, solved,
 };
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
@@ -37,7 +35,7 @@ fn crumb(omega_rad_per_s: f64) -> System {
 /// not feel it. A step that would stretch it by more than 15 %, or make .3 % of the energy that is in motion
 /// and that it stores, is divided, and counted.
 #[test]
-fn a_crumb_that_spins_fast_keeps_its_size_and_makes_no_energy() {
+fn a_crumb_that_spins_keeps_its_size_and_makes_no_energy() {
     let dt_s = 1.0 / 240.0;
     for turn in [0.01, 0.1, 0.5, 1.0, 3.0, 10.0] {
         let mut crumb = crumb(turn / dt_s);
@@ -113,73 +111,10 @@ fn a_matrix_that_is_all_but_singular_throws_nothing_away() {
     assert!(thrown > 0 && thrown < 200 && farthest > 100.0);
 }
 
-/// What is beyond the limit of stretch after a step is a blow-up, of a spring and of a triangle,
-/// with its place; the system is as it was, and what was within it goes on.
-#[test]
-fn stretch_beyond_the_limit_is_a_blow_up() {
-    let mut row = on_a_line([0.0, 1.0, 5000.0], 0.1);
-    row.stretch([0, 1], 1.0, 10.0).expect("a spring");
-    row.stretch([1, 2], 1.0, 10.0).expect("a spring");
-    let mut folded = row.clone();
-    folded.bend([0, 2], 2.0, 10.0).expect("a bend");
-    folded.set_buckling(Buckling::new(0.95));
-    let mut woven = particles([[0.0; 3], [300.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 0.1);
-    let flat = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-    woven.triangle([0, 1, 2], flat, [10.0; 3]).expect("area");
-    for (name, system) in [("row", row), ("folded", folded), ("woven", woven)] {
-        for method in METHODS {
-            let mut system = system.clone();
-            let mut solver = implicit_by_default(method);
-            let place = |error| match error {
-                StepError::BlowUp { at, .. } => match at {
-                    BlowUpSite::Constraint(ends, _) => ends.to_vec(),
-                    BlowUpSite::Triangle(corners, _) => corners.to_vec(),
-                    _ => panic!("{name}: {at:?}"),
-                },
-                error => panic!("{name}: {error}"),
-            };
-            let before = state(&system);
-            let refused = system.step(&mut solver, 1e-4).expect_err(name);
-            let verlet = system.clone().step(&mut Verlet::new(), 1e-4);
-            assert_eq!(place(refused), place(verlet.expect_err(name)), "{name}");
-            assert_eq!(before, state(&system), "{name}");
-            assert_eq!(solved(&solver, &system).parts, 0, "{name}: none was taken");
-            system.set_stretch_ratio_max(1e4);
-            system.step(&mut solver, 1e-4).expect("within the limit");
-        }
-    }
-}
-
-/// What a step cost is counted, whether it is taken or not.
-#[test]
-fn the_work_of_a_step_is_counted_whether_it_is_taken_or_refused() {
-    let (mesh, positions) = shapes::grid(8, 8);
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(1000.0));
-    let system = cloth.system_mut();
-    system.hold(0);
-    system.set_loads(gravity(0.0)).expect("loads");
-    for x in system.state_mut().0 {
-        x.coords *= 1.01;
-    }
-    let mut solver = implicit(Method::BackwardEuler);
-    solver.settings.solver_iterations_max = 5;
-    let error = system.step(&mut solver, 0.02).expect_err("five iterations");
-    let refused = system.counters();
-    solver.settings = Settings::default();
-    system.step(&mut solver, 0.02).expect("a step");
-    let taken = system.counters();
-    // One product for the right-hand side, and one an iteration.
-    let iterations = solved(&solver, system).solver_iterations;
-    assert!(error.to_string().contains("5 iterations"), "{error}");
-    assert_eq!((refused.force_evaluations, refused.matrix_products), (1, 6));
-    assert_eq!(taken.force_evaluations, 2);
-    assert_eq!(taken.matrix_products, 6 + iterations + 1);
-}
-
 /// Implicit steps are stable at any length: chains of springs that are pushed at random and then left alone
 /// have less energy than they were given ever after, whatever the step.
 #[test]
-fn pushed_chains_never_have_more_energy_than_they_were_given() {
+fn pushed_chains_have_at_most_the_energy_they_were_given() {
     let (k, m) = (100.0, 0.01);
     let omega = 2.0 * f64::sqrt(k / m);
     // Of all with 2 to 39 links and three seeds, those that come to more if a step may make .5 %; and some
@@ -201,10 +136,7 @@ fn pushed_chains_never_have_more_energy_than_they_were_given() {
             for _ in 0..300 {
                 run(&mut chain, &mut solver, times * 2.0 / omega, 1);
                 let part = mechanical_j(&chain) / given_j;
-                assert!(
-                    part < 1.0,
-                    "{links} links, {seed}, {method:?}, {times}: {part}"
-                );
+                assert!(part < 1.0, "{links} links, {seed}, {method:?}, {times}");
             }
         }
     }

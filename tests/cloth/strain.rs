@@ -4,17 +4,15 @@ use tearmesh::{FaceId, Masses, Mesh, Point, Positions, Vector, VertexId, shapes}
 use tearmesh_cloth::{Cloth, Fabric};
 
 use crate::parts::cloths::{cloth, deform};
+use crate::parts::shake;
 use crate::random::Random;
 
 /// No direction in a face is stretched more, and one is as much: by trying them.
 #[test]
 fn no_direction_is_stretched_more_than_the_principal_one() {
-    let mut random = Random(11);
     let (mesh, positions) = shapes::octahedron();
     let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
-    for p in cloth.system_mut().state_mut().0 {
-        *p += Vector::new(random.next(), random.next(), random.next()) * 0.6;
-    }
+    shake(cloth.system_mut(), 0.6, 0.0, &mut Random(11));
     for f in mesh.faces() {
         let v = mesh.face_vertices(f).map(VertexId::index);
         let [rest, now] = [positions.as_slice(), cloth.positions()]

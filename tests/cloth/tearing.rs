@@ -69,7 +69,7 @@ fn held_vertices_do_not_tear() {
 }
 
 #[test]
-fn warp_and_weft_have_their_own_thresholds_and_diagonals_have_none() {
+fn warp_and_weft_have_thresholds_and_diagonals_none() {
     // The largest loads of edges along x, along y, and of diagonals.
     let loads = |threshold: Threshold, to: fn(Point) -> Point| {
         let (mesh, positions) = shapes::grid(6, 6);
@@ -94,7 +94,8 @@ fn warp_and_weft_have_their_own_thresholds_and_diagonals_have_none() {
     // Lengthens one diagonal alone, and no thread.
     let shear = |p: Point| Point::new(p.x + 0.6 * p.y, 0.8 * p.y, 0.0);
     let up = |p: Point| Point::new(p.x, 1.3 * p.y, p.z);
-    let cases: [(Threshold, fn(Point) -> Point, [f64; 3]); 5] = [
+    type Move = fn(Point) -> Point;
+    let cases: [(Threshold, Move, [f64; 3]); 5] = [
         (threads(Vector::x() * 3.0), even, [1.5, 0.6, 0.0]),
         (threads(-Vector::y()), even, [0.6, 1.5, 0.0]),
         // Seen in the plane of the face.
@@ -114,7 +115,7 @@ fn warp_and_weft_have_their_own_thresholds_and_diagonals_have_none() {
 }
 
 #[test]
-fn strength_says_where_it_tears_and_tips_are_weak_across_their_tear() {
+fn strength_says_where_it_tears_and_tips_are_weak() {
     // A seam of vertices that bear half as much: only they are split.
     let mut torn = Torn::new(sheet(8, 8, 6), Fabric::new(50.0), Tearing::default());
     let seam: Vec<usize> = (4 * 9..5 * 9).collect();

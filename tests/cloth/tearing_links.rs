@@ -33,7 +33,7 @@ fn loaded(force_n: f64, stiffness: impl Fn(usize) -> f64) -> System {
 }
 
 #[test]
-fn r7_a_chain_tears_at_the_load_and_in_the_order_of_statics() {
+fn r7_a_chain_tears_at_the_load_and_order_of_statics() {
     let strain = Tearing::new(Threshold::Stretch(1.5));
     let onset = 50.0 * 0.1 * 0.5 - 10.0 * 0.01 * G;
     near(onset, 1.519, 1e-12);

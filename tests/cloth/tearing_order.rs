@@ -1,5 +1,7 @@
 //! A tear must not depend on the order in which triangles, corners and vertices are stored.
 
+use std::collections::BTreeSet;
+
 use tearmesh::{Mesh, Point, Positions, Vector};
 use tearmesh_cloth::{Fabric, TearReport, Tearing, Threshold};
 
@@ -34,9 +36,8 @@ fn rename(mesh: &Mesh, positions: &Positions, random: &mut Random) -> Renamed {
         }
     }
     let mut points = vec![Point::origin(); vertices.len()];
-    for (v, &to) in vertices.iter().enumerate() {
-        points[to] = positions.as_slice()[v];
-    }
+    let moved = vertices.iter().zip(positions.as_slice());
+    moved.for_each(|(&to, &at)| points[to] = at);
     Renamed {
         mesh: Mesh::build(points.len(), &triangles).expect("a mesh"),
         positions: Positions::new(points).expect("finite"),
@@ -48,19 +49,15 @@ fn rename(mesh: &Mesh, positions: &Positions, random: &mut Random) -> Renamed {
 /// there is one.
 fn same_vertices(mesh: &Mesh, other: &Mesh, corners: &[usize]) -> Vec<usize> {
     assert_eq!(mesh.vertex_count(), other.vertex_count());
-    let mut to = vec![None; mesh.vertex_count()];
-    for (&v, &corner) in mesh.indices().iter().zip(corners) {
-        let there = other.indices()[corner] as usize;
-        let before = to[v as usize].replace(there);
-        assert!(
-            before.is_none_or(|before| before == there),
-            "v{v} is two vertices"
-        );
-    }
-    let to: Vec<usize> = to.into_iter().map(|to| to.expect("a face")).collect();
-    let mut all = to.clone();
-    all.sort_unstable();
-    assert!(all.into_iter().eq(0..to.len()), "one vertex is two");
+    let there = corners
+        .iter()
+        .map(|&corner| other.indices()[corner] as usize);
+    let pairs: BTreeSet<(u32, usize)> = mesh.indices().iter().copied().zip(there).collect();
+    let to: Vec<usize> = pairs.iter().map(|&(_, to)| to).collect();
+    let these = pairs.iter().map(|&(v, _)| v as usize);
+    assert!(these.eq(0..mesh.vertex_count()), "one is two");
+    let all: BTreeSet<usize> = to.iter().copied().collect();
+    assert!(all.into_iter().eq(0..to.len()), "two are one");
     to
 }
 
@@ -92,11 +89,11 @@ fn a_tear_does_not_depend_on_the_order_of_storage() {
         let mut one = Torn::new((mesh, positions), fabric, tearing);
         let mut other = Torn::new((renamed.mesh, renamed.positions), fabric, tearing);
         let to = same_vertices(&one.mesh, &other.mesh, &corners);
-        let strengths: Vec<f64> = to.iter().map(|_| 0.8 + 0.4 * random.next()).collect();
-        let mut others = vec![0.0; to.len()];
-        to.iter()
-            .zip(&strengths)
-            .for_each(|(&to, &strength)| others[to] = strength);
+        let (mut strengths, mut others) = (Vec::new(), vec![0.0; to.len()]);
+        for there in to {
+            strengths.push(0.8 + 0.4 * random.next());
+            others[there] = strengths[strengths.len() - 1];
+        }
         one.strengthen(strengths);
         other.strengthen(others);
         for _ in 0..6 {

@@ -142,12 +142,12 @@ fn at_random(seeds: u64, steps: usize) {
 }
 
 #[test]
-fn nothing_that_is_done_to_a_tearing_cloth_breaks_it() {
+fn nothing_done_to_a_tearing_cloth_breaks_it() {
     at_random(20, 120);
 }
 
 #[test]
 #[ignore = "a hundred thousand steps; run it in release"]
-fn nothing_that_is_done_to_a_tearing_cloth_for_long_breaks_it() {
+fn nothing_done_to_a_tearing_cloth_for_long_breaks_it() {
     at_random(100, 1000);
 }

@@ -37,7 +37,7 @@ fn r8_moduli_are_those_asked_for_whatever_the_mesh() {
             };
             let mut cloth = cloth(&mesh, &positions, Fabric::woven(weave));
             let area: f64 = cloth.system().triangles().iter().map(|t| t.area).sum();
-            let c = moduli(&mut cloth, area, axes);
+            let c = moduli(cloth.system(), area, axes);
             let truth = [[1000.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 70.0]];
             let pairs = c.as_flattened().iter().zip(truth.as_flattened());
             pairs.for_each(|(found, asked)| near(*found, *asked, 1e-5));

@@ -84,11 +84,8 @@ impl Sheet {
     /// The sheet with its constraints in this order, held by its top.
     pub(super) fn system(&self, order: Order) -> System {
         let mut system = self.with(order);
-        for (i, p) in self.points.iter().enumerate() {
-            if p.y == 1.0 {
-                system.hold(i);
-            }
-        }
+        let top = (0..self.points.len()).filter(|&i| self.points[i].y == 1.0);
+        top.for_each(|i| system.hold(i));
         system
     }
 

@@ -146,7 +146,7 @@ fn a_solver_that_has_followed_tears_steps_as_a_new_one() {
 }
 
 #[test]
-fn each_free_piece_keeps_its_momentum_to_rounding_at_any_tolerance() {
+fn a_free_piece_keeps_its_momentum_at_any_tolerance() {
     for method in [Method::BackwardEuler, Method::Bdf2] {
         // Three pieces: a sheet that moves, another that is held at one corner, and a particle.
         let mut scene = crumpled(3, 21);

@@ -4,8 +4,8 @@ use std::error::Error as _;
 
 use super::{Scene, step};
 use crate::parts::{implicit_by_default, state};
+use tearmesh_cloth::Implicit;
 use tearmesh_cloth::implicit::{Method, StepError};
-use tearmesh_cloth::{BlowUpSite, Implicit, System};
 
 /// F12: one free particle between two compressed springs, k = 1e3, m = .01, L₀ = .1, l = .095. With drag c
 /// the matrix is indefinite if m (1 + c Δt) < Δt² q, q = 2k (L₀/l − 1).
@@ -49,31 +49,26 @@ fn steps_that_fail_leave_everything_as_it_was_history_too() {
     let error = system.step(&mut solver, 0.01).expect_err("one iteration");
     let why = error.source().expect("the reason").to_string();
     assert!(error.to_string().contains(&why), "{error}");
-    let tearmesh_cloth::StepError::Implicit { elapsed_s, error } = error else {
-        panic!("{error}");
+    let named = match error {
+        tearmesh_cloth::StepError::Implicit { elapsed_s, error } => (elapsed_s, error),
+        error => panic!("{error}"),
     };
-    let StepError::NotConverged {
-        residual,
-        limit,
-        solver_iterations,
-    } = error
-    else {
-        panic!("{error}");
-    };
-    assert!(residual > limit, "{residual} {limit}");
-    assert_eq!((solver_iterations, elapsed_s), (1, system.elapsed_s()));
+    assert!(matches!(
+        named,
+        (elapsed_s, StepError::NotConverged { residual, limit, solver_iterations: 1 })
+            if elapsed_s == system.elapsed_s() && residual > limit
+    ));
     assert_eq!(state(&system), state(&twin));
     solver.settings = settings;
-    let broken = |system: &mut System, solver: &mut Implicit| match system.step(solver, 0.01) {
-        Err(tearmesh_cloth::StepError::BlowUp { at, .. }) => at,
-        other => panic!("{other:?}"),
-    };
-    system.state_mut().0[3].y = f64::NAN;
-    assert_eq!(broken(&mut system, &mut solver), BlowUpSite::Particle(3));
-    system.state_mut().0[3].y = twin.positions()[3].y;
-    system.state_mut().1[4].z = f64::INFINITY;
-    assert_eq!(broken(&mut system, &mut solver), BlowUpSite::Particle(4));
-    system.state_mut().1[4].z = twin.velocities()[4].z;
+    for (particle, x, v) in [(3, f64::NAN, 0.0), (4, 0.0, f64::INFINITY)] {
+        system.state_mut().0[particle].y += x;
+        system.state_mut().1[particle].z += v;
+        let broken = system.step(&mut solver, 0.01).expect_err("no number");
+        let text = format!("particle {particle} is not finite");
+        assert!(broken.to_string().contains(&text), "{broken}");
+        system.state_mut().0[particle] = twin.positions()[particle];
+        system.state_mut().1[particle] = twin.velocities()[particle];
+    }
     step(&mut system, &mut solver, 0.01).expect("a step");
     step(&mut twin, &mut twin_solver, 0.01).expect("a step");
     assert_eq!(state(&system), state(&twin));

@@ -52,7 +52,7 @@ fn what_hangs_falls_as_backward_euler_says_at_every_step() {
 }
 
 #[test]
-fn what_hangs_comes_to_rest_where_forces_balance_at_every_step() {
+fn what_hangs_rests_where_forces_balance_at_every_step() {
     for (method, tolerance) in METHODS.into_iter().flat_map(|m| TOLERANCES.map(|t| (m, t))) {
         for (dt_s, steps) in STEPS {
             let mut system = chain(20.0);
@@ -77,7 +77,7 @@ fn acceleration_rms(scene: &Scene, system: &mut System) -> f64 {
 /// The least of T Δt^(p+1) and a tenth of what the forces at the beginning of a step would make of
 /// the velocities, with drag.
 #[test]
-fn a_step_may_err_by_its_order_or_by_a_tenth_of_what_acts_whichever_is_less() {
+fn a_step_errs_at_most_by_its_order_or_a_tenth_of_forces() {
     let mut decided = [0; 2];
     for seed in 0..6 {
         let mut scene = crumpled(3, seed);

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 
-use tearmesh::{HalfEdgeId, Mesh, Positions, shapes};
-use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::{Axis, Frame, Region, Run, Scene, TearLog};
+use tearmesh::{HalfEdgeId, Mesh, Positions, Vector, shapes};
+use tearmesh_cloth::scene::{Axis, Frame, Region, Run, Scene, SwayingWind, TearLog};
+use tearmesh_cloth::{Method, Wind};
 
 /// A square of one metre with `cells` cells per side and alternating diagonals.
 pub(crate) fn square(cells: u32) -> (Mesh, Positions) {
@@ -17,6 +17,19 @@ pub(crate) fn top() -> Region {
     Region::Patch {
         across: [0.0, 1.0],
         along: [1.0, 1.0],
+    }
+}
+
+/// Wind of these speeds along z.
+pub(crate) fn swaying(steady: f64, sway: f64, period_s: f64) -> SwayingWind {
+    let steady = Wind {
+        velocity_m_per_s: Vector::z() * steady,
+        coefficient: 1.0,
+    };
+    SwayingWind {
+        steady,
+        sway_m_per_s: Vector::z() * sway,
+        period_s,
     }
 }
 
@@ -45,20 +58,29 @@ pub(crate) struct Played {
     pub(crate) log: TearLog,
     /// After each step in which something tore: the time in seconds, the splits, and the length of the tears.
     pub(crate) torn: Vec<(f64, u64, f64)>,
+    /// After each cut: the time in seconds, its number, and whether it made two pieces of one.
+    pub(crate) cuts: Vec<(f64, usize, bool)>,
 }
 
 /// Plays a run to its end, and notes what tore.
 pub(crate) fn noted(mut run: Run) -> Played {
-    let (mut log, mut torn) = (TearLog::new(&run), Vec::new());
+    let (mut log, mut torn, mut cuts) = (TearLog::new(&run), Vec::new(), Vec::new());
     while !run.is_over() {
         let before = run.tally().splits;
         let step = run.step().expect("a step");
         log.note(&run, &step);
+        let made = run.cuts_made().iter();
+        cuts.extend(made.map(|cut| (run.elapsed_s(), cut.number, cut.report.separated)));
         if run.tally().splits > before {
             torn.push((run.elapsed_s(), run.tally().splits, run.torn_length_m()));
         }
     }
-    Played { run, log, torn }
+    Played {
+        run,
+        log,
+        torn,
+        cuts,
+    }
 }
 
 /// Plays a run until something tears, and returns the edge with the largest load.

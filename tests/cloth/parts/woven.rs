@@ -71,24 +71,26 @@ pub(crate) fn framed(n: u32, weave: Weave) -> Cloth {
     cloth
 }
 
-/// The modulus of a piece of cloth in homogeneous small strain, by (εx, εy, γ) along these axes,
-/// from uᵀ K u of affine displacements.
-pub(crate) fn moduli(cloth: &mut Cloth, area: f64, [e, f]: [Vector; 2]) -> [[f64; 3]; 3] {
-    let points = cloth.positions().to_vec();
+/// The moduli of a plane system in homogeneous small strain, by (εx, εy, γ) along these axes, from uᵀ K u of
+/// affine displacements.
+pub(crate) fn moduli(system: &System, area: f64, [e, f]: [Vector; 2]) -> [[f64; 3]; 3] {
     let affine = |mode: usize| -> Vec<Vector> {
         let of = |p: &Point| match mode {
             0 => e * e.dot(&p.coords),
             1 => f * f.dot(&p.coords),
             _ => 0.5 * (e * f.dot(&p.coords) + f * e.dot(&p.coords)),
         };
-        points.iter().map(of).collect()
+        system.positions().iter().map(of).collect()
     };
     [0, 1, 2].map(|i| {
-        let product = stiffness_times(cloth.system(), &affine(i));
-        [0, 1, 2].map(|j| {
-            let pairs = affine(j);
-            let sum: f64 = pairs.iter().zip(&product).map(|(u, p)| u.dot(p)).sum();
-            sum / area
-        })
+        let product = stiffness_times(system, &affine(i));
+        let with = |j| {
+            affine(j)
+                .iter()
+                .zip(&product)
+                .map(|(u, p)| u.dot(p))
+                .sum::<f64>()
+        };
+        [0, 1, 2].map(|j| with(j) / area)
     })
 }

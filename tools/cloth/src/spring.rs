@@ -219,7 +219,7 @@ mod tests {
     /// With a part of the correction and without compliance, and with compliance in the first sweep, which reads
     /// no multiplier, and in the next.
     #[test]
-    fn what_is_projected_together_is_what_it_would_be_one_by_one() {
+    fn what_is_projected_together_is_as_if_one_by_one() {
         let pairs = Pairs::new();
         for (is_first, before, fraction, scale) in [
             (false, 0.25, 0.7, 0.0),
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn one_constraint_beyond_all_measure_is_noticed_wherever_it_is() {
+    fn a_constraint_beyond_all_measure_is_noticed_anywhere() {
         for far in 0..COUNT {
             for (y, is_sane) in [(0.5, true), (1e4, false), (f64::NAN, false)] {
                 let mut pairs = Pairs::new();

@@ -182,7 +182,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_are_the_values_and_straight_lines_between_them() {
+    fn quantiles_are_values_and_straight_lines_between() {
         let sorted = [1.0, 2.0, 4.0, 8.0, 16.0];
         for (i, value) in sorted.into_iter().enumerate() {
             assert_eq!(quantile(&sorted, i as f64 / 4.0), Some(value));
