@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_point_dominates_if_it_is_a_tenth_better_and_nowhere_worse() {
+    fn a_point_a_tenth_better_and_nowhere_worse_dominates() {
         for (better, worse, is_dominated) in [
             ([0.95, 0.95], [1.0, 1.0], false),
             ([1.0, 1.0], [5.0, 1.0], true),
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_counts_from_the_step_on_that_all_shorter_ones_keep_it() {
+    fn an_error_counts_from_where_all_shorter_steps_keep_it() {
         let row = |(i, error): (u64, f64)| Row {
             visits: Some(10 + i),
             error_floor: Some(0.0),

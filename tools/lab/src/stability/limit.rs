@@ -148,7 +148,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_failed_step_that_the_guard_lets_pass_is_silent_and_differs() {
+    fn a_failed_step_past_the_guard_is_silent_and_differs() {
         let (method, theory) = LIMITS[0];
         let steps = theory.rows(method, &[1e3], &|| false).expect("its steps");
         // 2√(k/m) sin(31π/66) is the largest frequency of sixteen links of 10 g.

@@ -26,7 +26,7 @@ fn made(strips: &[u32], seeds: u64) -> Vec<Row> {
 /// The force at which an edge tears is k ε h by stretch and √(2 k G h) by toughness: slopes of one and of a half
 /// for one edge, and less by toughness where the tear takes many.
 #[test]
-fn largest_force_is_proportional_to_the_edge_by_stretch_and_less_by_toughness() {
+fn largest_force_grows_with_the_edge_less_by_toughness() {
     let rows = made(&[8, 12], 0);
     let [stretch, toughness] = [Rule::Stretch, Rule::Toughness].map(|rule| {
         let force = |cells: u32| {
@@ -45,7 +45,7 @@ fn largest_force_is_proportional_to_the_edge_by_stretch_and_less_by_toughness() 
 
 /// Slopes by hand: forces that are proportional to the length of edges, or to its root, or nearly the same.
 #[test]
-fn title_says_that_toughness_depends_less_on_the_mesh_only_if_it_does() {
+fn title_says_that_toughness_depends_less_if_it_does() {
     let title = |power: f64| {
         let rules = [(Rule::Stretch, 1.0), (Rule::Toughness, power)];
         let rows = rules.into_iter().flat_map(|(rule, power)| {
