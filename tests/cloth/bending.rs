@@ -10,9 +10,10 @@ use tearmesh_cloth::{
 
 use crate::parts::cloths::cloth;
 use crate::parts::vibration::largest_frequency;
-use crate::parts::{G, gravity, implicit, implicit_to, near, on_a_line, pulled, run, shake};
+use crate::parts::{
+    G, bisect, gravity, implicit, implicit_to, near, on_a_line, pulled, run, shake,
+};
 use crate::random::Random;
-use crate::tables::bisect;
 
 fn law(buckles_below: f64) -> Buckling {
     Buckling::new(buckles_below).expect("between 0 and 1")

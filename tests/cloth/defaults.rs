@@ -1,7 +1,7 @@
 //! What a user gets who names neither a method nor a step: strains and energy, against references that do not
 //! depend on the method.
 
-pub(crate) mod sheets;
+mod sheets;
 
 use tearmesh::Vector;
 use tearmesh_cloth::Method;
@@ -9,9 +9,9 @@ use tearmesh_cloth::implicit::Method as Formula;
 use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Run, Scene};
 use tearmesh_cloth::{Loads, Solver, System, Verlet, Xpbd, recommended_step_s, stable_step_s};
 
-use self::sheets::{ORDERS, Sheet};
+use self::sheets::Sheet;
 use crate::parts::scenes::{play, top};
-use crate::parts::{fastest, implicit, mechanical_j, near, pulled, run, shake};
+use crate::parts::{ORDERS, Order, fastest, implicit, mechanical_j, near, pulled, run, shake};
 use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 
@@ -30,7 +30,7 @@ fn weight(gravity: f64, drag_per_s: f64) -> Loads {
 }
 
 /// The largest strain that a load which is put on at once ever makes.
-fn shock(sheet: &Sheet, order: sheets::Order, dt_s: f64) -> f64 {
+fn shock(sheet: &Sheet, order: Order, dt_s: f64) -> f64 {
     let mut system = sheet.system(order);
     system.set_loads(weight(400.0, 30.0)).expect("loads");
     let mut solver = Verlet::new();

@@ -5,9 +5,8 @@ use tearmesh_cloth::{
     Collider, Fabric, System, Tearing, Threshold, Unstable, Xpbd, recommended_step_s,
 };
 
-use crate::defaults::sheets::ORDERS;
 use crate::parts::cloths::{Torn, sheet};
-use crate::parts::{METHODS, gravity, method, near, plane, pulled, run};
+use crate::parts::{METHODS, ORDERS, gravity, method, near, plane, pulled, run};
 use crate::random::Random;
 
 /// A sheet that hangs by its top and is pulled about, what tears it, and how long a step is.

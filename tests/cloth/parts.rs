@@ -109,6 +109,39 @@ pub(crate) fn fastest(system: &System) -> f64 {
     speeds.fold(0.0, f64::max)
 }
 
+/// The root of a growing function between two numbers.
+pub(crate) fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if f(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// In which order the constraints are added, and so stored and swept.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Order {
+    Mesh,
+    Reversed,
+    Shuffled,
+}
+
+pub(crate) const ORDERS: [Order; 3] = [Order::Mesh, Order::Reversed, Order::Shuffled];
+
+impl Order {
+    pub(crate) fn apply<T>(self, list: &mut [T]) {
+        match self {
+            Order::Mesh => {}
+            Order::Reversed => list.reverse(),
+            Order::Shuffled => Random(5).shuffle(list),
+        }
+    }
+}
+
 /// The order at which errors fall where a step is halved.
 pub(crate) fn order([coarse, fine]: [f64; 2]) -> f64 {
     (coarse / fine).log2()

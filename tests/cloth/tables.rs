@@ -5,8 +5,6 @@ mod orders;
 mod references;
 mod theory;
 
-pub(crate) use theory::bisect;
-
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::System;
 

@@ -3,31 +3,12 @@
 use tearmesh::{Masses, Mesh, Point, Positions, shapes};
 use tearmesh_cloth::System;
 
+use crate::parts::Order;
 use crate::random::Random;
 
 /// The stiffness of every edge, in N/m, and the mass of a square metre, in kg.
 pub(super) const STIFFNESS: f64 = 1000.0;
 pub(super) const DENSITY: f64 = 0.15;
-
-/// In which order the constraints are added, and so stored and swept.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Order {
-    Mesh,
-    Reversed,
-    Shuffled,
-}
-
-pub(crate) const ORDERS: [Order; 3] = [Order::Mesh, Order::Reversed, Order::Shuffled];
-
-impl Order {
-    pub(crate) fn apply<T>(self, list: &mut [T]) {
-        match self {
-            Order::Mesh => {}
-            Order::Reversed => list.reverse(),
-            Order::Shuffled => Random(5).shuffle(list),
-        }
-    }
-}
 
 /// A net of springs between the points of a mesh, hung by its top.
 pub(super) struct Sheet {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Complex;
 
-use crate::parts::G;
+use crate::parts::{G, bisect};
 
 /// The position after 0, 1, 2, … steps of an oscillator that starts from 1 at rest, as the method
 /// makes it with z = ω Δt. `None` for PBD, which has no frequency.
@@ -77,19 +77,6 @@ pub(super) fn period(angle: f64) -> f64 {
         (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
     }
     2.0 * PI / (G.sqrt() * a)
-}
-
-/// The root of a growing function between two numbers.
-pub(crate) fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if f(middle) > 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// The sag of a net of `n` links between nails a metre apart, and its horizontal force: link by link from
