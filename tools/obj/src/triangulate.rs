@@ -12,9 +12,9 @@
 mod ears;
 mod quads;
 
-use tearmesh::{Point, Vector};
+use tearmesh::Point;
 
-use self::ears::{Clipper, enlarge_angles, flatten, largest};
+use self::ears::{cut_into_ears, enlarge_angles, faces_viewer, flatten, largest};
 use self::quads::avoid_edges;
 use crate::polygons::Polygons;
 
@@ -27,7 +27,6 @@ pub(crate) fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[u32; 3
     let count = polygons.vertices.len() - 2 * polygons.len();
     let mut triangles = Vec::with_capacity(count);
     let (mut places, mut cut) = (Vec::new(), Vec::new());
-    let place = |triangle: [u32; 3]| triangle.map(|v| positions[v as usize]);
     for polygon in 0..polygons.len() {
         let vertices = &polygons.vertices[polygons.corners(polygon)];
         match *vertices {
@@ -36,7 +35,7 @@ pub(crate) fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[u32; 3
                 continue;
             }
             // Nearly all others; without this arm, a file of quads takes a third longer to read.
-            [a, b, c, d] if is_good([[a, b, c], [a, c, d]].into_iter().map(place)) => {
+            [a, b, c, d] if quad_is_good([a, b, c, d].map(|v| positions[v as usize])) => {
                 triangles.extend([[a, b, c], [a, c, d]]);
                 continue;
             }
@@ -46,11 +45,11 @@ pub(crate) fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[u32; 3
         places.extend(vertices.iter().map(|&vertex| positions[vertex as usize]));
         cut.clear();
         cut.extend((2..places.len() as u16).map(|last| [0, last - 1, last]));
-        let at = |triangle: [u16; 3]| triangle.map(|corner| places[usize::from(corner)]);
-        if !is_good(cut.iter().copied().map(at)) {
+        if !is_good(&places, &cut) {
             let flat = flatten(&places);
-            Clipper::new(&flat).clip(&mut cut);
-            enlarge_angles(&flat, |triangle| smallest_angle(at(triangle)), &mut cut);
+            cut_into_ears(&flat, &mut cut);
+            let angle = |triangle: [u16; 3]| smallest_angle(at(&places, triangle));
+            enlarge_angles(&flat, angle, &mut cut);
         }
         let vertex = |corner: u16| vertices[usize::from(corner)];
         triangles.extend(cut.iter().map(|triangle| triangle.map(vertex)));
@@ -64,18 +63,31 @@ pub(crate) fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[u32; 3
     triangles
 }
 
-/// Whether triangles of a polygon all face the viewer, and none is thin, so that the sign of an area is
-/// sure.
-#[inline(always)]
-fn is_good(triangles: impl Iterator<Item = [Point; 3]> + Clone) -> bool {
-    let normals = triangles.clone().map(|[a, b, c]| (b - a).cross(&(c - a)));
-    let sum = normals
-        .clone()
-        .fold(Vector::zeros(), |sum, normal| sum + normal);
-    let axis = largest(sum);
-    let mut areas = normals.map(|normal| normal[axis]);
-    let first = areas.clone().next().unwrap_or(0.0);
-    areas.all(|area| area * first > 0.0) && { triangles }.all(|triangle| !is_thin(triangle))
+fn at(places: &[Point], triangle: [u16; 3]) -> [Point; 3] {
+    triangle.map(|corner| places[usize::from(corner)])
+}
+
+/// Whether the triangles of a quad from its first corner are good: what [`is_good`] says, with each
+/// normal worked out once.
+#[inline]
+fn quad_is_good([a, b, c, d]: [Point; 4]) -> bool {
+    let (ab, ac, ad) = (b - a, c - a, d - a);
+    let normals @ [one, other] = [ab.cross(&ac), ac.cross(&ad)];
+    let axis = largest(one + other);
+    let [p, q, r] = [ab, ac, ad].map(|side| side.norm_squared());
+    let [bc, cd] = [c - b, d - c].map(|side| side.norm_squared());
+    let sides = [
+        (p * q).max(q * bc).max(bc * p),
+        (q * r).max(r * cd).max(cd * q),
+    ];
+    let is_wide = |i: usize| normals[i].norm_squared() > THIN * THIN * sides[i];
+    one[axis] * other[axis] > 0.0 && is_wide(0) && is_wide(1)
+}
+
+/// Whether triangles of a polygon all face the viewer, and none is thin.
+fn is_good(places: &[Point], triangles: &[[u16; 3]]) -> bool {
+    let all = triangles.iter().map(|&triangle| at(places, triangle));
+    faces_viewer(all.clone()) && { all }.all(|triangle| !is_thin(triangle))
 }
 
 /// The squares of twice the area of a triangle, and of the product of its two longer sides, between

@@ -37,6 +37,20 @@ pub(super) fn flatten(places: &[Point]) -> Vec<Flat> {
     places.iter().map(seen).collect()
 }
 
+/// Whether triangles of a polygon face one way, as it is seen. None of them is thin, so that the
+/// sign of an area is sure.
+#[inline]
+pub(super) fn faces_viewer(triangles: impl Iterator<Item = [Point; 3]> + Clone) -> bool {
+    let mut normals = triangles.map(|[a, b, c]| (b - a).cross(&(c - a)));
+    let axis = largest(
+        normals
+            .clone()
+            .fold(Vector::zeros(), |sum, normal| sum + normal),
+    );
+    let first = normals.next().map_or(0.0, |normal| normal[axis]);
+    normals.all(|normal| normal[axis] * first > 0.0)
+}
+
 /// The axis nearest to a normal.
 #[inline]
 pub(super) fn largest(normal: Vector) -> usize {
@@ -60,6 +74,12 @@ pub(super) fn is_simple(places: &[Point], triangles: &[[u16; 3]]) -> bool {
     triangles
         .iter()
         .all(|&triangle| area(&flat, triangle) > 0.0)
+}
+
+/// Cuts a polygon of n ≥ 3 points into n − 2 triangles.
+pub(super) fn cut_into_ears(flat: &[Flat], triangles: &mut Vec<[u16; 3]>) {
+    triangles.clear();
+    Clipper::new(flat).clip(triangles);
 }
 
 /// Flips diagonals as long as the smallest angle of their two triangles gets larger.
@@ -101,7 +121,7 @@ pub(super) fn enlarge_angles(
 }
 
 /// A polygon from which ears are cut off.
-pub(super) struct Clipper<'p> {
+struct Clipper<'p> {
     flat: &'p [Flat],
     /// The corners that are left, as a ring.
     next: Vec<u16>,
@@ -113,7 +133,7 @@ pub(super) struct Clipper<'p> {
 }
 
 impl<'p> Clipper<'p> {
-    pub(super) fn new(flat: &'p [Flat]) -> Self {
+    fn new(flat: &'p [Flat]) -> Self {
         let count = flat.len() as u16;
         Clipper {
             flat,
@@ -124,9 +144,7 @@ impl<'p> Clipper<'p> {
         }
     }
 
-    /// Cuts the polygon of n ≥ 3 points into n − 2 triangles.
-    pub(super) fn clip(mut self, triangles: &mut Vec<[u16; 3]>) {
-        triangles.clear();
+    fn clip(mut self, triangles: &mut Vec<[u16; 3]>) {
         let mut corner = 1;
         while self.left > 3 {
             let ear = self.find_ear(corner);

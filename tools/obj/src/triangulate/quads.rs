@@ -5,6 +5,8 @@
 //! A quad has another diagonal, which is taken if it lies within and is no edge yet. Larger polygons
 //! stay as they were cut, and their diagonals are not looked at.
 
+use std::collections::BTreeMap;
+
 use tearmesh::Point;
 
 use super::ears::is_simple;
@@ -45,90 +47,101 @@ pub(super) fn avoid_edges(triangles: &mut [[u32; 3]], polygons: &Polygons, posit
         of: vec![0; positions.len()],
         factor,
     };
-    let (mut diagonals, mut suspected) = (marks(0x9e37_79b1), marks(0x85eb_ca6b));
-    for_each_diagonal(triangles, polygons, |_, [edge, _]| {
+    let mut diagonals = marks(0x9e37_79b1);
+    let mut suspected: Option<Marks> = None;
+    let mut suspect = |edge| {
+        suspected
+            .get_or_insert_with(|| marks(0x85eb_ca6b))
+            .add(edge);
+    };
+    for_each_diagonal(triangles, polygons, |edge, _| {
         if diagonals.has(edge) {
-            suspected.add(edge);
+            suspect(edge);
         }
         diagonals.add(edge);
     });
+    // The sides that may be among them, unless that is more than an eighth of all.
+    let (mut sides, mut are_all) = (Vec::new(), true);
     for_each_side(polygons, |edge| {
         if diagonals.has(edge) {
-            suspected.add(edge);
-        }
-    });
-    drop(diagonals);
-    // Both diagonals of quads whose own may have to go, and how often each is an edge.
-    let (mut quads, mut counts) = (Vec::new(), Vec::new());
-    for_each_diagonal(triangles, polygons, |polygon, both| {
-        if suspected.has(both[0]) {
-            // A hostile file has nothing but such quads.
-            push(&mut quads, polygon as u32);
-            for edge in both {
-                push(&mut counts, (edge, 0_u32));
+            suspect(edge);
+            are_all &= sides.len() < polygons.vertices.len() / 8;
+            if are_all {
+                sides.push(edge);
             }
         }
     });
-    counts.sort_unstable();
-    counts.dedup();
-    counts.iter().for_each(|&(edge, _)| suspected.add(edge));
+    drop(diagonals);
+    let Some(mut suspected) = suspected else {
+        return;
+    };
+    // The diagonals of quads that may have to go, and those that may come, with how often each is an
+    // edge.
+    let mut counts: BTreeMap<Edge, u32> = BTreeMap::new();
+    let both_of = |polygon: u32| match polygons.vertices[polygons.corners(polygon as usize)] {
+        [a, b, c, d] => [ends(a, c), ends(b, d)],
+        _ => unreachable!("a diagonal is that of a quad"),
+    };
+    let mut quads = Vec::new();
+    for_each_diagonal(triangles, polygons, |edge, polygon| {
+        if suspected.has(edge) {
+            // A hostile file has nothing but such quads.
+            let polygon = polygon as u32;
+            push(&mut quads, (polygon, edge != both_of(polygon)[0]));
+            *counts.entry(edge).or_default() += 1;
+        }
+    });
+    sides.sort_unstable();
+    let is_edge = |edge: &Edge| counts[edge] > 1 || sides.binary_search(edge).is_ok();
+    quads.retain(|&(polygon, is)| !are_all || is_edge(&both_of(polygon)[usize::from(is)]));
+    if quads.is_empty() {
+        return;
+    }
+    let both = quads.iter().flat_map(|&(polygon, _)| both_of(polygon));
+    counts = both.map(|diagonal| (diagonal, 0)).collect();
+    counts.keys().for_each(|&edge| suspected.add(edge));
     let mut count = |edge| {
         if suspected.has(edge)
-            && let Ok(place) = counts.binary_search_by_key(&edge, |&(edge, _)| edge)
+            && let Some(count) = counts.get_mut(&edge)
         {
-            counts[place].1 += 1;
+            *count += 1;
         }
     };
-    for_each_diagonal(triangles, polygons, |_, [edge, _]| count(edge));
+    for_each_diagonal(triangles, polygons, |edge, _| count(edge));
     for_each_side(polygons, count);
-    for polygon in quads {
+    for (polygon, is) in quads {
+        let (diagonals, is) = (both_of(polygon), usize::from(is));
         let polygon = polygon as usize;
-        let both = diagonals_of(triangles, polygons, polygon).expect("it is a quad");
-        let [own, other] = both.map(|edge| {
-            let place = counts.binary_search_by_key(&edge, |&(edge, _)| edge);
-            place.expect("it is counted")
-        });
+        let cuts = [[[0_u16, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
+        let other = cuts[1 - is];
         let vertices = &polygons.vertices[polygons.corners(polygon)];
-        let cut = match both[1] == ends(vertices[0], vertices[2]) {
-            true => [[0_u16, 1, 2], [0, 2, 3]],
-            false => [[0, 1, 3], [1, 2, 3]],
-        };
         let places: Vec<Point> = vertices.iter().map(|&v| positions[v as usize]).collect();
-        if counts[own].1 > 1 && counts[other].1 == 0 && is_simple(&places, &cut) {
-            counts[own].1 -= 1;
-            counts[other].1 = 1;
-            for (triangle, cut) in polygons.triangles(polygon).zip(cut) {
+        if counts[&diagonals[is]] > 1
+            && counts[&diagonals[1 - is]] == 0
+            && is_simple(&places, &other)
+        {
+            counts.extend([(diagonals[1 - is], 1)]);
+            counts.entry(diagonals[is]).and_modify(|count| *count -= 1);
+            for (triangle, cut) in polygons.triangles(polygon).zip(other) {
                 triangles[triangle] = cut.map(|i| vertices[usize::from(i)]);
             }
         }
     }
 }
 
-/// The diagonal of a quad, and its other one; `None` for any other polygon.
-#[inline]
-fn diagonals_of(triangles: &[[u32; 3]], polygons: &Polygons, polygon: usize) -> Option<[Edge; 2]> {
-    let [a, b, c, d] = polygons.vertices[polygons.corners(polygon)] else {
-        return None;
-    };
-    let first = triangles[polygons.triangles(polygon).start];
-    let is_fan = first[0] == a && first[2] == c; // As nearly always.
-    let both = [ends(a, c), ends(b, d)];
-    Some(match is_fan || first.contains(&a) && first.contains(&c) {
-        true => both,
-        false => [both[1], both[0]],
-    })
-}
-
-/// Visits both diagonals of all quads, their own first.
+/// Visits the diagonals of all quads.
 #[inline]
 fn for_each_diagonal(
     triangles: &[[u32; 3]],
     polygons: &Polygons,
-    mut visit: impl FnMut(usize, [Edge; 2]),
+    mut visit: impl FnMut(Edge, usize),
 ) {
     for polygon in 0..polygons.len() {
-        if let Some(both) = diagonals_of(triangles, polygons, polygon) {
-            visit(polygon, both);
+        if let [a, b, c, d] = polygons.vertices[polygons.corners(polygon)] {
+            let first = triangles[polygons.triangles(polygon).start];
+            let is_fan = first[0] == a && first[2] == c; // As nearly always.
+            let has_both = is_fan || first.contains(&a) && first.contains(&c);
+            visit(if has_both { ends(a, c) } else { ends(b, d) }, polygon);
         }
     }
 }
