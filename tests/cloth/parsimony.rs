@@ -1,7 +1,7 @@
 //! A scene pays for what it uses, and for nothing else: by counts, at the defaults of each method. By a clock:
 //! `tools/bench`, subcommand `cloth`.
 
-use tearmesh::{CutMethod, Edits, Positions, Scissor, Vector, shapes};
+use tearmesh::{CutMethod, Edits, Follower as _, Positions, Scissor, Vector, shapes};
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{Run, Scene};
 use tearmesh_cloth::{
