@@ -14,7 +14,6 @@ use std::time::Instant;
 
 use tearmesh::{
     Cursor, Cut, CutEnd, CutLayers, CutMethod, CutTips, Edit, Edits, Masses, Positions, Scissor,
-    Vector,
 };
 use tearmesh_obj::TornDocument;
 
@@ -138,8 +137,8 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let fill = |mut out: &mut dyn Write| torn.write(&mesh, &positions, &mut out);
     session.write(&mesh, fill)?;
     let shown = shown.as_deref().unwrap_or(positions.as_slice());
-    session.show_mesh(&document, &mesh, shown, Vector::y(), &texture)?;
-    session.show_page(&mesh, shown, Vector::y())?;
+    session.show_mesh(&document, &mesh, shown, args.camera.up.coords, &texture)?;
+    session.show_page(&mesh, shown, args.camera.up.coords)?;
     if let Some(path) = args.files.wanted(&args.seam) {
         output::write(path, |out| seam::write(&seams, out))?;
     }

@@ -146,21 +146,22 @@ pub(crate) struct CutArgs {
 /// Points of a picture instead of rays.
 #[derive(Debug, clap::Args)]
 pub(crate) struct CameraArgs {
-    /// Cut between points of a picture, with --fov, --viewport and --points.
+    /// Cut between points of a picture, with --points.
     ///
     /// eye@target: the target is in the middle of the picture, which is in perspective. For example,
-    /// --camera 0,0,5@0,0,0 --fov 40 --viewport 800x600 --points 200,300 600,250.
+    /// --camera 0,0,5@0,0,0 --points 200,300 600,250. Of another size or angle than `render` draws by
+    /// default, say so with --viewport and --fov.
     #[arg(
         long,
         value_name = "EYE@AT",
         allow_hyphen_values = true,
         value_parser = super::read::look,
-        requires_all = ["fov", "viewport", "points"],
+        requires = "points",
         conflicts_with_all = ["rays", "rays_file", "plane"]
     )]
     pub(crate) camera: Option<[Point; 2]>,
 
-    /// The direction that is up in the picture.
+    /// The direction that is up in pictures and pages.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
         default_value = "0,1,0", hide_short_help = true)]
     pub(crate) up: Point,
@@ -171,13 +172,15 @@ pub(crate) struct CameraArgs {
         hide_short_help = true,
         value_name = "DEG",
         allow_negative_numbers = true,
+        default_value_t = tearmesh_view::ANGLE_OF_VIEW,
         requires = "camera"
     )]
-    pub(crate) fov: Option<f64>,
+    pub(crate) fov: f64,
 
     /// The width and height of the picture in pixels.
-    #[arg(long, hide_short_help = true, value_name = "WxH", value_parser = super::read::size, requires = "camera")]
-    pub(crate) viewport: Option<[f64; 2]>,
+    #[arg(long, hide_short_help = true, value_name = "WxH", value_parser = super::read::size,
+        default_value = "960x720", requires = "camera")]
+    pub(crate) viewport: [f64; 2],
 
     /// Two pixels of the picture, from the top left; may be given repeatedly.
     ///

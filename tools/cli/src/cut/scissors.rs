@@ -46,7 +46,8 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
     }
     if pairs.is_empty() {
         let message = "nothing to cut with: give --rays A B, --plane P:N or --camera";
-        let help = "for example --rays 0,1,5:0,0,-1 0,-1,5:0,0,-1";
+        let help = "for example --plane 0,0,0:1,0,0, which parts a mesh at x = 0; `tearmesh view` writes a page on which \
+                    two clicks give rays";
         return Err(Fault::error("E-RAY-COUNT", message).help(help).into());
     }
     Ok(pairs.into_iter().map(Along::Rays).collect())
@@ -55,9 +56,8 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
 /// The rays through points of a picture.
 fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
     let refused = |message: &str, help: &str| Fault::error("E-CAMERA", message).help(help);
-    let fov = args.fov.expect("a camera requires it");
-    let viewport = args.viewport.expect("a camera requires it");
-    let camera = Camera::new(look, args.up.coords, fov, viewport).map_err(picture::no_camera)?;
+    let camera = Camera::new(look, args.up.coords, args.fov, args.viewport);
+    let camera = camera.map_err(picture::no_camera)?;
     let pairs = args.points.iter().map(|text| {
         let points = rays::split_pair(text).map(|span| numbers(&text[span], ','));
         let points: Vec<Vec<f64>> = points.collect();
