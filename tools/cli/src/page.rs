@@ -1,15 +1,15 @@
-//! Pages of the verbs `view` and `play`, and pages that other verbs write beside a mesh.
+//! Pages: what is on them, and where they go.
 
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use tearmesh::{Mesh, Place, Vector};
+use tearmesh::{Mesh, Place};
 use tearmesh_view::{CutLine, Moment, Page, is_page};
 
 use crate::exit::Stop;
 use crate::say::quoted;
-use crate::{files, output, picture};
+use crate::{files, picture};
 
 /// Adds a mesh to a page.
 pub(crate) fn add(
@@ -20,24 +20,6 @@ pub(crate) fn add(
 ) -> Result<(), Stop> {
     let added = page.add(mesh, place, moment);
     Ok(added.map_err(picture::no_camera)?)
-}
-
-/// Writes a page of one mesh beside it. `name` is the file that it was written to.
-pub(crate) fn write_beside(
-    path: &Path,
-    mesh: &Mesh,
-    place: &(impl Place + ?Sized),
-    up: Vector,
-    name: Option<&str>,
-) -> Result<(), Stop> {
-    let mut page = Page::new(title(name), up);
-    let moment = Moment {
-        label: title(name),
-        cut: name.map(|name| cut_line(name, "")),
-        ..Moment::default()
-    };
-    add(&mut page, mesh, place, moment)?;
-    Ok(output::write(path, |out| page.write(out))?)
 }
 
 /// What a page is called that shows a file.

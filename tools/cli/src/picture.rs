@@ -1,12 +1,9 @@
-//! Pictures of the verb `render`, and pictures that other verbs write beside a mesh.
+//! What all pictures of meshes need: a camera, and what is known of the surface.
 
-use std::path::Path;
-
-use tearmesh::{Blend, Cursor, Edits, Mesh, Place, Vector};
+use tearmesh::{Blend, Cursor, Edits};
 use tearmesh_obj::{Corner, Document};
-use tearmesh_view::{ANGLE_OF_VIEW, CameraError, PictureSize, RenderOptions, fit, render};
+use tearmesh_view::CameraError;
 
-use crate::output;
 use crate::say::Fault;
 
 /// Why there is no such camera.
@@ -20,27 +17,6 @@ pub(crate) fn no_camera(error: CameraError) -> Fault {
             "it is the one from the lower edge of the picture to the upper, as in --fov 40"
         }
     })
-}
-
-/// Writes a picture beside a mesh that has a face and came from a document, by a camera that has to be found.
-pub(crate) fn write_beside(
-    path: &Path,
-    document: &Document,
-    mesh: &Mesh,
-    place: &(impl Place + ?Sized),
-    up: Vector,
-    texture: &Texture,
-) -> Result<(), Fault> {
-    let size = PictureSize::default();
-    let camera = fit(mesh, place, up, ANGLE_OF_VIEW, size.as_f64()).map_err(no_camera)?;
-    let options = RenderOptions {
-        crease_deg: crease(document),
-        ground: Some(up),
-        texture: texture.values.clone(),
-        ..RenderOptions::default()
-    };
-    let picture = render(mesh, place, &camera, size, &options);
-    output::write(path, |out| picture.write_png(out))
 }
 
 /// The texture coordinates on which a weave is drawn, while the mesh is cut and torn.

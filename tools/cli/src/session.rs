@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use tearmesh::{MassError, MassLedger, Mesh, Place, Point, Positions, Vector};
 use tearmesh_obj::{Document, Repair, WriteSummary};
+use tearmesh_view::{ANGLE_OF_VIEW, Moment, Page, PictureSize, RenderOptions, fit, render};
 
 use crate::args::{FileArgs, Format, LookArgs};
 use crate::exit::{Exit, Stop};
@@ -236,10 +237,20 @@ impl<'a, 's> Session<'a, 's> {
         up: Vector,
         texture: &Texture,
     ) -> Result<(), Stop> {
-        if let Some(path) = self.files.wanted(&self.files.picture) {
-            picture::write_beside(path, document, mesh, place, up, texture)?;
-        }
-        Ok(())
+        let Some(path) = self.files.wanted(&self.files.picture) else {
+            return Ok(());
+        };
+        let size = PictureSize::default();
+        let camera = fit(mesh, place, up, ANGLE_OF_VIEW, size.as_f64());
+        let camera = camera.map_err(picture::no_camera)?;
+        let options = RenderOptions {
+            crease_deg: picture::crease(document),
+            ground: Some(up),
+            texture: texture.values.clone(),
+            ..RenderOptions::default()
+        };
+        let picture = render(mesh, place, &camera, size, &options);
+        Ok(output::write(path, |out| picture.write_png(out))?)
     }
 
     /// Shows the mesh as it is in the end on a page, if one is wanted.
@@ -249,10 +260,19 @@ impl<'a, 's> Session<'a, 's> {
         place: &(impl Place + ?Sized),
         up: Vector,
     ) -> Result<(), Stop> {
-        if let Some(path) = self.files.wanted(&self.files.view) {
-            page::write_beside(path, mesh, place, up, self.name().as_deref())?;
-        }
-        Ok(())
+        let Some(path) = self.files.wanted(&self.files.view) else {
+            return Ok(());
+        };
+        let name = self.name();
+        let title = page::title(name.as_deref());
+        let mut page = Page::new(title.clone(), up);
+        let moment = Moment {
+            label: title,
+            cut: name.map(|name| page::cut_line(&name, "")),
+            ..Moment::default()
+        };
+        page::add(&mut page, mesh, place, moment)?;
+        Ok(output::write(path, |out| page.write(out))?)
     }
 
     /// Shows the warnings so far, unless they are to be JSON: before something that takes long.

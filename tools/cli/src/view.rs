@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use tearmesh_cloth::scene::Axis;
 use tearmesh_obj::Repair;
 use tearmesh_view::{Moment, Page};
 
@@ -79,15 +78,10 @@ fn playing(args: &ViewArgs, inputs: &[PathBuf]) -> Result<PlayArgs, Stop> {
         let message = "a page to play on has one mesh";
         return Err(Stop::usage(message, "name one file, or leave out --play"));
     };
-    let mut axes = Axis::NAMED.into_iter();
-    let Some((up, _)) = axes.find(|(_, axis)| axis.vector() == args.up.coords) else {
-        let message = "up is along an axis on a page to play on";
-        return Err(Stop::usage(message, "name it as in --up 0,0,1"));
-    };
     Ok(PlayArgs {
         input: Some(input.clone()),
         scene: "rip".to_owned(),
-        up: up.to_owned(),
+        up: "y".to_owned(),
         output: args.output.clone(),
         look: args.look.clone(),
     })

@@ -29,7 +29,9 @@ pub(crate) struct ViewArgs {
     pub(crate) inputs: Vec<PathBuf>,
 
     /// Make a page on which the mesh is a cloth to be grabbed, ripped, cut and mended: the one of `play`.
-    #[arg(long)]
+    ///
+    /// For another direction up, run `play`.
+    #[arg(long, conflicts_with = "up")]
     pub(crate) play: bool,
 
     /// Where to write the page; `-` is standard output.
