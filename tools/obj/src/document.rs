@@ -168,11 +168,8 @@ impl Document {
     /// copies that were written for further fans of a vertex ([the record](crate#the-record)).
     #[must_use]
     pub fn vertex_statement_count(&self) -> usize {
-        let copies = self
-            .record
-            .as_deref()
-            .map_or(0, |record| record.copies.len());
-        self.positions.len() + copies
+        let record = self.record.as_deref();
+        self.positions.len() + record.map_or(0, |record| record.copies.len())
     }
 
     /// Returns the number of a vertex in the file, counted from 1. It exceeds the index plus 1 if

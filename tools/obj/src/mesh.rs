@@ -42,12 +42,8 @@ impl Document {
             }
         };
         built.map_err(|error| {
-            let shown = error
-                .defects()
-                .iter()
-                .take(SHOWN)
-                .map(|defect| self.describe(defect))
-                .collect();
+            let first = error.defects().iter().take(SHOWN);
+            let shown = first.map(|defect| self.describe(defect)).collect();
             MeshError { error, shown }
         })
     }

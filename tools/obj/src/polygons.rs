@@ -33,10 +33,8 @@ impl Polygons {
     /// The corners of a polygon.
     #[inline]
     pub(crate) fn corners(&self, polygon: usize) -> std::ops::Range<usize> {
-        let end = self
-            .starts
-            .get(polygon + 1)
-            .map_or(self.vertices.len(), |&end| end as usize);
+        let next = self.starts.get(polygon + 1);
+        let end = next.map_or(self.vertices.len(), |&end| end as usize);
         self.starts[polygon] as usize..end
     }
 

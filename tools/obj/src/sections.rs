@@ -89,9 +89,8 @@ impl Sections {
     pub(crate) fn end(&self, kind: Kind, statement: u32) -> u32 {
         let ends = &self.ends[kind as usize];
         let next = ends.partition_point(|&end| end <= statement);
-        ends.get(next)
-            .copied()
-            .unwrap_or(self.counts[kind as usize])
+        let end = ends.get(next).copied();
+        end.unwrap_or(self.counts[kind as usize])
     }
 }
 

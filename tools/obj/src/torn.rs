@@ -289,7 +289,7 @@ impl<'d> TornDocument<'d> {
     /// Returns the number of faces of the mesh after the edits followed so far.
     #[must_use]
     pub fn face_count(&self) -> usize {
-        self.corners.face_count()
+        self.corners.slots.len()
     }
 
     /// Returns the faces of the mesh in the order in which they are written. The children of a divided

@@ -14,7 +14,7 @@ mod quads;
 
 use tearmesh::Point;
 
-use self::ears::{cut_into_ears, enlarge_angles, faces_viewer, flatten, largest};
+use self::ears::{Clipper, enlarge_angles, faces_viewer, flatten, largest};
 use self::quads::avoid_edges;
 use crate::polygons::Polygons;
 
@@ -47,7 +47,7 @@ pub(crate) fn triangles(polygons: &Polygons, positions: &[Point]) -> Vec<[u32; 3
         cut.extend((2..places.len() as u16).map(|last| [0, last - 1, last]));
         if !is_good(&places, &cut) {
             let flat = flatten(&places);
-            cut_into_ears(&flat, &mut cut);
+            Clipper::new(&flat).clip(&mut cut);
             let angle = |triangle: [u16; 3]| smallest_angle(at(&places, triangle));
             enlarge_angles(&flat, angle, &mut cut);
         }

@@ -133,10 +133,8 @@ pub(super) fn settle(items: &mut Items, document: &Document) {
 /// texture coordinates or normals as it had.
 pub(super) fn forget_corners(document: &mut Document, items: &mut Items, place: Location) {
     let Items { counts, record, .. } = items;
-    let is_known = [
-        counts.indices[0][1] as usize == document.texture.len(),
-        counts.indices[1][1] as usize == document.normals.len(),
-    ];
+    let all = document.counts();
+    let is_known = [0, 1].map(|which| counts.indices[which][1] as usize == all[1 + which]);
     let is_lost = |exchange: &Exchange| !is_known[exchange.which];
     let forgotten = record
         .slides

@@ -18,7 +18,7 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct Corners<'d> {
     document: &'d Document,
     /// The triangle of the document where each face stands.
-    slots: Vec<u32>,
+    pub(super) slots: Vec<u32>,
     /// The texture coordinate and the normal of each corner; empty where no corner has one, so that a file
     /// without them takes no memory here.
     corners: [Vec<u32>; 2],
@@ -77,10 +77,6 @@ impl<'d> Corners<'d> {
             None => self.document.value(which, index),
             Some(new) => self.new_values[which].row(new),
         }
-    }
-
-    pub(super) fn face_count(&self) -> usize {
-        self.slots.len()
     }
 
     /// The texture coordinate and the normal of a corner of the mesh.

@@ -76,12 +76,6 @@ pub(super) fn is_simple(places: &[Point], triangles: &[[u16; 3]]) -> bool {
         .all(|&triangle| area(&flat, triangle) > 0.0)
 }
 
-/// Cuts a polygon of n ≥ 3 points into n − 2 triangles.
-pub(super) fn cut_into_ears(flat: &[Flat], triangles: &mut Vec<[u16; 3]>) {
-    triangles.clear();
-    Clipper::new(flat).clip(triangles);
-}
-
 /// Flips diagonals as long as the smallest angle of their two triangles gets larger.
 ///
 /// It ends: with each flip the angles, sorted, come later in the order of words, and triangulations
@@ -121,7 +115,7 @@ pub(super) fn enlarge_angles(
 }
 
 /// A polygon from which ears are cut off.
-struct Clipper<'p> {
+pub(super) struct Clipper<'p> {
     flat: &'p [Flat],
     /// The corners that are left, as a ring.
     next: Vec<u16>,
@@ -133,7 +127,7 @@ struct Clipper<'p> {
 }
 
 impl<'p> Clipper<'p> {
-    fn new(flat: &'p [Flat]) -> Self {
+    pub(super) fn new(flat: &'p [Flat]) -> Self {
         let count = flat.len() as u16;
         Clipper {
             flat,
@@ -144,7 +138,9 @@ impl<'p> Clipper<'p> {
         }
     }
 
-    fn clip(mut self, triangles: &mut Vec<[u16; 3]>) {
+    /// Cuts the polygon of n ≥ 3 points into n − 2 triangles.
+    pub(super) fn clip(mut self, triangles: &mut Vec<[u16; 3]>) {
+        triangles.clear();
         let mut corner = 1;
         while self.left > 3 {
             let ear = self.find_ear(corner);

@@ -30,10 +30,9 @@ impl<'m> Separated<'m> {
         let mut indices = Cow::Borrowed(mesh.indices());
         let mut copies = Vec::new();
         for vertex in starts_of_tears(mesh) {
-            let mut fans: Vec<HalfEdgeId> = mesh
-                .fans(vertex)
-                .filter_map(|h| mesh.fan(h).min_by_key(place))
-                .collect();
+            let fans = mesh.fans(vertex);
+            let first = fans.filter_map(|h| mesh.fan(h).min_by_key(place));
+            let mut fans: Vec<HalfEdgeId> = first.collect();
             fans.sort_by_key(place);
             for &fan in fans.iter().skip(1) {
                 let copy = mesh.vertex_count() + copies.len();
