@@ -20,7 +20,7 @@ use crate::mesh::{Components, Mesh};
 /// let cut = Scissor::by_plane(plane).cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
 ///
 /// let [line] = cut.seam().collect::<Vec<_>>()[..] else { panic!("one line across the sheet") };
-/// for &[front, back] in line.lips {
+/// for &[front, back] in &line.lips {
 ///     assert_eq!(mesh.ghost_pair(front), Some(back)); // they were a pair before
 ///     assert_eq!(cut.side(front.face()), Some(Side::Front));
 /// }
