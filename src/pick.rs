@@ -73,13 +73,19 @@ pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Optio
     for face in mesh.faces() {
         let corners = mesh.face_vertices(face).map(|v| place.at(v));
         let seen = corners.map(|corner: Point| corner - ray.origin());
-        let Some(weights) = weights(seen, direction) else {
+        let Some((weights, side)) = weights(seen, direction) else {
             continue;
         };
         // A sum of two numbers beside a zero does not depend on their order, so the faces of an edge agree.
         let [a, b, c] = [0, 1, 2].map(|i| weights[i] * dot(seen[i], direction));
-        let distance = (a + b + c) / per_distance;
-        if distance >= 0.0 && first.is_none_or(|first| distance < first.distance) {
+        let distance = match side {
+            0.0 => 0.0,
+            _ => (a + b + c) / per_distance,
+        };
+        let is_in_front = side >= 0.0 && !distance.is_nan();
+        // What is in front is not behind by rounding.
+        let distance = distance.max(0.0);
+        if is_in_front && first.is_none_or(|first| distance < first.distance) {
             first = Some(RayHit {
                 face,
                 weights,
@@ -90,9 +96,10 @@ pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Optio
     first
 }
 
-/// The weights of the corners of a triangle where a line through the origin meets it; none where it
-/// does not, or runs along the plane of the triangle.
-fn weights(corners: [Vector; 3], direction: Vector) -> Option<[f64; 3]> {
+/// The weights of the corners of a triangle where a line through the origin meets it, and a number with
+/// the sign of the distance: zero just where the origin is in the plane of the triangle. None where the
+/// line does not meet it, or runs along its plane.
+fn weights(corners: [Vector; 3], direction: Vector) -> Option<([f64; 3], f64)> {
     let [a, b, c] = corners;
     let parts = [[b, c], [c, a], [a, b]].map(|[from, to]| determinant(direction, from, to));
     let all = |is: fn(f64) -> bool| parts.into_iter().all(is);
@@ -125,7 +132,13 @@ fn weights(corners: [Vector; 3], direction: Vector) -> Option<[f64; 3]> {
             }
         }
     }
-    Some(weights)
+    // Whatever their lengths, the sign of their volume is the same. A corner at the origin has no direction.
+    let side = match corners.map(scaled) {
+        [Some(a), Some(b), Some(c)] => determinant(a, b, c),
+        _ => dot(a, cross(b, c)),
+    };
+    let is_from_behind = all(|part| part <= 0.0);
+    Some((weights, if is_from_behind { -side } else { side }))
 }
 
 /// d · (p × q), with the sign that it has without rounding; of (q, p) it is the same number negated.

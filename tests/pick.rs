@@ -260,6 +260,15 @@ fn no_ray_leaves_a_closed_surface_between_its_faces() {
 }
 
 #[test]
+fn regression_a_ray_that_starts_within_a_face_meets_it() {
+    let mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a triangle");
+    let lattice = Lattice::of(mesh, |v| [[13, 0, 0], [11, 6, 0], [10, 6, -3]][v.index()]);
+    let mut counts = Counts::default();
+    counts.check(&lattice, [11, 5, -1], [-62, -62, -38]);
+    assert_eq!((counts.inside, counts.at_the_origin), (1, 1));
+}
+
+#[test]
 fn rays_miss_coordinates_that_are_not_finite() {
     let (mesh, positions) = shapes::grid(1, 1);
     let ray = Ray::new(Point::new(0.4, 0.2, 1.0), -Vector::z()).expect("a ray");
