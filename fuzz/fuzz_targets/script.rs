@@ -11,6 +11,6 @@ mod lockstep;
 #[allow(dead_code, unused_imports, reason = "shared with the tests")]
 mod oracle;
 
-fuzz_target!(|script: Script| {
-    lockstep::check(&script);
+fuzz_target!(|bytes: &[u8]| {
+    lockstep::check(&Script::from_bytes(bytes));
 });
