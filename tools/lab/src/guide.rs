@@ -28,9 +28,6 @@ use crate::pareto::AMPLIFICATION_MAX;
 /// The multiples of its default step that each method is played with, beside the default.
 pub const STEP_MULTIPLES: [f64; 3] = [4.0, 2.0, 0.5];
 
-/// The largest number of seeds of an ensemble on a mesh with other diagonals, and of the second reference.
-const FEW_SEEDS: u64 = 4;
-
 /// The difference between the seeds of references and those of methods.
 const REFERENCE_SEEDS: u64 = 1000;
 
@@ -45,6 +42,9 @@ pub struct Guide {
 impl Guide {
     /// Creates the experiment: on meshes with this many cells along their longest side, with this many seeds of
     /// ensembles of a flag (torn lengths take half of them), and this many meshes with other diagonals.
+    ///
+    /// What is dear or only context takes a quarter of the seeds, and at least two: other diagonals, half of the
+    /// cells, steps other than the default, and the second reference.
     ///
     /// # Panics
     ///
@@ -81,7 +81,7 @@ impl Guide {
             Topic::Hang | Topic::Rip | Topic::Trouser => 0,
         };
         // Without an ensemble there is one run without noise.
-        let (first, few) = (seeds.min(1), seeds.min(FEW_SEEDS));
+        let (first, few) = (seeds.min(1), seeds.min((seeds / 4).max(2)));
         let mut keys = Vec::new();
         let mut add = |role, method: &str, step_multiple, seeds: RangeInclusive<u64>| {
             keys.extend(seeds.map(|seed| Row {
@@ -99,6 +99,8 @@ impl Guide {
             add(Role::Mesh, DEFAULT, None, first..=few);
             return keys;
         }
+        let is_finest = stage.cells == self.stages.last().map_or(0, |stage| stage.cells);
+        let seeds = if is_finest { seeds } else { few };
         let mut multiples = vec![None];
         if topic != Topic::Aftermath {
             // Seeds of its own, as the same runs would have no error.
@@ -113,6 +115,7 @@ impl Guide {
         }
         for method in &DEFAULTS {
             for &multiple in &multiples {
+                let seeds = multiple.map_or(seeds, |_| few);
                 add(Role::Method, method.name, multiple, first..=seeds);
             }
         }

@@ -230,15 +230,14 @@ impl Stage {
     pub(super) fn guess_s(&self, key: &Row) -> f64 {
         let (method_s, second_s) = match self.topic {
             Hang => (0.35, 8.0),
-            Flag => (0.6, 7.0),
+            Flag => (0.6, 4.0),
             Rip => (0.12, 1.5),
             Trouser => (0.7, 8.0),
             Aftermath => (1.6, 0.0),
         };
         let seconds = match (key.role, self.topic) {
             (Role::Second, _) => second_s,
-            (Role::Reference, Flag) => 2.0 * method_s,
-            (Role::Reference, _) => 8.0 * method_s,
+            (Role::Reference, Rip | Trouser) => 8.0 * method_s,
             _ => method_s / key.step_multiple.unwrap_or(1.0),
         };
         let finer = f64::from(self.cells) / 32.0;
@@ -322,10 +321,11 @@ impl Stage {
                 (scene.step_s, scene.duration_s) = (Some(REST_STEP_S), 1.0);
                 (None, 1, Some(Reference::to_rest()))
             }
-            // It takes longer steps than Verlet's method by as much as its order allows.
+            // It takes longer steps than Verlet's method by as much as its order allows, and for a flag chance is
+            // larger than what a shorter step changes.
+            (Role::Second, Flag) => (Some(4.0), 1, Some(Reference::new(self.mesh.indices()))),
             (Role::Second, _) => (Some(2.0), 1, Some(Reference::new(self.mesh.indices()))),
-            // For a flag chance is larger than what a shorter step changes.
-            (Role::Reference, Flag) => (None, 2, None),
+            (Role::Reference, Flag) => (None, 1, None),
             (Role::Reference, _) => (None, 8, None),
             _ => (key.step_multiple, 1, None),
         };
