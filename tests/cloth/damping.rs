@@ -1,6 +1,6 @@
 //! Material damping, against answers on paper.
 
-use tearmesh::Vector;
+use tearmesh::{Point, Vector};
 use tearmesh_cloth::scene::Warning;
 use tearmesh_cloth::{
     Balance, Fabric, Solver, System, Unstable, Verlet, force, recommended_step_s,
@@ -8,7 +8,7 @@ use tearmesh_cloth::{
 
 use crate::parts::cloths::{cloth, sheet};
 use crate::parts::scenes::played;
-use crate::parts::{METHODS, mechanical_j, method, near, on_a_line, shake};
+use crate::parts::{METHODS, mechanical_j, method, near, on_a_line, shake, woven};
 use crate::random::Random;
 
 /// A kilogram on a spring of 100 N/m that is held at its other end, 5 cm from rest.
@@ -20,39 +20,65 @@ fn oscillator(damping_s: f64) -> System {
     system
 }
 
-/// Where it is after two seconds, in steps of this length, with its balance.
-fn swung(damping_s: f64, dt_s: f64) -> (f64, Balance, System) {
-    let mut system = oscillator(damping_s);
+/// A kilogram at a corner of a triangle that is held at the others, moved by this vector from rest: as stiff
+/// along x and along y, by its weft and in shear.
+fn corner(damping_s: f64, moved: Vector) -> System {
+    let points = [[0.0, 0.0], [0.0, 0.25], [1.0, 0.25]].map(|[x, y]| Point::new(x, y, 0.0));
+    let mut system = System::new(points, vec![1.0; 3]).expect("particles");
+    let material = [[0.0, 0.0], [0.25, 0.0], [0.25, 1.0]];
+    let triangle = system.triangle([0, 1, 2], material, [400.0, 800.0, 800.0]);
+    triangle.expect("an area");
+    (0..2).for_each(|v| system.hold(v));
+    system.state_mut().0[2] += moved;
+    system.set_damping(damping_s).expect("a time");
+    system
+}
+
+/// Where the last particle is after two seconds, in steps of this length, and the balance.
+fn swung(mut system: System, dt_s: f64) -> (Point, Balance, System) {
     let mut kept = Balance::new(&mut system);
     for _ in 0..(2.0 / dt_s).round() as usize {
         let taken = system.step_observed(&mut Verlet::new(), dt_s, Some(&mut kept));
         taken.expect("a stable step");
     }
-    (system.positions()[1].x - 1.0, kept, system)
+    (*system.positions().last().expect("particles"), kept, system)
 }
 
 /// x = x₀ exp(−ζωt) (cos ω′t + ζω/ω′ sin ω′t), with ω′ = ω √(1 − ζ²).
 #[test]
-fn a_damped_spring_swings_by_the_closed_answer() {
-    let omega = 10.0;
+fn a_damped_oscillator_swings_by_the_closed_answer() {
+    let (omega, t) = (10.0, 2.0);
+    let [x, y] = [Vector::new(0.05, 0.0, 0.0), Vector::new(0.0, 1e-5, 0.0)];
     // τ k = c = 2 ζ √(k m); a ratio above a tenth is a tenth.
     for (damping_s, ratio) in [(0.01, 0.05), (0.019, 0.095), (7.0, 0.1)] {
-        let t = 2.0;
         let slower = omega * f64::sqrt(1.0 - ratio * ratio);
         let shape = (slower * t).cos() + ratio * omega / slower * (slower * t).sin();
-        let answer = 0.05 * (-ratio * omega * t).exp() * shape;
-        let [whole, half] = [0.0025, 0.00125].map(|dt_s| swung(damping_s, dt_s).0 - answer);
-        // By velocities of half a step before, so of first order.
-        near(whole / half, 2.0, 0.1);
-        near(2.0 * half - whole, 0.0, 1e-5);
+        let answer = (-ratio * omega * t).exp() * shape;
+        let triangles = [x, y].map(|moved| (corner(damping_s, moved), moved));
+        for (system, moved) in [(oscillator(damping_s), x)].into_iter().chain(triangles) {
+            let rest = system.positions().last().expect("particles") - moved;
+            let error = |dt_s| {
+                let (at, ..) = swung(system.clone(), dt_s);
+                (at - rest).dot(&moved) / moved.norm_squared() - answer
+            };
+            let [whole, half] = [0.0025, 0.00125].map(error);
+            // By velocities of half a step before, so of first order.
+            near(whole / half, 2.0, 0.1);
+            near(2.0 * half - whole, 0.0, 2e-4);
 
-        let (_, kept, system) = swung(damping_s, 0.00125);
-        let balance = kept.now(&system);
-        let lost_j = balance.began_j - mechanical_j(&system);
-        near(-balance.damping_j / lost_j, 1.0, 5e-3);
+            let (_, kept, swung) = swung(system, 0.00125);
+            let balance = kept.now(&swung);
+            let lost_j = balance.began_j - mechanical_j(&swung);
+            near(-balance.damping_j / lost_j, 1.0, 5e-3);
+        }
+    }
+}
 
-        // What a spring of 2 c/(Δt (1 + 2θ)) would take of the step that suits.
-        let (mut system, c) = (oscillator(damping_s), 2.0 * ratio * omega);
+/// What a spring of 2 c/(Δt (1 + 2θ)) would take of the step that suits.
+#[test]
+fn damping_shortens_the_step_as_a_spring_would() {
+    for (damping_s, ratio) in [(0.01, 0.05), (7.0, 0.1)] {
+        let (mut system, c) = (oscillator(damping_s), 2.0 * ratio * 10.0);
         let suits_s = recommended_step_s(&mut system);
         let taken = 100.0 * suits_s * suits_s + 2.0 * c / 1.5 * suits_s;
         near(taken, 1.3, 1e-12);
@@ -73,6 +99,13 @@ fn a_hand_feels_damping_and_a_threshold_does_not() {
     let rate = d.dot(&system.velocities()[1]) / d.norm();
     let hand = -d / d.norm() * (pull + 1.0 * rate);
     near((force::reaction_n(&system, 0) - hand).norm(), 0.0, 1e-12);
+
+    let mut system = corner(0.01, Vector::new(0.05, 0.0, 0.0));
+    system.state_mut().1[2] = Vector::new(3.0, 0.0, 0.0);
+    system.step(&mut Verlet::new(), 1e-3).expect("a step");
+    let pull = 100.0 * (system.positions()[2].x - 1.0) + system.velocities()[2].x;
+    let hands = force::reaction_n(&system, 0) + force::reaction_n(&system, 1);
+    near(hands.x, -pull, 1e-12);
 }
 
 #[test]
@@ -97,9 +130,13 @@ fn other_methods_leave_damping_out() {
 fn damped_cloth_gains_no_energy_at_the_longest_step() {
     for seed in 0..12 {
         let (mesh, positions) = sheet(9, 9, seed);
+        let fabric = match seed % 2 {
+            0 => Fabric::new(500.0),
+            _ => Fabric::woven(woven::weave()),
+        };
         let fabric = Fabric {
             damping_s: [1e-3, 1e-2, 1.0][seed as usize % 3],
-            ..Fabric::new(500.0)
+            ..fabric
         };
         let mut cloth = cloth(&mesh, &positions, fabric);
         let system = cloth.system_mut();

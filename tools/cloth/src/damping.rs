@@ -18,6 +18,9 @@
 //! A (1 + 2θ) + 2 B ≤ 4. So c counts as a spring of the stiffness 2 c / (Δt (1 + 2θ)) wherever steps and
 //! masses are chosen ([`guard`](crate::guard)).
 //!
+//! A triangle is damped as three springs are: along warp, along weft and in shear
+//! ([`triangle`](crate::triangle)), each with the reduced mass of its corners in that mode.
+//!
 //! Thresholds of force do not see this force; a hand that holds or leads a particle does.
 
 use crate::crush::Crush;

@@ -17,11 +17,11 @@ pub struct Fabric {
     pub weave: Option<Weave>,
     /// The bending resistance across each interior edge; `None` for no resistance.
     pub bend: Option<Bending>,
-    /// The damping along edges as a time τ, in seconds; zero for none. A spring of stiffness k is
-    /// damped by τ k, and by no more than a damping ratio of a tenth: a cloth that loses as much at the
-    /// frequencies that one sees would need far more at the highest ones of a mesh, and steps many times
-    /// shorter. Only [`Verlet`](crate::Verlet) damps; the other methods lose
-    /// energy of their own.
+    /// The damping as a time τ, in seconds; zero for none. A spring of stiffness k is damped along its edge
+    /// by τ k, and triangles are along warp, along weft and in shear, by no more than a damping ratio of a
+    /// tenth: a cloth that loses as much at the frequencies that one sees would need far more at the highest
+    /// ones of a mesh, and steps many times shorter. Only [`Verlet`](crate::Verlet) damps; the other methods
+    /// lose energy of their own.
     pub damping_s: f64,
     /// The bend constraints that a split removes.
     pub unbend: Unbend,

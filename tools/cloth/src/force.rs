@@ -87,7 +87,7 @@ pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
         pairs.add_force_at(&system.positions, velocities, particle, exerted, &mut sum);
     }
     let triangles = &model.triangles;
-    triangles.add_force_at(&system.positions, particle, &mut sum);
+    triangles.add_force_at(&system.positions, velocities, particle, &mut sum);
     sum
 }
 

@@ -171,12 +171,9 @@ impl Guard {
             sums[b] += stiffness;
         });
         if model.damping_s > 0.0 {
-            for colour in &model.stretch.colours {
-                for (ends, damping) in colour.ends.iter().zip(&colour.damping) {
-                    ends.iter()
-                        .for_each(|&end| dampers[end as usize] += damping);
-                }
-            }
+            model.each_damper(reach, |ends, damping| {
+                ends.iter().for_each(|&end| dampers[end] += damping);
+            });
         }
         let (sums, w) = (&self.sums, &model.inverse_masses);
         let mut most = (0.0, None);
@@ -223,7 +220,7 @@ impl Guard {
             let [stretch, bend] = model.families();
             stretch.springs_at(particle, damper, &mut *visit);
             bend.springs_at(particle, damper, &mut *visit);
-            model.triangles.springs_at(particle, reach, visit);
+            model.triangles.springs_at(particle, reach, damper, visit);
         };
         let share = SHARE * (1.0 - air);
         self.carry.weigh(masses, stiffness, neighbours, share, dt_s);

@@ -122,6 +122,7 @@ fn damp(system: &mut System) {
     let model = &mut system.model;
     if !system.guard.is_known {
         model.stretch.damp(model.damping_s, &model.inverse_masses);
+        model.triangles.damp(model.damping_s, &model.inverse_masses);
     }
 }
 

@@ -28,8 +28,10 @@
 use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::crush::Crush;
+use crate::damping;
 use crate::incidence::Incidence;
 use crate::matrix::{Block, Hessian};
+use crate::pair::Pull;
 
 /// A triangle that resists stretch and shear.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +45,9 @@ pub struct Triangle {
     pub area: f64,
     /// The stiffness along u, along v, and in shear, in N/m.
     pub(crate) stiffness: [f64; 3],
+    /// The material damping along u, along v, and in shear, in N s/m: that of the last
+    /// [`Triangles::damp`].
+    damping: [f64; 3],
 }
 
 impl Triangle {
@@ -66,6 +71,7 @@ impl Triangle {
             rest_inverse: [[v2 / twice, -u2 / twice], [-v1 / twice, u1 / twice]],
             area: 0.5 * twice.abs(),
             stiffness,
+            damping: [0.0; 3],
         };
         let inverse = triangle.rest_inverse.as_flattened();
         let is_usable = inverse.iter().all(|x| x.is_finite())
@@ -82,6 +88,7 @@ impl Triangle {
             rest_inverse: [[0.0; 2]; 2],
             area: f64::MIN_POSITIVE,
             stiffness: [0.0; 3],
+            damping: [0.0; 3],
         }
     }
 
@@ -128,24 +135,39 @@ impl Triangle {
         [-(f1 + f2), f1, f2]
     }
 
-    /// Those of damping along warp and along weft, as far as they are crushed: the power of what is said of it
-    /// is that of the stretch of the triangle.
+    /// The forces of damping, in N: of the material, and along warp and weft as far as they are crushed. And
+    /// the power that the material takes, in W.
     #[inline]
-    fn damping(&self, w: [Vector; 2], crush: Crush<'_>) -> [Vector; 3] {
+    fn damping(&self, w: [Vector; 2], crush: Crush<'_>) -> ([Vector; 3], f64) {
         let [v0, v1, v2] = self.vertices.map(|v| crush.velocities[v as usize]);
         let (a, b) = (v1 - v0, v2 - v0);
-        let d = &self.rest_inverse;
+        let (d, [_, _, c_s]) = (&self.rest_inverse, self.damping);
+        let rates = [0, 1].map(|c| a * d[0][c] + b * d[1][c]);
+        let shear = dot(w[0], rates[1]) + dot(w[1], rates[0]);
+        let mut damped_w = c_s * (shear * shear);
         let [p_u, p_v] = [0, 1].map(|c| {
+            let mut p = w[1 - c] * (self.area * c_s * shear);
             let ratio = length(w[c]);
-            if !(ratio < Crush::BELOW && ratio > 0.0) {
-                return Vector::zeros();
+            if ratio > 0.0 {
+                let direction = w[c] / ratio;
+                let speed = dot(direction, rates[c]);
+                damped_w += self.damping[c] * (speed * speed);
+                let mut pull = self.area * self.damping[c] * speed;
+                if ratio < Crush::BELOW {
+                    pull += crush.pull(self.area * self.stiffness[c], ratio, speed);
+                }
+                p += direction * pull;
             }
-            let direction = w[c] / ratio;
-            let speed = dot(direction, a * d[0][c] + b * d[1][c]);
-            direction * crush.pull(self.area * self.stiffness[c], ratio, speed)
+            p
         });
         let [f1, f2] = [0, 1].map(|e| -(p_u * d[e][0] + p_v * d[e][1]));
-        [-(f1 + f2), f1, f2]
+        ([-(f1 + f2), f1, f2], self.area * damped_w)
+    }
+
+    /// Whether it is damped in this state.
+    #[inline]
+    fn is_damped(&self, squares: [f64; 2]) -> bool {
+        self.damping != [0.0; 3] || squares.iter().any(|l| *l < Crush::BELOW * Crush::BELOW)
     }
 
     /// The second derivatives of the energy: `[i][j]` is the block of corners i and j, in N/m; and
@@ -202,11 +224,10 @@ impl Triangle {
         ([[b00, b01, b02], [b10, b11, b12], [b20, b21, b22]], clamped)
     }
 
-    /// Springs between its corners that together are as stiff as warp and weft: since the weights g of
-    /// either have no sum, |Σ gᵢuᵢ|² is −Σ gᵢgⱼ|uᵢ − uⱼ|² over pairs, and those with a negative
-    /// factor are left out.
-    fn springs(&self, reach: f64) -> [f64; 3] {
-        let [k_u, k_v, k_s] = self.stiffness;
+    /// Springs between its corners that together are as stiff as these moduli along warp, along weft and in
+    /// shear: since the weights g of either have no sum, |Σ gᵢuᵢ|² is −Σ gᵢgⱼ|uᵢ − uⱼ|² over pairs, and those
+    /// with a negative factor are left out.
+    fn springs(&self, [k_u, k_v, k_s]: [f64; 3], reach: f64) -> [f64; 3] {
         let weights = self.weights();
         // What √k is of a spring.
         let roots = [k_u, k_v].map(|k| (self.area * (k + k_s * reach)).sqrt());
@@ -217,6 +238,11 @@ impl Triangle {
             };
             part(0) + part(1)
         })
+    }
+
+    /// The moduli, with a damper of 1 N s/m counted as `damper`.
+    fn damped_moduli(&self, damper: f64) -> [f64; 3] {
+        [0, 1, 2].map(|c| self.stiffness[c] + damper * self.damping[c])
     }
 }
 
@@ -312,43 +338,70 @@ impl Triangles {
         triangles.fold(0.0, |sum, t| sum + t.energy(t.derivatives_at(x)))
     }
 
-    /// Adds the forces, in newtons, to those of the particles, with those of damping where something is
-    /// crushed. False where one is longer along warp or weft than `ratio_max` times its rest length, or not
-    /// a number.
-    #[must_use]
+    /// Computes the damping of all by the present masses. Warp, weft and shear are each damped as a spring is.
+    pub(crate) fn damp(&mut self, time_s: f64, inverse_masses: &[f64]) {
+        for t in &mut self.list {
+            let w = t.vertices.map(|v| inverse_masses[v as usize]);
+            let along = |g: [f64; 3]| (0..3).map(|i| w[i] * (g[i] * g[i])).sum::<f64>();
+            let [u, v] = t.weights().map(along);
+            let sums = [u, v, u + v];
+            let coefficient =
+                |c: usize| damping::coefficient(time_s, t.area * t.stiffness[c], sums[c]) / t.area;
+            t.damping = [0, 1, 2].map(coefficient);
+        }
+    }
+
+    /// Adds the forces, in newtons, to those of the particles, in a guarded step with those of damping. Not
+    /// sane where one is longer along warp or weft than `ratio_max` times its rest length, or not a number.
     pub(crate) fn add_forces(
         &self,
         x: &[Point],
         ratio_max: f64,
         crush: Option<Crush<'_>>,
         forces: &mut [Vector],
-    ) -> bool {
-        let (mut sane, most) = (true, ratio_max * ratio_max);
+    ) -> Pull {
+        let (mut is_sane, mut damped_w, most) = (true, 0.0, ratio_max * ratio_max);
         for t in &self.list {
             let w = t.derivatives_at(x);
             let squares = w.map(|w| dot(w, w));
-            sane &= squares.iter().all(|square| *square <= most);
+            is_sane &= squares.iter().all(|square| *square <= most);
             for (v, pull) in t.vertices.into_iter().zip(t.forces(w)) {
                 forces[v as usize] += pull;
             }
-            if let Some(crush) = crush
-                && squares
-                    .iter()
-                    .any(|square| *square < Crush::BELOW * Crush::BELOW)
-            {
-                for (v, pull) in t.vertices.into_iter().zip(t.damping(w, crush)) {
+            if let Some(crush) = crush.filter(|_| t.is_damped(squares)) {
+                let (pulls, power_w) = t.damping(w, crush);
+                damped_w += power_w;
+                for (v, pull) in t.vertices.into_iter().zip(pulls) {
                     forces[v as usize] += pull;
                 }
             }
         }
-        sane
+        Pull { is_sane, damped_w }
     }
 
-    /// Adds the forces on one particle.
-    pub(crate) fn add_force_at(&self, x: &[Point], particle: usize, sum: &mut Vector) {
+    /// Adds the forces on one particle, and those of material damping at these velocities, if the method damps.
+    pub(crate) fn add_force_at(
+        &self,
+        x: &[Point],
+        velocities: Option<&[Vector]>,
+        particle: usize,
+        sum: &mut Vector,
+    ) {
         for (t, corner) in self.of(particle) {
             let t = &self.list[t];
-            *sum += t.forces(t.derivatives_at(x))[corner];
+            let w = t.derivatives_at(x);
+            *sum += t.forces(w)[corner];
+            if let Some(velocities) = velocities {
+                // Without a step nothing is damped for being crushed.
+                let (pulls, _) = t.damping(
+                    w,
+                    Crush {
+                        velocities,
+                        dt_s: 0.0,
+                    },
+                );
+                *sum += pulls[corner];
+            }
         }
     }
 
@@ -364,10 +417,26 @@ impl Triangles {
 
     /// Visits springs that together are as stiff as these triangles or stiffer, in any state within `reach`:
     /// their particles, and their stiffness in N/m.
-    pub(crate) fn each_spring(&self, reach: f64, mut visit: impl FnMut([usize; 2], f64)) {
+    /// A damper of 1 N s/m counts as `damper`.
+    pub(crate) fn each_spring(&self, reach: f64, damper: f64, visit: impl FnMut([usize; 2], f64)) {
+        self.each(reach, |t| t.damped_moduli(damper), visit);
+    }
+
+    /// Visits their dampers alike: their coefficients in N s/m.
+    pub(crate) fn each_damper(&self, reach: f64, visit: impl FnMut([usize; 2], f64)) {
+        self.each(reach, |t| t.damping, visit);
+    }
+
+    fn each(
+        &self,
+        reach: f64,
+        moduli: impl Fn(&Triangle) -> [f64; 3],
+        mut visit: impl FnMut([usize; 2], f64),
+    ) {
         for t in &self.list {
             let [a, b, c] = t.vertices.map(|v| v as usize);
-            for (ends, stiffness) in [[a, b], [b, c], [c, a]].into_iter().zip(t.springs(reach)) {
+            let springs = t.springs(moduli(t), reach);
+            for (ends, stiffness) in [[a, b], [b, c], [c, a]].into_iter().zip(springs) {
                 visit(ends, stiffness);
             }
         }
@@ -378,11 +447,12 @@ impl Triangles {
         &self,
         particle: usize,
         reach: f64,
+        damper: f64,
         mut visit: impl FnMut(usize, f64),
     ) {
         for (t, corner) in self.of(particle) {
             let t = &self.list[t];
-            let springs = t.springs(reach);
+            let springs = t.springs(t.damped_moduli(damper), reach);
             let (next, last) = ((corner + 1) % 3, (corner + 2) % 3);
             for (other, stiffness) in [(next, springs[corner]), (last, springs[last])] {
                 if stiffness > 0.0 {

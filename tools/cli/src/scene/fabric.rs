@@ -96,11 +96,6 @@ impl SceneFile {
         });
         if !table.has("stretch_n_per_m") && !table.has("modulus_n_per_m") {
             scene.fabric.stretch = Stretch::Slack;
-            if table.has("damping_s") {
-                let message = "`damping_s` damps springs, and this fabric is of triangles";
-                return Err(self.fault(table, "damping_s", "E-SCENE-CLASH", message));
-            }
-            scene.fabric.damping_s = 0.0;
         }
         self.has_forces(scene, table, key, "have no triangles")
     }

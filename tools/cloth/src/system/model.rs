@@ -120,7 +120,18 @@ impl Model {
         let [stretch, bend] = self.families();
         stretch.each_spring(damper, &mut visit);
         bend.each_spring(damper, &mut visit);
-        self.triangles.each_spring(reach, visit);
+        self.triangles.each_spring(reach, damper, visit);
+    }
+
+    /// Visits dampers that together damp as much as all constraints, or more: their particles, and their
+    /// coefficients in N s/m.
+    pub(crate) fn each_damper(&self, reach: f64, mut visit: impl FnMut([usize; 2], f64)) {
+        for colour in &self.stretch.colours {
+            for (ends, &damping) in colour.ends.iter().zip(&colour.damping) {
+                visit(ends.map(|end| end as usize), damping);
+            }
+        }
+        self.triangles.each_damper(reach, visit);
     }
 
     /// Visits the pairs of particles that act on each other: the kind of their constraint, and a number that
@@ -159,10 +170,10 @@ impl Model {
         let ratio_max = self.stretch_ratio_max;
         let families = self.families();
         let [stretch, bend] = families.map(|pairs| pairs.add_forces(x, ratio_max, crush, forces));
-        let are_triangles_sane = self.triangles.add_forces(x, ratio_max, crush, forces);
+        let triangles = self.triangles.add_forces(x, ratio_max, crush, forces);
         Pull {
-            is_sane: stretch.is_sane & bend.is_sane & are_triangles_sane,
-            damped_w: stretch.damped_w,
+            is_sane: stretch.is_sane & bend.is_sane & triangles.is_sane,
+            damped_w: stretch.damped_w + triangles.damped_w,
         }
     }
 
