@@ -43,8 +43,8 @@ impl Guide {
     /// Creates the experiment: on meshes with this many cells along their longest side, with this many seeds of
     /// ensembles of a flag (torn lengths take half of them), and this many meshes with other diagonals.
     ///
-    /// What is dear or only context takes a quarter of the seeds, and at least two: other diagonals, half of the
-    /// cells, steps other than the default, and the second reference.
+    /// What is dear or only context takes a quarter of the seeds, and at least two: half of the cells, steps other
+    /// than the default, and the second reference. Other diagonals take two each.
     ///
     /// # Panics
     ///
@@ -96,7 +96,7 @@ impl Guide {
             }));
         };
         if stage.diagonals > 1 {
-            add(Role::Mesh, DEFAULT, None, first..=few);
+            add(Role::Mesh, DEFAULT, None, first..=few.min(2));
             return keys;
         }
         let is_finest = stage.cells == self.stages.last().map_or(0, |stage| stage.cells);

@@ -229,7 +229,7 @@ impl Stage {
     /// An estimate of the CPU time of a run, in seconds, from those of sheets of 32 cells.
     pub(super) fn guess_s(&self, key: &Row) -> f64 {
         let (method_s, second_s) = match self.topic {
-            Hang => (0.35, 8.0),
+            Hang => (0.35, 4.0),
             Flag => (0.6, 4.0),
             Rip => (0.12, 1.5),
             Trouser => (0.7, 8.0),
@@ -318,7 +318,7 @@ impl Stage {
         scene.solver = method.unwrap_or(Method::Verlet);
         let (multiple, divisor, reference) = match (key.role, self.topic) {
             (Role::Second, Hang) => {
-                (scene.step_s, scene.duration_s) = (Some(REST_STEP_S), 1.0);
+                (scene.step_s, scene.duration_s) = (Some(REST_STEP_S), 0.5);
                 (None, 1, Some(Reference::to_rest()))
             }
             // It takes longer steps than Verlet's method by as much as its order allows, and for a flag chance is
