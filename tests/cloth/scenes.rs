@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use tearmesh::{CutMethod, Point, Vector, VertexId};
 use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, RunError, Scene, TimedCut};
 use tearmesh_cloth::{
-    Collider, Limiter, Method, Path, Quality, StepError, Tearing, Threshold, energy,
+    Collider, Constraint, Limiter, Method, Path, Quality, StepError, Tearing, Threshold, energy,
 };
 
 use crate::parts::scenes::{Played, methods, play, played, square, staged, swaying, top};
@@ -311,9 +311,32 @@ fn methods_say_where_their_steps_fall_short() {
             ("implicit", Quality::Implicit(solved)) => {
                 assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
             }
-            ("verlet", Quality::Carried { carried }) => {
-                let free = system.inverse_masses().iter().filter(|w| **w > 0.0).count();
+            (
+                "verlet",
+                Quality::Carried {
+                    carried,
+                    mass_ratio_max,
+                    damping_capped,
+                },
+            ) => {
+                let w = system.inverse_masses();
+                let free = w.iter().filter(|w| **w > 0.0).count();
                 assert!(10 * carried <= free, "{carried} of {free}");
+                assert_eq!(carried > 0, mass_ratio_max > 1.0, "{mass_ratio_max}");
+                let all = system.stretches();
+                let mut damped: Vec<_> = all.iter().map(|id| all.get(id)).collect();
+                damped.retain(|one| one.ends.iter().any(|&end| w[end] > 0.0));
+                let [a, b] = [0, 1].map(|i| move |one: &Constraint| w[one.ends[i]]);
+                let is_capped = |one: &&Constraint| {
+                    let k = one.stiffness_n_per_m;
+                    1.6e-3 * k > 0.2 * (k / (a(one) + b(one))).sqrt()
+                };
+                let capped = damped.iter().copied().filter(|one| is_capped(&one)).count();
+                let share = capped as f64 / damped.len() as f64;
+                assert!(
+                    (damping_capped - share).abs() < 1e-12 && share > 0.0,
+                    "{share}"
+                );
             }
             (name, other) => panic!("{name}: {other:?}"),
         }

@@ -230,6 +230,18 @@ impl Constraints {
         }
     }
 
+    /// The share of those that are damped by less than their stiffness times `time_s`, of all that are damped.
+    pub(crate) fn damping_capped(&self, time_s: f64) -> f64 {
+        let (mut capped, mut damped) = (0_u32, 0_u32);
+        for colour in &self.colours {
+            for (stiffness, &damping) in colour.stiffness.iter().zip(&colour.damping) {
+                damped += u32::from(damping > 0.0);
+                capped += u32::from(damping > 0.0 && damping < time_s * stiffness);
+            }
+        }
+        f64::from(capped) / f64::from(damped.max(1))
+    }
+
     pub(crate) fn push_particle(&mut self) {
         self.lists.push_particle();
     }

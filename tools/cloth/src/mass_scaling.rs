@@ -145,6 +145,13 @@ impl MassScaling {
         self.stars.len()
     }
 
+    /// The largest mass of one of them in a step, as a multiple of its own; 1 if there is none.
+    pub(crate) fn mass_ratio_max(&self, masses: &[f64]) -> f64 {
+        let carried = self.stars.iter().map(|star| star.particle as usize);
+        let ratios = carried.map(|particle| 1.0 / (self.inverse[particle] * masses[particle]));
+        ratios.fold(1.0, f64::max)
+    }
+
     /// Whether no two of them are neighbours, so that stability is proven.
     pub(crate) fn is_proven(&self) -> bool {
         self.is_proven

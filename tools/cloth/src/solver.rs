@@ -121,12 +121,16 @@ impl Abilities {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Quality {
-    /// For Verlet: the particles that are too light for the step, and so are carried by their
-    /// neighbours at present.
+    /// For Verlet: what its guards and the damping do at present.
     #[cfg_attr(feature = "serde", serde(rename = "guarded"))]
     Carried {
-        /// The number of those particles.
+        /// The number of particles that are too light for the step, and so are carried by their neighbours.
         carried: usize,
+        /// The largest mass of one of them in a step, as a multiple of its own; 1 if there is none.
+        mass_ratio_max: f64,
+        /// The share of damped edges that are damped by less than the fabric asks for, because of the cap on
+        /// the damping ratio.
+        damping_capped: f64,
     },
     /// For Provot's model: what its limiter did.
     Limiter(LimiterStats),

@@ -134,8 +134,12 @@ impl Solver for Verlet {
     }
 
     fn quality(&self, system: &System) -> Quality {
-        let carried = system.guard.carry.len();
-        Quality::Carried { carried }
+        let (carry, model) = (&system.guard.carry, &system.model);
+        Quality::Carried {
+            carried: carry.len(),
+            mass_ratio_max: carry.mass_ratio_max(&model.masses),
+            damping_capped: model.stretch.damping_capped(model.damping_s),
+        }
     }
 }
 
