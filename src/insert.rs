@@ -19,14 +19,12 @@
 mod face;
 mod plan;
 
-use std::fmt;
-
-pub use plan::{Chord, ChordEnd, Plan, Point, PointId};
+pub use plan::{Chord, ChordEnd, InsertRefusal, Plan, Point, PointId};
 
 use crate::edit::{ChildFace, Edit, Edits, Insert, InsertedPoint, Mix};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
-use face::{Fault, Retriangulation};
+use face::Retriangulation;
 
 impl Plan {
     /// Inserts all points of this plan into a mesh, and retriangulates the faces.
@@ -67,18 +65,6 @@ impl Plan {
     /// All that inserting the points takes, which changes nothing yet. Positions may change before
     /// it is carried out, and the mesh may not.
     pub(crate) fn prepare(&self, mesh: &Mesh) -> Result<Work, InsertRefusal> {
-        self.expect_known(mesh);
-        Work::new(self, mesh)
-    }
-
-    /// Panics at an id that is foreign.
-    fn expect_known(&self, mesh: &Mesh) {
-        for &point in &self.points {
-            match point {
-                Point::Edge { h, .. } => _ = mesh.origin(h),
-                Point::Face { f, .. } => _ = mesh.face_vertices(f),
-            }
-        }
         for &Chord { f, ends } in &self.chords {
             mesh.half_edges_of(f);
             for end in ends {
@@ -92,6 +78,7 @@ impl Plan {
                 }
             }
         }
+        Work::new(self, mesh)
     }
 }
 
@@ -112,9 +99,11 @@ struct OnEdge {
 }
 
 /// All that is to be done, worked out before anything is changed.
+#[derive(Default)]
 pub(crate) struct Work {
     placed: Vec<InsertedPoint>,
-    children: Vec<ChildFace>,
+    /// The children of the faces that are to be divided.
+    pub(crate) children: Vec<ChildFace>,
     segments: Vec<Segment>,
     /// Half-edges of children of one parent that become pairs.
     inner: Vec<[HalfEdgeId; 2]>,
@@ -123,8 +112,7 @@ pub(crate) struct Work {
 /// A half-edge along the edge of a divided face that is not on the boundary.
 struct Segment {
     /// The smaller half-edge of the whole edge, and which part of it, counted along that.
-    edge: HalfEdgeId,
-    part: usize,
+    part: (HalfEdgeId, usize),
     half_edge: HalfEdgeId,
     /// What the whole edge was linked to here, and whether the link is torn.
     opposite: HalfEdgeId,
@@ -133,12 +121,7 @@ struct Segment {
 
 impl Work {
     fn new(plan: &Plan, mesh: &Mesh) -> Result<Work, InsertRefusal> {
-        let mut work = Work {
-            placed: Vec::with_capacity(plan.points.len()),
-            children: Vec::new(),
-            segments: Vec::new(),
-            inner: Vec::new(),
-        };
+        let mut work = Work::default();
         let (on_edges, in_faces) = work.place(plan, mesh)?;
         let mut faces: Vec<FaceId> = in_faces.iter().map(|&(f, ..)| f).collect();
         for on in &on_edges {
@@ -156,23 +139,18 @@ impl Work {
         for f in faces {
             face.clear();
             outline(mesh, f, &on_edges, &mut face);
-            let here = in_faces.partition_point(|&(g, ..)| g < f);
-            for &(_, vertex, weights) in in_faces[here..].iter().take_while(|&&(g, ..)| g == f) {
-                face.inside(f, vertex, weights);
+            let of = f.half_edges();
+            for &(_, vertex, weights) in equal_range(&in_faces, f, |&(f, ..)| f) {
+                face.push(vertex, Mix::Weighted { of, weights }, None);
             }
-            let here = chords.partition_point(|chord| chord.f < f);
-            for chord in chords[here..].iter().take_while(|chord| chord.f == f) {
+            for chord in equal_range(&chords, f, |chord| chord.f) {
                 let ends = chord.ends.map(|end| end_of(end, f, &face));
                 let [Some(one), Some(other)] = ends else {
                     return Err(InsertRefusal::Chord { face: f });
                 };
-                face.chord(one, other);
+                face.chords.push([one.min(other), one.max(other)]);
             }
-            face.run().map_err(|fault| match fault {
-                Fault::Chord => InsertRefusal::Chord { face: f },
-                Fault::Crowded => InsertRefusal::Crowded { face: f },
-                Fault::Share(share) => InsertRefusal::Share { face: f, share },
-            })?;
+            face.run(f)?;
             work.divide(mesh, f, &face, &mut next_face);
         }
         if next_face > Mesh::MAX_FACES {
@@ -198,6 +176,7 @@ impl Work {
         for (i, &point) in plan.points.iter().enumerate() {
             match point {
                 Point::Edge { h, t, forward } => {
+                    let ghost = mesh.ghost_pair(h);
                     if !(t > 0.0 && t < 1.0) {
                         return Err(InsertRefusal::Parameter { half_edge: h, t });
                     }
@@ -209,7 +188,7 @@ impl Work {
                     let vertex = new_vertex();
                     self.placed.push(place(vertex, h.ends(forward)));
                     let mut vertices = [vertex; 2];
-                    if let Some(ghost) = mesh.ghost_pair(h) {
+                    if let Some(ghost) = ghost {
                         let vertex = new_vertex();
                         vertices[1] = vertex;
                         self.placed.push(place(vertex, ghost.ends(!forward)));
@@ -226,13 +205,13 @@ impl Work {
                     });
                 }
                 Point::Face { f, weights } => {
+                    let of = mesh.face_vertices(f);
                     let [a, b, c] = weights;
                     let sum = a + b + c;
                     if !(a > 0.0 && b > 0.0 && c > 0.0 && sum.is_finite()) {
                         return Err(InsertRefusal::Weights { face: f, weights });
                     }
                     let weights = weights.map(|w| w / sum);
-                    let of = mesh.face_vertices(f);
                     let vertex = new_vertex();
                     let at = Mix::Weighted { of, weights };
                     self.placed.push(InsertedPoint { vertex, at });
@@ -261,17 +240,16 @@ impl Work {
     /// Notes the children of a face, the half-edges that they have in common, and those along
     /// its edges.
     fn divide(&mut self, mesh: &Mesh, f: FaceId, face: &Retriangulation, next_face: &mut usize) {
-        let ring = face.ring().len();
-        let mut open: Vec<([usize; 2], HalfEdgeId)> =
-            Vec::with_capacity(3 * face.triangles().len());
-        for (i, &triangle) in face.triangles().iter().enumerate() {
+        let ring = face.ring;
+        let mut open: Vec<([usize; 2], HalfEdgeId)> = Vec::with_capacity(3 * face.triangles.len());
+        for (i, &triangle) in face.triangles.iter().enumerate() {
             let id = if i == 0 {
                 f
             } else {
                 *next_face += 1;
                 FaceId::from_u32((*next_face - 1) as u32)
             };
-            let nodes = triangle.map(|n| face.node(n));
+            let nodes = triangle.map(|n| &face.nodes[n]);
             self.children.push(ChildFace {
                 parent: f,
                 face: id,
@@ -296,15 +274,10 @@ impl Work {
         );
     }
 
-    /// The children of the faces that are to be divided.
-    pub(crate) fn children(&self) -> &[ChildFace] {
-        &self.children
-    }
-
     /// Inserts the points.
     pub(crate) fn carry_out<'e>(mut self, mesh: &mut Mesh, edits: &'e mut Edits) -> Insert<'e> {
         let size = mesh.size();
-        self.segments.sort_unstable_by_key(Segment::key);
+        self.segments.sort_unstable_by_key(|segment| segment.part);
         self.change(mesh);
         edits.note_insertion(self.placed, self.children);
         let insert = Insert {
@@ -326,14 +299,14 @@ impl Work {
                     mesh.unlink(h);
                 }
             } else {
-                debug_assert_eq!(child.face, mesh.next_face());
+                debug_assert_eq!(child.face.index(), mesh.face_count());
                 mesh.push_face(child.vertices);
             }
         }
         for &[h, g] in &self.inner {
             mesh.link(h, g, false);
         }
-        for of_part in self.segments.chunk_by(|a, b| a.key() == b.key()) {
+        for of_part in self.segments.chunk_by(|a, b| a.part == b.part) {
             let one = &of_part[0];
             // A face across that is not divided has the half-edge that it had.
             let across = of_part.get(1).map_or(one.opposite, |two| two.half_edge);
@@ -381,12 +354,6 @@ impl Work {
     }
 }
 
-impl Segment {
-    fn key(&self) -> (HalfEdgeId, usize) {
-        (self.edge, self.part)
-    }
-}
-
 /// The half-edge that a child has along the outline of its parent, from this node on; none on the
 /// boundary.
 fn segment(
@@ -396,18 +363,18 @@ fn segment(
     from: usize,
     half_edge: HalfEdgeId,
 ) -> Option<Segment> {
-    let [a, b, c] = face.corners();
-    let ends = [b, c, face.ring().len()];
+    let [a, b, c] = face.corners;
+    let ends = [b, c, face.ring];
     let corner = ends.iter().position(|&end| from < end)?;
     let whole = f.half_edges()[corner];
     let opposite = mesh.pair_or_ghost(whole)?;
+    let along = whole < opposite;
+    let number = match along {
+        true => from - [a, b, c][corner],
+        false => ends[corner] - 1 - from,
+    };
     Some(Segment {
-        edge: whole.min(opposite),
-        part: if whole < opposite {
-            from - [a, b, c][corner]
-        } else {
-            ends[corner] - 1 - from
-        },
+        part: (whole.min(opposite), number),
         half_edge,
         opposite,
         torn: mesh.ghost_pair(whole).is_some(),
@@ -417,19 +384,15 @@ fn segment(
 /// The corners of a face, and between them the points on its edges.
 fn outline(mesh: &Mesh, f: FaceId, on_edges: &[OnEdge], face: &mut Retriangulation) {
     for h in f.half_edges() {
-        face.corner(mesh.origin(h), h);
+        face.push(mesh.origin(h), Mix::Copy(h), None);
         let edge = mesh.pair_or_ghost(h).map_or(h, |g| g.min(h));
-        let start = on_edges.partition_point(|on| on.edge < edge);
-        let count = on_edges[start..]
-            .iter()
-            .take_while(|on| on.edge == edge)
-            .count();
         let mut add = |on: &OnEdge| {
-            let given = on.given == h;
+            let (given, t) = (on.given == h, on.t);
+            let ends = h.ends(given == on.forward);
             let vertex = on.vertices[usize::from(!given)];
-            face.on_edge(vertex, on.point, h, on.t, given == on.forward);
+            face.push(vertex, Mix::Between { ends, t }, Some(on.point));
         };
-        let here = &on_edges[start..start + count];
+        let here = equal_range(on_edges, edge, |on| on.edge);
         if edge == h {
             here.iter().for_each(&mut add);
         } else {
@@ -441,95 +404,17 @@ fn outline(mesh: &Mesh, f: FaceId, on_edges: &[OnEdge], face: &mut Retriangulati
 /// The node at the end of a chord; `None` where it is not on the outline of the face.
 fn end_of(end: ChordEnd, f: FaceId, face: &Retriangulation) -> Option<usize> {
     match end {
-        ChordEnd::Corner(h) => (h.face() == f).then(|| face.corners()[h.corner()]),
-        ChordEnd::Point(point) => face
-            .ring()
-            .iter()
-            .position(|node| node.point == Some(point)),
+        ChordEnd::Corner(h) => (h.face() == f).then(|| face.corners[h.corner()]),
+        ChordEnd::Point(point) => face.nodes.iter().position(|node| node.point == Some(point)),
     }
 }
 
-/// The reason why an insertion was refused. Nothing has changed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum InsertRefusal {
-    /// A parameter on an edge is not strictly between 0 and 1.
-    Parameter {
-        /// The half-edge given for the edge.
-        half_edge: HalfEdgeId,
-        /// The parameter given.
-        t: f64,
-    },
-    /// A weight of a point in a face is not positive, or the sum of the weights is not finite.
-    Weights {
-        /// The face in which the point was to be inserted.
-        face: FaceId,
-        /// The weights given, in the order of the face's corners.
-        weights: [f64; 3],
-    },
-    /// Two points on an edge coincide.
-    Repeated {
-        /// The half-edge given for the second point.
-        half_edge: HalfEdgeId,
-        /// The parameter given for the second point.
-        t: f64,
-    },
-    /// A chord does not divide its face, crosses another chord, or lies in a face with points
-    /// inside. Its ends must be two places on the outline of the face, with area on both sides.
-    Chord {
-        /// The face that the chord was to divide.
-        face: FaceId,
-    },
-    /// Two points in a face coincide up to rounding, or a point lies on the outline of its face.
-    Crowded {
-        /// The face that contains the points.
-        face: FaceId,
-    },
-    /// A child face would be so small that its share of the parent's area rounds to zero. This can
-    /// happen between points that are very close to a corner.
-    Share {
-        /// The face that was to be divided.
-        face: FaceId,
-        /// The share of the parent's area, from 0 to 1, that the child would have.
-        share: f64,
-    },
-    /// The mesh would have more than [`Mesh::MAX_FACES`] faces.
-    Full {
-        /// The number of faces that the mesh would have.
-        faces: usize,
-    },
+/// The part of a sorted list that has a key.
+fn equal_range<T, K: Ord + Copy>(sorted: &[T], key: K, of: impl Fn(&T) -> K) -> &[T] {
+    let start = sorted.partition_point(|one| of(one) < key);
+    let count = sorted[start..]
+        .iter()
+        .take_while(|one| of(one) == key)
+        .count();
+    &sorted[start..start + count]
 }
-
-impl fmt::Display for InsertRefusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("nothing was inserted: ")?;
-        match self {
-            InsertRefusal::Parameter { half_edge, t } => {
-                write!(f, "the parameter {t} on {half_edge} is not between 0 and 1")
-            }
-            InsertRefusal::Weights {
-                face,
-                weights: [a, b, c],
-            } => write!(
-                f,
-                "the weights {a}, {b}, {c} are not those of a point in {face}"
-            ),
-            InsertRefusal::Repeated { half_edge, t } => {
-                write!(f, "two points are on {half_edge} at {t}")
-            }
-            InsertRefusal::Chord { face } => write!(f, "a chord does not cross {face}"),
-            InsertRefusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
-            InsertRefusal::Share { face, share } => {
-                write!(
-                    f,
-                    "a child of {face} would cover only the fraction {share} of it"
-                )
-            }
-            InsertRefusal::Full { faces } => {
-                write!(f, "{faces} faces are more than {}", Mesh::MAX_FACES)
-            }
-        }
-    }
-}
-
-impl std::error::Error for InsertRefusal {}

@@ -13,7 +13,7 @@
 //!   at t leaves, that is the diagonal p–c where s >= t, and else q–b: the rule under
 //!   which no altitude is smaller than r (1 − r) of the parent's where r <= s, t <= 1 − r.
 
-use super::plan::PointId;
+use super::plan::{InsertRefusal, PointId};
 use crate::edit::Mix;
 use crate::exact::ROUNDING;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -33,93 +33,45 @@ pub(super) struct Node {
 #[derive(Debug, Default)]
 pub(super) struct Retriangulation {
     /// The outline, counter-clockwise from the first corner, then the points inside.
-    nodes: Vec<Node>,
-    corners: [usize; 3],
-    ring: usize,
-    chord: Option<[usize; 2]>,
-    chords: usize,
-    triangles: Vec<[usize; 3]>,
+    pub(super) nodes: Vec<Node>,
+    /// The nodes of the corners.
+    pub(super) corners: [usize; 3],
+    /// How many nodes the outline has.
+    pub(super) ring: usize,
+    /// Edges that are required between two nodes of the outline, the earlier one first.
+    pub(super) chords: Vec<[usize; 2]>,
+    pub(super) triangles: Vec<[usize; 3]>,
     /// Scratch for [`Retriangulation::fill`]: the best smallest area of each part of a
     /// polygon, and the node that gives it.
     best: Vec<(f64, usize)>,
-}
-
-/// Why a face cannot be divided.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Fault {
-    Chord,
-    Crowded,
-    /// A child would have this share.
-    Share(f64),
 }
 
 impl Retriangulation {
     pub(super) fn clear(&mut self) {
         self.nodes.clear();
         self.ring = 0;
-        self.chord = None;
-        self.chords = 0;
+        self.chords.clear();
         self.triangles.clear();
     }
 
-    /// Adds the next corner to the outline.
-    pub(super) fn corner(&mut self, vertex: VertexId, h: HalfEdgeId) {
-        self.corners[h.corner()] = self.nodes.len();
-        self.push(vertex, Mix::Copy(h), None);
-        self.ring = self.nodes.len();
-    }
-
-    /// Adds the next point on the edge `h` to the outline, at `t` from the origin of `h`
-    /// or, if not `forward`, from its target.
-    pub(super) fn on_edge(
+    /// Adds the next node: a corner or a point on an edge to the outline, and once that is complete
+    /// a point inside.
+    pub(super) fn push(
         &mut self,
         vertex: VertexId,
-        point: PointId,
-        h: HalfEdgeId,
-        t: f64,
-        forward: bool,
+        source: Mix<HalfEdgeId>,
+        point: Option<PointId>,
     ) {
-        let ends = h.ends(forward);
-        self.push(vertex, Mix::Between { ends, t }, Some(point));
-        self.ring = self.nodes.len();
-    }
-
-    /// Adds a point inside the face, once the outline is complete.
-    pub(super) fn inside(&mut self, f: FaceId, vertex: VertexId, weights: [f64; 3]) {
-        let of = f.half_edges();
-        self.push(vertex, Mix::Weighted { of, weights }, None);
-    }
-
-    fn push(&mut self, vertex: VertexId, source: Mix<HalfEdgeId>, point: Option<PointId>) {
+        if let Mix::Copy(h) = source {
+            self.corners[h.corner()] = self.ring;
+        }
+        self.ring += usize::from(!matches!(source, Mix::Weighted { .. }));
         self.nodes.push(Node {
             vertex,
             source,
             point,
             at: source.weights(),
         });
-    }
-
-    /// Demands an edge between two nodes of the outline.
-    pub(super) fn chord(&mut self, one: usize, other: usize) {
-        self.chord = Some([one.min(other), one.max(other)]);
-        self.chords += 1;
-    }
-
-    pub(super) fn ring(&self) -> &[Node] {
-        &self.nodes[..self.ring]
-    }
-
-    /// The nodes of the corners.
-    pub(super) fn corners(&self) -> [usize; 3] {
-        self.corners
-    }
-
-    pub(super) fn node(&self, i: usize) -> &Node {
-        &self.nodes[i]
-    }
-
-    pub(super) fn triangles(&self) -> &[[usize; 3]] {
-        &self.triangles
     }
 
     /// The part of the face that a triangle of nodes covers, with a sign.
@@ -130,21 +82,21 @@ impl Retriangulation {
             + a[2] * (b[0] * c[1] - b[1] * c[0])
     }
 
-    pub(super) fn run(&mut self) -> Result<(), Fault> {
+    pub(super) fn run(&mut self, face: FaceId) -> Result<(), InsertRefusal> {
         if self.nodes.len() > self.ring {
-            if self.chords > 0 {
-                return Err(Fault::Chord);
+            if !self.chords.is_empty() {
+                return Err(InsertRefusal::Chord { face });
             }
-            return self.star();
+            return self.star().ok_or(InsertRefusal::Crowded { face });
         }
-        match self.chord.or_else(|| self.implied_chord()) {
-            Some(ends) => self.halves(ends)?,
+        match self.chords.last().copied().or_else(|| self.implied_chord()) {
+            Some(ends) => self.halves(ends).ok_or(InsertRefusal::Chord { face })?,
             None => self.fill(&(0..self.ring).collect::<Vec<usize>>()),
         }
         // Near a corner a child may be smaller than any `f64`.
-        let shares = self.triangles.iter().map(|&triangle| self.share(triangle));
-        match shares.into_iter().find(|&share| share <= 0.0) {
-            Some(share) => Err(Fault::Share(share)),
+        let mut shares = self.triangles.iter().map(|&triangle| self.share(triangle));
+        match shares.find(|&share| share <= 0.0) {
+            Some(share) => Err(InsertRefusal::Share { face, share }),
             None => Ok(()),
         }
     }
@@ -163,15 +115,16 @@ impl Retriangulation {
         (apart && points.next().is_none()).then_some([ends[0].min(ends[1]), ends[0].max(ends[1])])
     }
 
-    fn halves(&mut self, [one, other]: [usize; 2]) -> Result<(), Fault> {
+    /// `None` where a chord does not divide the face, or crosses another.
+    fn halves(&mut self, [one, other]: [usize; 2]) -> Option<()> {
         let near: Vec<usize> = (one..=other).collect();
         let far: Vec<usize> = (other..self.ring).chain(0..=one).collect();
-        if self.chords > 1 || self.is_flat(&near) || self.is_flat(&far) {
-            return Err(Fault::Chord);
+        if self.chords.len() > 1 || self.is_flat(&near) || self.is_flat(&far) {
+            return None;
         }
         self.fill(&near);
         self.fill(&far);
-        Ok(())
+        Some(())
     }
 
     /// Whether all nodes of a part of the outline lie on one edge.
@@ -218,8 +171,8 @@ impl Retriangulation {
         self.best = best;
     }
 
-    /// Joins the points inside to what is round them.
-    fn star(&mut self) -> Result<(), Fault> {
+    /// Joins the points inside to what is round them; `None` where they cannot be told apart.
+    fn star(&mut self) -> Option<()> {
         let centre = self.ring;
         for n in 0..self.ring {
             self.triangles.push([centre, n, (n + 1) % self.ring]);
@@ -228,14 +181,11 @@ impl Retriangulation {
             self.locate(point)?;
         }
         let vanishing = |&t: &[usize; 3]| self.share(t) <= 0.0;
-        if self.triangles.iter().any(vanishing) {
-            return Err(Fault::Crowded);
-        }
-        Ok(())
+        (!self.triangles.iter().any(vanishing)).then_some(())
     }
 
     /// Joins a point to the corners of the triangle in which it lies, or to those of two.
-    fn locate(&mut self, point: usize) -> Result<(), Fault> {
+    fn locate(&mut self, point: usize) -> Option<()> {
         // The parts into which the point divides a triangle, each opposite to a corner.
         let parts = |[a, b, c]: [usize; 3]| {
             [[point, b, c], [a, point, c], [a, b, point]].map(|part| self.share(part))
@@ -247,45 +197,34 @@ impl Retriangulation {
             .iter()
             .map(|&triangle| parts(triangle))
             .enumerate()
-            .max_by(|a, b| depth(a).total_cmp(&depth(b)))
-            .ok_or(Fault::Crowded)?;
+            .max_by(|a, b| depth(a).total_cmp(&depth(b)))?;
         let thin: Vec<usize> = (0..3).filter(|&i| parts[i] <= ROUNDING).collect();
         let [a, b, c] = self.triangles[home];
         match thin[..] {
             [] => {
                 self.triangles[home] = [a, b, point];
                 self.triangles.extend([[b, c, point], [c, a, point]]);
-                Ok(())
+                Some(())
             }
             [opposite] => {
                 let turned = [[a, b, c], [b, c, a], [c, a, b]][opposite];
                 self.divide_edge(home, turned, point)
             }
-            _ => Err(Fault::Crowded),
+            _ => None,
         }
     }
 
     /// Puts a point on the edge b–c of the triangle `home`, and so also into the one across.
-    fn divide_edge(
-        &mut self,
-        home: usize,
-        [a, b, c]: [usize; 3],
-        point: usize,
-    ) -> Result<(), Fault> {
-        let across = self
-            .triangles
-            .iter()
-            .enumerate()
-            .find_map(|(i, &[d, e, f])| {
-                [[d, e, f], [e, f, d], [f, d, e]]
-                    .into_iter()
-                    .find(|&[_, from, to]| [from, to] == [c, b])
-                    .map(|[apex, ..]| (i, apex))
-            });
-        let (other, apex) = across.ok_or(Fault::Crowded)?;
+    fn divide_edge(&mut self, home: usize, [a, b, c]: [usize; 3], point: usize) -> Option<()> {
+        let across = |&[d, e, f]: &[usize; 3]| {
+            let turns = [[d, e, f], [e, f, d], [f, d, e]];
+            turns.into_iter().find(|turned| turned[1..] == [c, b])
+        };
+        let mut triangles = self.triangles.iter().enumerate();
+        let (other, [apex, ..]) = triangles.find_map(|(i, t)| Some((i, across(t)?)))?;
         self.triangles[home] = [a, b, point];
         self.triangles[other] = [apex, c, point];
         self.triangles.extend([[a, point, c], [apex, point, b]]);
-        Ok(())
+        Some(())
     }
 }

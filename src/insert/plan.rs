@@ -1,6 +1,10 @@
-//! What to insert: points on edges and in faces, and edges that are required between them.
+//! What to insert: points on edges and in faces, and edges that are required between them. And why
+//! it is refused.
+
+use std::fmt;
 
 use crate::id::{FaceId, HalfEdgeId};
+use crate::mesh::Mesh;
 
 /// A set of points on edges and in faces that are inserted at once.
 ///
@@ -134,3 +138,88 @@ pub enum Point {
         weights: [f64; 3],
     },
 }
+
+/// The reason why an insertion was refused. Nothing has changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum InsertRefusal {
+    /// A parameter on an edge is not strictly between 0 and 1.
+    Parameter {
+        /// The half-edge given for the edge.
+        half_edge: HalfEdgeId,
+        /// The parameter given.
+        t: f64,
+    },
+    /// A weight of a point in a face is not positive, or the sum of the weights is not finite.
+    Weights {
+        /// The face in which the point was to be inserted.
+        face: FaceId,
+        /// The weights given, in the order of the face's corners.
+        weights: [f64; 3],
+    },
+    /// Two points on an edge coincide.
+    Repeated {
+        /// The half-edge given for the second point.
+        half_edge: HalfEdgeId,
+        /// The parameter given for the second point.
+        t: f64,
+    },
+    /// A chord does not divide its face, crosses another chord, or lies in a face with points
+    /// inside. Its ends must be two places on the outline of the face, with area on both sides.
+    Chord {
+        /// The face that the chord was to divide.
+        face: FaceId,
+    },
+    /// Two points in a face coincide up to rounding, or a point lies on the outline of its face.
+    Crowded {
+        /// The face that contains the points.
+        face: FaceId,
+    },
+    /// A child face would be so small that its share of the parent's area rounds to zero. This can
+    /// happen between points that are very close to a corner.
+    Share {
+        /// The face that was to be divided.
+        face: FaceId,
+        /// The share of the parent's area, from 0 to 1, that the child would have.
+        share: f64,
+    },
+    /// The mesh would have more than [`Mesh::MAX_FACES`] faces.
+    Full {
+        /// The number of faces that the mesh would have.
+        faces: usize,
+    },
+}
+
+impl fmt::Display for InsertRefusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("nothing was inserted: ")?;
+        match self {
+            InsertRefusal::Parameter { half_edge, t } => {
+                write!(f, "the parameter {t} on {half_edge} is not between 0 and 1")
+            }
+            InsertRefusal::Weights {
+                face,
+                weights: [a, b, c],
+            } => write!(
+                f,
+                "the weights {a}, {b}, {c} are not those of a point in {face}"
+            ),
+            InsertRefusal::Repeated { half_edge, t } => {
+                write!(f, "two points are on {half_edge} at {t}")
+            }
+            InsertRefusal::Chord { face } => write!(f, "a chord does not cross {face}"),
+            InsertRefusal::Crowded { face } => write!(f, "points in {face} cannot be told apart"),
+            InsertRefusal::Share { face, share } => {
+                write!(
+                    f,
+                    "a child of {face} would cover only the fraction {share} of it"
+                )
+            }
+            InsertRefusal::Full { faces } => {
+                write!(f, "{faces} faces are more than {}", Mesh::MAX_FACES)
+            }
+        }
+    }
+}
+
+impl std::error::Error for InsertRefusal {}

@@ -243,19 +243,17 @@ impl<'t> Trial<'t> {
             }
         };
         let least = self.snap * (1.0 - self.snap);
-        let mut children = insertion.children().iter().filter(divided);
-        children
-            .all(|child| self.altitude_of(child) >= least * altitude(self.corners(child.parent)))
+        let is_kept = |child: &ChildFace| {
+            let corners = self.corners(child.parent);
+            let place = |source: Mix<HalfEdgeId>| source.map(|h| &corners[h.corner()]);
+            let own = child.sources.map(|source| Point::blend(place(source)));
+            altitude(own) >= least * altitude(corners)
+        };
+        insertion.children.iter().filter(divided).all(is_kept)
     }
 
     fn corners(&self, f: FaceId) -> [Point; 3] {
         self.mesh.face_vertices(f).map(|v| self.positions.at(v))
-    }
-
-    fn altitude_of(&self, child: &ChildFace) -> f64 {
-        let corners = self.corners(child.parent);
-        let place = |source: Mix<HalfEdgeId>| Point::blend(source.map(|h| &corners[h.corner()]));
-        altitude(child.sources.map(place))
     }
 }
 
