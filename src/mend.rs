@@ -14,7 +14,7 @@ use std::fmt;
 
 use crate::edit::{Edit, Edits, Merge, Renumbered, TornLink};
 use crate::geometry::length;
-use crate::id::{HalfEdgeId, VertexId};
+use crate::id::VertexId;
 use crate::mesh::Mesh;
 use crate::place::Place;
 
@@ -136,48 +136,32 @@ fn commit<'e>(
         }
     }
     let moved = edits.noted().end;
+    // The last vertex gets the id of the one that goes.
+    let last = VertexId::from_u32(mesh.next_vertex().to_u32() - 1);
+    if gone != last {
+        note_corners(mesh, last, edits);
+        for i in moved..edits.noted().end {
+            mesh.set_origin(edits.corner(i), gone);
+        }
+    }
+    mesh.swap_remove_vertex(gone);
     let merge = Merge {
         before: edits.cursor(),
         kept,
         gone,
         share,
         corners: &[],
-        renumbered: free(mesh, gone, edits, note_corners),
+        renumbered: (gone != last).then_some(Renumbered {
+            from: last,
+            to: gone,
+            corners: &[],
+        }),
         sewn: &[],
     };
     let Edit::Merge(merge) = edits.finish(Edit::Merge(merge), moved, size) else {
         unreachable!("a merge was finished");
     };
     merge
-}
-
-/// Takes a vertex without corners off the mesh: the last vertex gets its id. Notes the corners
-/// of that one.
-fn free(
-    mesh: &mut Mesh,
-    gone: VertexId,
-    edits: &mut Edits,
-    note_corners: impl FnOnce(&Mesh, VertexId, &mut Edits),
-) -> Option<Renumbered<'static>> {
-    let last = VertexId::from_u32(mesh.next_vertex().to_u32() - 1);
-    let start = edits.noted().end;
-    if gone != last {
-        if let Some(first) = mesh.half_edge_of(last) {
-            mesh.set_half_edge_of(gone, first);
-            note_corners(mesh, last, edits);
-            for i in start..edits.noted().end {
-                mesh.set_origin(edits.corner(i), gone);
-            }
-        } else {
-            mesh.isolate(gone);
-        }
-    }
-    mesh.pop_vertex();
-    (gone != last).then_some(Renumbered {
-        from: last,
-        to: gone,
-        corners: &[],
-    })
 }
 
 /// A request to merge two vertices that have the same root.
@@ -287,22 +271,22 @@ pub fn sew(
     if !refused.is_empty() {
         return Err(SewError { refused });
     }
-    let mut copies = Copies::new(mesh, &roots, weight);
+    let mut copies = copies(mesh, &roots, weight);
     // Highest first: what is renumbered on the way is above all that is still to go, and so
     // is in no stitch.
     let mut rest: BinaryHeap<Stitch> = stitches.iter().copied().collect();
     let mut merges = 0;
     while let Some(Stitch { gone, kept }) = rest.pop() {
-        let [one, other] = [kept, gone].map(|v| copies.of[v.index()]);
+        let [one, other] = [kept, gone].map(|v| copies[v.index()]);
         let share = share_of_first([one.weight, other.weight]).expect("stitches were checked");
-        copies.note_corners(mesh, gone, edits);
+        other.note_corners(mesh, gone, edits);
         commit(mesh, [kept, gone], share, edits, |mesh, v, edits| {
-            copies.note_corners(mesh, v, edits);
+            copies[v.index()].note_corners(mesh, v, edits);
         });
-        let joined = &mut copies.of[kept.index()];
+        let joined = &mut copies[kept.index()];
         joined.weight += other.weight;
         joined.corners += other.corners;
-        copies.of.swap_remove(gone.index());
+        copies.swap_remove(gone.index());
         merges += 1;
         // `gone` is now `kept`: stitches that name it too are those of `kept`.
         while rest.peek().is_some_and(|stitch| stitch.gone == gone) {
@@ -314,11 +298,6 @@ pub fn sew(
 }
 
 /// What sewing knows of each vertex, so that it need not walk round a whole hub for each copy.
-struct Copies {
-    of: Vec<Copied>,
-    behind: Vec<HalfEdgeId>,
-}
-
 #[derive(Clone, Copy)]
 struct Copied {
     weight: f64,
@@ -327,34 +306,32 @@ struct Copied {
     open: bool,
 }
 
-impl Copies {
-    fn new(mesh: &Mesh, roots: &[VertexId], weight: impl Fn(VertexId) -> f64) -> Copies {
-        let whole = |v| Copied {
-            weight: weight(v),
-            corners: 0,
-            open: false,
-        };
-        let mut of: Vec<Copied> = mesh.vertices().map(whole).collect();
-        for h in mesh.half_edges() {
-            let v = mesh.origin(h);
-            of[v.index()].corners += 1;
-            of[roots[v.index()].index()].open |= mesh.ahead(h).is_none();
-        }
-        for v in mesh.vertices() {
-            of[v.index()].open = of[roots[v.index()].index()].open;
-        }
-        let behind = Vec::new();
-        Copies { of, behind }
+fn copies(mesh: &Mesh, roots: &[VertexId], weight: impl Fn(VertexId) -> f64) -> Vec<Copied> {
+    let whole = |v| Copied {
+        weight: weight(v),
+        corners: 0,
+        open: false,
+    };
+    let mut of: Vec<Copied> = mesh.vertices().map(whole).collect();
+    for h in mesh.half_edges() {
+        let v = mesh.origin(h);
+        of[v.index()].corners += 1;
+        of[roots[v.index()].index()].open |= mesh.ahead(h).is_none();
     }
+    for v in mesh.vertices() {
+        of[v.index()].open = of[roots[v.index()].index()].open;
+    }
+    of
+}
 
+impl Copied {
     /// Notes the corners of a vertex as a walk meets them. It goes both ways in turn, so that it
     /// ends with the last of them and not with the last of all copies.
-    fn note_corners(&mut self, mesh: &Mesh, v: VertexId, edits: &mut Edits) {
-        let Copied { corners, open, .. } = self.of[v.index()];
+    fn note_corners(self, mesh: &Mesh, v: VertexId, edits: &mut Edits) {
         let mut ahead = mesh.half_edge_of(v);
         let mut behind = ahead.and_then(|h| mesh.behind(h));
-        let mut left = corners;
-        self.behind.clear();
+        let mut left = self.corners;
+        let mut on_other_side = Vec::new();
         while left > 0 {
             if let Some(h) = ahead {
                 if mesh.origin(h) == v {
@@ -365,16 +342,16 @@ impl Copies {
             }
             if let (true, Some(h)) = (left > 0, behind) {
                 if mesh.origin(h) == v {
-                    self.behind.push(h);
+                    on_other_side.push(h);
                     left -= 1;
                 }
                 behind = mesh.behind(h);
             }
         }
-        if !open {
-            self.behind.reverse(); // A walk comes to them from the other side.
+        if !self.open {
+            on_other_side.reverse(); // A walk comes to them from the other side.
         }
-        self.behind.iter().for_each(|&h| edits.note_corner(h));
+        on_other_side.iter().for_each(|&h| edits.note_corner(h));
     }
 }
 

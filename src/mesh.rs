@@ -87,17 +87,8 @@ impl Link {
     }
 
     #[inline]
-    const fn opposite(self) -> Option<HalfEdgeId> {
-        if self.0 == Self::BOUNDARY.0 {
-            None
-        } else {
-            Some(HalfEdgeId::from_u32(self.0 & !Self::TORN))
-        }
-    }
-
-    #[inline]
-    const fn is_torn(self) -> bool {
-        self.0 >= Self::TORN && self.0 != Self::BOUNDARY.0
+    fn opposite(self) -> Option<HalfEdgeId> {
+        (self != Self::BOUNDARY).then(|| HalfEdgeId::from_u32(self.0 & !Self::TORN))
     }
 
     /// This link with its torn mark, redirected to the half-edge `opposite`.
@@ -180,11 +171,7 @@ impl Mesh {
     #[must_use]
     pub fn ghost_pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         let link = h.of(&self.link);
-        if link.is_torn() {
-            link.opposite()
-        } else {
-            None
-        }
+        link.opposite().filter(|_| link.0 >= Link::TORN)
     }
 
     /// Returns the pair of `h`, or its ghost pair if the edge is torn. Returns `None` only for an
@@ -230,10 +217,8 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn half_edge_of(&self, v: VertexId) -> Option<HalfEdgeId> {
-        match *v.of(&self.outgoing) {
-            NO_HALF_EDGE => None,
-            h => Some(HalfEdgeId::from_u32(h)),
-        }
+        let h = *v.of(&self.outgoing);
+        (h != NO_HALF_EDGE).then(|| HalfEdgeId::from_u32(h))
     }
 
     /// Returns the vertices of all faces, three per face, as a slice of the mesh's own storage.
@@ -308,19 +293,9 @@ impl Mesh {
         self.outgoing.push(h.to_u32());
     }
 
-    /// Notes that a vertex has no corner any more.
-    pub(crate) fn isolate(&mut self, v: VertexId) {
-        self.outgoing[v.index()] = NO_HALF_EDGE;
-    }
-
-    /// Forgets the last vertex, which has no corner any more.
-    pub(crate) fn pop_vertex(&mut self) {
-        self.outgoing.pop();
-    }
-
-    /// The id that [`Mesh::push_face`] will give.
-    pub(crate) fn next_face(&self) -> FaceId {
-        FaceId::from_u32(self.face_count() as u32)
+    /// Forgets a vertex, whose id the last one gets. The corners of both are the caller's to relabel.
+    pub(crate) fn swap_remove_vertex(&mut self, v: VertexId) {
+        self.outgoing.swap_remove(v.index());
     }
 
     /// Appends a face that is linked to nothing yet.
