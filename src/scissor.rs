@@ -347,8 +347,7 @@ impl Scissor {
         positions: &mut Positions,
         edits: &mut Edits,
     ) -> Result<Cut, CutError> {
-        self.in_step(mesh, positions, edits)?;
-        let (cut, _) = self.make(method, mesh, positions, edits, false);
+        let (cut, _) = self.make(method, mesh, positions, edits, false)?;
         Ok(cut)
     }
 
@@ -358,10 +357,6 @@ impl Scissor {
     /// # Errors
     ///
     /// [`CutError`] gives the reason for a refusal. Nothing has changed then.
-    #[expect(
-        clippy::missing_panics_doc,
-        reason = "a report that is asked for is made"
-    )]
     pub fn cut_measured(
         &self,
         method: CutMethod,
@@ -369,12 +364,10 @@ impl Scissor {
         positions: &mut Positions,
         edits: &mut Edits,
     ) -> Result<(Cut, CutReport), CutError> {
-        self.in_step(mesh, positions, edits)?;
-        let (cut, report) = self.make(method, mesh, positions, edits, true);
-        Ok((cut, report.expect("a report that is asked for is made")))
+        self.make(method, mesh, positions, edits, true)
     }
 
-    /// Cuts, and makes a report if one is wanted.
+    /// Cuts, and fills in the report if it is to be measured.
     fn make(
         &self,
         method: CutMethod,
@@ -382,7 +375,8 @@ impl Scissor {
         positions: &mut Positions,
         edits: &mut Edits,
         is_measured: bool,
-    ) -> (Cut, Option<CutReport>) {
+    ) -> Result<(Cut, CutReport), CutError> {
+        self.in_step(mesh, positions, edits)?;
         edits.replay(positions); // They are in step, and from now on not new.
         let is_exact = method == CutMethod::Exact;
         let (vertices_before, first) = (mesh.vertex_count(), edits.cursor());
@@ -432,6 +426,7 @@ impl Scissor {
         };
         edits.replay(positions);
         let report = survey.map(|survey| survey.report(mesh, positions, &outcome, edits, first));
+        let report = report.unwrap_or_default();
         let lines = seam::lines(edits, first, mesh, vertices_before, &outcome.touched);
         let mut ends = outcome.ends.into_iter();
         let ends = self.rays.map(|rays| {
@@ -447,7 +442,7 @@ impl Scissor {
             hits,
             ends,
         };
-        (cut, report)
+        Ok((cut, report))
     }
 
     /// Whether positions and ends have seen every edit, and the positions are those of this mesh.

@@ -102,14 +102,6 @@ pub fn vertex<'e>(
     Ok(commit(mesh, v, stays, edits))
 }
 
-/// Splits these corners off a vertex: some of its own in the order of a walk, and not the smallest.
-/// Linear in them alone.
-pub(crate) fn off(mesh: &mut Mesh, v: VertexId, moving: &[HalfEdgeId], edits: &mut Edits) {
-    let stays = mesh.half_edge_of(v);
-    let stays = stays.expect("I9: a vertex with a face has a half-edge");
-    into(mesh, v, moving, stays, edits);
-}
-
 /// Splits these corners off a vertex: some of its own in the order of a walk. `stays` is the smallest
 /// of the others. Linear in those that move.
 pub(crate) fn into(
@@ -204,11 +196,8 @@ fn smallest_from(mesh: &Mesh, v: VertexId, start: HalfEdgeId) -> Option<HalfEdge
 fn commit<'e>(mesh: &mut Mesh, v: VertexId, stays: HalfEdgeId, edits: &'e mut Edits) -> Split<'e> {
     let (new, size) = (mesh.next_vertex(), mesh.size());
     let noted = edits.noted();
-    let first = noted
-        .clone()
-        .map(|i| edits.corner(i))
-        .min()
-        .expect("a split moves a corner");
+    let corners = noted.clone().map(|i| edits.corner(i));
+    let first = corners.min().expect("a split moves a corner");
     for i in noted.clone() {
         mesh.set_origin(edits.corner(i), new);
     }

@@ -127,7 +127,12 @@ pub(super) fn cut(
         let (plan, slit) = Slit::plan(&trace, mesh);
         match plan.prepare(mesh) {
             Ok(insertion) => break (slit, (!plan.points().is_empty()).then_some(insertion)),
-            Err(InsertRefusal::Crowded { face }) => trace.leave_out(mesh, face),
+            Err(InsertRefusal::Crowded { face }) => {
+                trace
+                    .pieces
+                    .retain(|piece| piece.place != Place::Face(face));
+                trace.finish(mesh);
+            }
             Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
         }
     };
@@ -141,7 +146,9 @@ pub(super) fn cut(
     let [touched, judged] = [faces_at(mesh, &slit.nodes), judged(mesh, edits)]
         .map(|faces| sides(way, faces, faces_before, mesh, positions, &trace, &slit));
     let before = edits.cursor();
-    let mut torn: Vec<HalfEdgeId> = slit.half_edges(mesh).collect();
+    let edges = slit.edges.iter();
+    let torn = edges.flat_map(|&ends| pair_between(mesh, ends));
+    let mut torn: Vec<HalfEdgeId> = torn.collect();
     torn.sort_unstable();
     unshare::by_fan(mesh, &slit.nodes, |h| torn.binary_search(&h).is_ok(), edits);
     Outcome {
@@ -258,12 +265,6 @@ impl Slit {
             off_plane,
         };
         (planner.plan, slit)
-    }
-
-    /// Both half-edges of each edge.
-    fn half_edges(&self, mesh: &Mesh) -> impl Iterator<Item = HalfEdgeId> {
-        let edges = self.edges.iter();
-        edges.flat_map(|&ends| pair_between(mesh, ends))
     }
 }
 

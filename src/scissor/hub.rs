@@ -93,11 +93,8 @@ impl Hubs {
         }
         hub.is_divided |= is_of_cut;
         let start = self.nodes[hub.root].least.number;
-        let [front, back] = self.divide(
-            hub.root,
-            &|h| classify::face(mesh, h.face(), plane, positions),
-            plane,
-        );
+        let side = |h: HalfEdgeId| classify::face(mesh, h.face(), plane, positions);
+        let [front, back] = self.divide(hub.root, &side, plane);
         let (Some(front), Some(back)) = (front, back) else {
             self.hubs.insert(v, hub);
             return false;
@@ -131,10 +128,8 @@ impl Hubs {
                 high: b + c,
                 reach: max_abs(b).max(max_abs(c)),
             };
-            corners
-                .entry(mesh.origin(h))
-                .or_default()
-                .push(self.push(leaf));
+            let leaf = self.push(leaf);
+            corners.entry(mesh.origin(h)).or_default().push(leaf);
         }
         for (v, leaves) in corners {
             let hub = Hub {

@@ -110,7 +110,7 @@ impl<'w> Survey<'w> {
             pinches: Vec::new(),
             mean_edge: mean_edge(mesh, positions),
             report: CutReport {
-                pieces_before: census.before(mesh),
+                pieces_before: census.count(mesh),
                 nearest_vertex: nearest_vertex(way, mesh, positions),
                 ..CutReport::default()
             },
@@ -186,10 +186,16 @@ impl<'w> Survey<'w> {
         let mut slit = self.slit.clone();
         for edit in edits.since(first_edit) {
             if let Edit::Insert(insert) = edit {
-                let is_new = |child: &&ChildFace| child.face != child.parent;
-                let children = insert.children.iter().filter(is_new);
-                let met = |child: &&ChildFace| self.slit.binary_search(&child.parent).is_ok();
-                slit.extend(children.filter(met).map(|child| child.face));
+                let is_new = |child: &&ChildFace| {
+                    child.face != child.parent && self.slit.binary_search(&child.parent).is_ok()
+                };
+                slit.extend(
+                    insert
+                        .children
+                        .iter()
+                        .filter(is_new)
+                        .map(|child| child.face),
+                );
             }
         }
         slit.sort_unstable();
@@ -212,33 +218,20 @@ impl<'w> Survey<'w> {
         if !self.way.offsets.cross(mesh, f) {
             return None;
         }
-        let mut ends = [Point::origin(); 2];
-        let mut found = 0;
-        for h in f.half_edges() {
+        let point = |h: HalfEdgeId| {
             let (a, b) = (mesh.origin(h), mesh.target(h));
-            let (da, db) = (self.way.offsets.of(a), self.way.offsets.of(b));
-            let point = if da == 0.0 {
-                positions.at(a)
-            } else if (da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0) {
-                // From the smaller vertex, so that both faces of the edge agree on the point.
-                let (a, b, da, db) = if a < b {
-                    (a, b, da, db)
-                } else {
-                    (b, a, db, da)
-                };
-                let (p, q) = (positions.at(a), positions.at(b));
-                p + (q - p) * (da.abs() / (da.abs() + db.abs()))
-            } else {
-                continue;
-            };
-            ends[found] = point;
-            found += 1;
-        }
-        debug_assert_eq!(
-            found, 2,
-            "a plane that crosses a triangle meets its outline twice"
-        );
-        Some(ends)
+            if self.way.offsets.of(a) == 0.0 {
+                return Some(positions.at(a));
+            }
+            // From the smaller vertex, so that both faces of the edge agree on the point.
+            let [a, b] = [a.min(b), a.max(b)];
+            let [p, q] = [a, b].map(|v| positions.at(v));
+            let [a, b] = [a, b].map(|v| self.way.offsets.of(v));
+            let is_between = (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0);
+            is_between.then(|| p + (q - p) * (a.abs() / (a.abs() + b.abs())))
+        };
+        let mut ends = f.half_edges().into_iter().filter_map(point);
+        Some([ends.next()?, ends.next()?])
     }
 
     /// Compares with the mesh after the cut. `outcome` is the method's, and the
@@ -253,7 +246,7 @@ impl<'w> Survey<'w> {
     ) -> CutReport {
         let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
         let mut ends: Vec<VertexId> = Vec::new();
-        let (pieces, expected) = (self.census.after(mesh), self.report.pieces_expected);
+        let (pieces, expected) = (self.census.count(mesh), self.report.pieces_expected);
         let places = mesh
             .faces()
             .map(|f| mesh.face_vertices(f).map(|v| positions.at(v)));
@@ -363,9 +356,8 @@ impl<'w> Survey<'w> {
             let Some(pair) = mesh.pair(h) else {
                 return false;
             };
-            let differ = label(h)
-                .zip(label(pair))
-                .is_some_and(|(one, other)| one != other);
+            let sides = label(h).zip(label(pair));
+            let differ = sides.is_some_and(|(one, other)| one != other);
             // From the smaller, so that it does not matter which of the two was asked.
             let [p, q] = ends_of(mesh, positions, h.min(pair));
             let inside = |(from, to): (f64, f64)| {

@@ -75,18 +75,9 @@ impl Census {
             .collect()
     }
 
-    /// The pieces of the mesh as it was looked at.
-    pub(super) fn before(&self, mesh: &Mesh) -> usize {
-        self.count(mesh, mesh.face_count())
-    }
-
-    /// The pieces after the cut.
-    pub(super) fn after(&self, mesh: &Mesh) -> usize {
-        self.count(mesh, self.part.len())
-    }
-
-    /// Faces from number `first_new` on were made by the cut.
-    fn count(&self, mesh: &Mesh, first_new: usize) -> usize {
+    /// The pieces of the mesh, as it was looked at or after the cut.
+    pub(super) fn count(&self, mesh: &Mesh) -> usize {
+        let first_new = self.part.len(); // That and all beyond were made by the cut.
         let new = || (first_new..mesh.face_count()).filter_map(FaceId::new);
         let first_node = self.parts + self.near.len() as u32;
         let node = |f: FaceId| match f.index().checked_sub(first_new) {

@@ -24,9 +24,8 @@ impl Nodes {
             match edit {
                 Edit::Split(split) => nodes.of.push(nodes.node(split.old)),
                 Edit::Insert(insert) => {
-                    nodes
-                        .of
-                        .extend(insert.points.iter().map(|point| point.vertex));
+                    let points = insert.points.iter();
+                    nodes.of.extend(points.map(|point| point.vertex));
                 }
                 Edit::Merge(_) | Edit::Slide(_) => {}
             }

@@ -21,29 +21,12 @@ pub(super) fn by_fan(
     is_cut: impl Fn(HalfEdgeId) -> bool,
     edits: &mut Edits,
 ) {
-    let mut fans = Fans::default();
+    // The corners of a vertex by fan, those of a fan in the order of a walk round the vertex; and of
+    // each fan the smallest half-edge, and where its corners start and end.
+    let (mut corners, mut fans) = (Vec::new(), Vec::new());
     for &v in vertices {
-        fans.find(mesh, v, &is_cut);
-        for corners in fans.leaving() {
-            split::off(mesh, v, corners, edits);
-        }
-    }
-}
-
-/// The corners of a vertex, grouped by fan. Reused from vertex to vertex.
-#[derive(Default)]
-struct Fans {
-    corners: Vec<HalfEdgeId>,
-    /// The smallest half-edge of each fan, and where its corners start and end.
-    fans: Vec<(HalfEdgeId, usize, usize)>,
-}
-
-impl Fans {
-    /// Groups the corners of `v` by the edges at `v` that join them: those with a pair for
-    /// which `is_cut` does not hold. Those of a fan are in the order of a walk round `v`.
-    fn find(&mut self, mesh: &Mesh, v: VertexId, is_cut: impl Fn(HalfEdgeId) -> bool) {
-        self.corners.clear();
-        self.fans.clear();
+        corners.clear();
+        fans.clear();
         let joined = |h: HalfEdgeId| mesh.pair(h).filter(|_| !is_cut(h));
         let mut before = None;
         for first in mesh.corners_of(v) {
@@ -51,28 +34,23 @@ impl Fans {
             if joined(first).is_some() {
                 continue;
             }
-            let start = self.corners.len();
+            let start = corners.len();
             let mut smallest = first;
             let mut at = Some(first);
             while let Some(h) = at {
-                self.corners.push(h);
+                corners.push(h);
                 smallest = smallest.min(h);
                 at = joined(h.prev());
             }
             // Behind the corner where it started, a walk comes from the other side.
-            if before.is_some() && self.corners.get(start + 1) == before.as_ref() {
-                self.corners[start..].reverse();
+            if before.is_some() && corners.get(start + 1) == before.as_ref() {
+                corners[start..].reverse();
             }
-            self.fans.push((smallest, start, self.corners.len()));
+            fans.push((smallest, start, corners.len()));
         }
-        self.fans.sort();
-    }
-
-    /// The corners of each fan that does not keep the vertex.
-    fn leaving(&self) -> impl Iterator<Item = &[HalfEdgeId]> {
-        self.fans
-            .iter()
-            .skip(1)
-            .map(|&(_, start, end)| &self.corners[start..end])
+        fans.sort();
+        for &(_, start, end) in fans.iter().skip(1) {
+            split::into(mesh, v, &corners[start..end], fans[0].0, edits);
+        }
     }
 }

@@ -24,51 +24,35 @@ impl Patches {
         sign: &impl Fn(VertexId) -> f64,
         offset: &impl Fn(VertexId) -> f64,
     ) -> Patches {
-        let mut patches = Patches { faces: Vec::new() };
+        let mut faces = Vec::new();
         let mut seen: Vec<bool> = Vec::new();
         for f in among.filter(|&f| by_vertex(mesh, f, sign).is_none()) {
             seen.resize(mesh.face_count(), false);
-            if !seen[f.index()] {
-                patches.add(mesh, f, &mut seen, sign, offset);
+            if std::mem::replace(&mut seen[f.index()], true) {
+                continue;
             }
-        }
-        patches.faces.sort_unstable();
-        patches
-    }
-
-    /// Adds the patch of a face.
-    fn add(
-        &mut self,
-        mesh: &Mesh,
-        f: FaceId,
-        seen: &mut [bool],
-        sign: &impl Fn(VertexId) -> f64,
-        offset: &impl Fn(VertexId) -> f64,
-    ) {
-        let mut patch = vec![f];
-        seen[f.index()] = true;
-        let mut round = [false; 2];
-        let mut next = 0;
-        while let Some(&face) = patch.get(next) {
-            next += 1;
-            for g in mesh.neighbours(face) {
-                match by_vertex(mesh, g, sign) {
-                    Some(side) => round[usize::from(side == Side::Back)] = true,
-                    None if !seen[g.index()] => {
-                        seen[g.index()] = true;
+            let mut patch = vec![f];
+            let mut round = [false; 2];
+            let mut next = 0;
+            while let Some(&face) = patch.get(next) {
+                next += 1;
+                for g in mesh.neighbours(face) {
+                    if let Some(side) = by_vertex(mesh, g, sign) {
+                        round[usize::from(side == Side::Back)] = true;
+                    } else if !std::mem::replace(&mut seen[g.index()], true) {
                         patch.push(g);
                     }
-                    None => {}
                 }
             }
+            let side = |face: FaceId| match round {
+                [_, false] => Side::Front,
+                [false, true] => Side::Back,
+                [true, true] => classify::side(mesh, face, offset),
+            };
+            faces.extend(patch.into_iter().map(|face| (face, side(face))));
         }
-        let side = |face: FaceId| match round {
-            [_, false] => Side::Front,
-            [false, true] => Side::Back,
-            [true, true] => classify::side(mesh, face, offset),
-        };
-        self.faces
-            .extend(patch.into_iter().map(|face| (face, side(face))));
+        faces.sort_unstable();
+        Patches { faces }
     }
 
     /// The side of a face among these.

@@ -139,13 +139,8 @@ fn chains(trace: &Trace) -> Vec<u32> {
     let mut sets = DisjointSets::new(trace.pieces.len() as u32);
     let mut ends: Vec<(Site, u32)> = Vec::new();
     for (piece, i) in trace.pieces.iter().zip(0..) {
-        ends.extend(
-            piece
-                .end_nodes()
-                .into_iter()
-                .flatten()
-                .map(|site| (site, i)),
-        );
+        let nodes = piece.end_nodes().into_iter().flatten();
+        ends.extend(nodes.map(|site| (site, i)));
     }
     ends.sort_unstable();
     for two in ends.windows(2).filter(|two| two[0].0 == two[1].0) {
@@ -183,12 +178,8 @@ impl Run {
                 Site::Vertex(v) => positions.at(v),
                 Site::Edge(h) => {
                     let crossing = trace.crossing(h).expect("the nodes of pieces are known");
-                    let ends = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
-                    let [p, q] = if crossing.forward {
-                        ends
-                    } else {
-                        [ends[1], ends[0]]
-                    };
+                    let ends = h.ends(crossing.forward);
+                    let [p, q] = ends.map(|h| positions.at(mesh.origin(h)));
                     between(p, q, crossing.t)
                 }
             };

@@ -12,7 +12,7 @@ pub(super) struct Planner<'t> {
     pub(super) plan: Plan,
     /// By half-edge.
     crossings: Vec<Planned>,
-    next: usize,
+    next: u32,
 }
 
 /// A crossing that is to be inserted: the point of the plan, and the vertex it will have.
@@ -30,7 +30,7 @@ impl<'t> Planner<'t> {
             mesh,
             plan: Plan::new(),
             crossings: Vec::new(),
-            next: mesh.vertex_count(),
+            next: mesh.next_vertex().to_u32(),
         };
         for crossing in trace.crossings.iter().filter(|crossing| crossing.used) {
             let planned = planner.crossing(crossing);
@@ -40,32 +40,26 @@ impl<'t> Planner<'t> {
     }
 
     fn crossing(&mut self, crossing: &Crossing) -> Planned {
-        let &Crossing {
-            half_edge,
-            t,
-            forward,
-            ..
-        } = crossing;
+        let half_edge = crossing.half_edge;
         let ghost = self.mesh.ghost_pair(half_edge);
         let twin = ghost.and_then(|g| self.planned(g));
         match twin.filter(|twin| self.trace.is_one_place(half_edge, twin.half_edge)) {
             Some(twin) => Planned {
                 half_edge,
                 point: twin.point,
-                vertex: VertexId::new(twin.vertex.index() + 1).expect(COUNTED),
+                vertex: VertexId::from_u32(twin.vertex.to_u32() + 1),
             },
             None => Planned {
                 half_edge,
-                point: self.plan.edge(half_edge, t, forward),
+                point: self.plan.edge(half_edge, crossing.t, crossing.forward),
                 vertex: self.new_vertices(if ghost.is_some() { 2 } else { 1 }),
             },
         }
     }
 
-    fn new_vertices(&mut self, count: usize) -> VertexId {
-        let first = VertexId::new(self.next).expect(COUNTED);
+    fn new_vertices(&mut self, count: u32) -> VertexId {
         self.next += count;
-        first
+        VertexId::from_u32(self.next - count)
     }
 
     fn planned(&self, h: HalfEdgeId) -> Option<&Planned> {
@@ -123,5 +117,4 @@ impl<'t> Planner<'t> {
     }
 }
 
-const COUNTED: &str = "I1: there are fewer vertices than half-edges";
 const PLANNED: &str = "every crossing at the end of a piece was planned";

@@ -152,12 +152,6 @@ impl Trace {
         Mix::Between { ends, t }
     }
 
-    /// Gives up the piece in a face whose points cannot be told apart.
-    pub(super) fn leave_out(&mut self, mesh: &Mesh, f: FaceId) {
-        self.pieces.retain(|piece| piece.place != Place::Face(f));
-        self.finish(mesh);
-    }
-
     /// Puts a piece in the place of the one that is there, or gives that up: the slit then ends at
     /// the node from which it came.
     pub(super) fn replace(&mut self, place: Place, better: Option<Piece>) {

@@ -113,10 +113,8 @@ impl Tracer<'_> {
         for side in 0..2 {
             for &joint in &self.way.joints[side] {
                 let is_node = |f: FaceId| {
-                    let nodes = self.nodes(f).into_iter().flatten();
-                    nodes
-                        .into_iter()
-                        .any(|node| node.site == Site::Vertex(joint))
+                    let mut nodes = self.nodes(f).into_iter().flatten();
+                    nodes.any(|node| node.site == Site::Vertex(joint))
                 };
                 if self.mesh.faces_of(joint).any(is_node) {
                     continue;
@@ -378,10 +376,7 @@ impl Tracer<'_> {
         });
         let patches = Patches::new(self.mesh, faces, &sign, &offset);
         for &h in edges {
-            let pair = self
-                .mesh
-                .pair(h)
-                .expect("only edges with a pair were taken");
+            let pair = self.mesh.pair(h).expect("only pairs were taken");
             let [one, other] = [h, pair].map(|h| patches.side(self.mesh, h.face(), &sign));
             let comes_to_joint = self.passed.contains(&h) || self.passed.contains(&pair);
             if one == other && !comes_to_joint {
