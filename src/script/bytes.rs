@@ -16,15 +16,6 @@ const FURTHER: &str = "split/split/split/split/slide/plane/plane/plane/cut/inser
     merge/sew";
 const SELDOM: &str = "split repeated/split foreign/clear/sew";
 
-fn operation_of(code: usize) -> &'static str {
-    let (names, at) = match code {
-        0..20 => (OPERATIONS, code),
-        _ if code % 16 == 15 => (SELDOM, code / 16 % 4),
-        _ => (FURTHER, code % 16),
-    };
-    names.split('/').nth(at).expect("every code has a name")
-}
-
 impl Script {
     /// Decodes bytes as a script of at most [`Script::OPERATIONS_MAX`] operations on a mesh of at
     /// most a few hundred faces. Missing bytes count as zero.
@@ -50,16 +41,12 @@ impl proptest::arbitrary::Arbitrary for Script {
     fn arbitrary_with((): ()) -> Self::Strategy {
         use proptest::prelude::{Strategy as _, any, prop};
         let shape = prop::collection::vec(any::<u8>(), 0..=100);
+        let shape = shape.prop_map(|bytes| Bytes(&bytes).shape());
         let operation = prop::array::uniform16(any::<u8>());
+        let operation = operation.prop_map(|bytes| Bytes(&bytes).operation());
         let operations = prop::collection::vec(operation, 0..=Script::OPERATIONS_MAX);
-        let script = (shape, operations).prop_map(|(shape, operations)| Script {
-            shape: Bytes(&shape).shape(),
-            operations: operations
-                .iter()
-                .map(|bytes| Bytes(bytes).operation())
-                .collect(),
-        });
-        script.boxed()
+        let script = |(shape, operations)| Script { shape, operations };
+        (shape, operations).prop_map(script).boxed()
     }
 }
 
@@ -80,8 +67,14 @@ impl Bytes<'_> {
     }
 
     fn operation(&mut self) -> Operation {
-        let name = operation_of(self.byte().into());
-        Operation::read(name, self).expect("every operation has a name")
+        let (names, at) = match usize::from(self.byte()) {
+            code @ 0..20 => (OPERATIONS, code),
+            code if code % 16 == 15 => (SELDOM, code / 16 % 4),
+            code => (FURTHER, code % 16),
+        };
+        let name = names.split('/').nth(at);
+        let operation = name.and_then(|name| Operation::read(name, self));
+        operation.expect("every operation has a name")
     }
 }
 
@@ -109,16 +102,11 @@ impl Source for Bytes<'_> {
         }
     }
 
-    fn list<T>(
-        &mut self,
-        most: usize,
-        end: Option<&str>,
-        item: impl Fn(&mut Self) -> T,
-    ) -> (Vec<T>, bool) {
+    fn list<T>(&mut self, most: usize, end: &str, item: fn(&mut Self) -> T) -> (Vec<T>, bool) {
         let byte = self.byte();
-        let count = if end.is_some() { byte & 7 } else { byte };
+        let count = if end.is_empty() { byte } else { byte & 7 };
         let items = (0..usize::from(count) % (most + 1)).map(|_| item(self));
-        (items.collect(), end.is_some() && byte >= 192)
+        (items.collect(), !end.is_empty() && byte >= 192)
     }
 
     fn filler(&mut self) {

@@ -20,13 +20,8 @@ pub(super) trait Source {
     /// `named` where the name of the line has decided.
     fn choice(&mut self, words: &[&str], odds: &Odds, named: usize) -> usize;
 
-    /// A list of at most `most` items, and whether this word comes after it.
-    fn list<T>(
-        &mut self,
-        most: usize,
-        end: Option<&str>,
-        item: impl Fn(&mut Self) -> T,
-    ) -> (Vec<T>, bool);
+    /// A list of at most `most` items, and whether this word, if any, comes after it.
+    fn list<T>(&mut self, most: usize, end: &str, item: fn(&mut Self) -> T) -> (Vec<T>, bool);
 
     /// A byte that says nothing more.
     fn filler(&mut self) {}
@@ -34,10 +29,6 @@ pub(super) trait Source {
     fn u8(&mut self, limits: RangeInclusive<u8>) -> u8 {
         let (least, most) = limits.into_inner();
         self.number(least.into()..=most.into(), 1) as u8
-    }
-
-    fn any_u8(&mut self) -> u8 {
-        self.u8(0..=u8::MAX)
     }
 
     fn u16(&mut self) -> u16 {
@@ -60,6 +51,8 @@ pub(super) enum Odds {
     /// By the byte after the next one: the second alternative from 195 on.
     Ahead,
 }
+
+const ANY: RangeInclusive<u8> = 0..=u8::MAX;
 
 /// The offsets of spots: the half-edges of four faces.
 const OFFSETS: RangeInclusive<u8> = 0..=11;
@@ -95,11 +88,11 @@ impl Shape {
             "octahedron" => Shape::Octahedron {
                 subdivisions: from.u8(0..=1),
             },
-            "grown" => Shape::Grown(from.list(GROWN_MAX, None, Source::any_u8).0),
+            "grown" => Shape::Grown(from.list(GROWN_MAX, "", |from| from.u8(ANY)).0),
             "glued" => Shape::Glued {
                 faces: from.u8(1..=24),
                 sides: from
-                    .list(GROWN_MAX, None, |from| [(); 2].map(|()| from.any_u8()))
+                    .list(GROWN_MAX, "", |from| [(); 2].map(|()| from.u8(ANY)))
                     .0,
             },
             _ => return None,
@@ -110,7 +103,7 @@ impl Shape {
 impl Operation {
     /// Reads the operation of this name; `None` if there is none. Bytes name a fault with the split.
     pub(super) fn read(name: &str, from: &mut impl Source) -> Option<Operation> {
-        const ANY: [&str; 2] = ["", "any"];
+        const WORDS: [&str; 2] = ["", "any"];
         Some(match name {
             "split" | "split repeated" | "split foreign" => Operation::Split {
                 vertex: from.u16(),
@@ -132,21 +125,21 @@ impl Operation {
             }
             "insert" => {
                 let half_edge = from.u16();
-                let (spots, has_chord) = from.list(SPOTS_MAX, Some("chord"), Spot::read);
+                let (spots, has_chord) = from.list(SPOTS_MAX, "chord", Spot::read);
                 Operation::Insert {
                     half_edge,
                     spots,
-                    chord: has_chord.then(|| [(); 2].map(|()| from.any_u8())),
+                    chord: has_chord.then(|| [(); 2].map(|()| from.u8(ANY))),
                 }
             }
             "merge" => Operation::Merge {
-                any: from.choice(&ANY, &Odds::Seldom, 0) == 1,
+                any: from.choice(&WORDS, &Odds::Seldom, 0) == 1,
                 vertex: from.u16(),
                 other: from.u16(),
                 weights: [(); 2].map(|()| from.i8()),
             },
             "slide" => Operation::Slide {
-                any: from.choice(&ANY, &Odds::Seldom, 0) == 1,
+                any: from.choice(&WORDS, &Odds::Seldom, 0) == 1,
                 vertex: from.u16(),
                 toward: from.u16(),
                 part: from.u8(PARTS),
@@ -166,7 +159,7 @@ impl Fault {
         const WORDS: [&str; 3] = ["", "repeated", "foreign"];
         let named = WORDS.iter().rposition(|word| name.ends_with(word));
         match from.choice(&WORDS, &Odds::Named, named.unwrap_or(0)) {
-            1 => Fault::Repeated(from.any_u8()),
+            1 => Fault::Repeated(from.u8(ANY)),
             2 => Fault::Foreign(from.u16()),
             _ => Fault::None,
         }
@@ -174,9 +167,6 @@ impl Fault {
 }
 
 impl Spot {
-    /// Where a chord without a spot is.
-    pub(super) const FIRST: Spot = Spot::Edge { offset: 0, part: 0 };
-
     fn read<S: Source>(from: &mut S) -> Spot {
         if from.choice(&["edge", "face"], &Odds::Ahead, 0) == 0 {
             return Spot::Edge {
@@ -186,7 +176,7 @@ impl Spot {
         }
         let offset = from.u8(OFFSETS);
         from.filler();
-        let weights = [(); 3].map(|()| from.any_u8());
+        let weights = [(); 3].map(|()| from.u8(ANY));
         Spot::Face { offset, weights }
     }
 }

@@ -56,13 +56,9 @@ impl fmt::Display for Shape {
             Shape::Torus { around, across } => write!(f, "torus {around} {across}"),
             Shape::Tetrahedron { subdivisions } => write!(f, "tetrahedron {subdivisions}"),
             Shape::Octahedron { subdivisions } => write!(f, "octahedron {subdivisions}"),
-            Shape::Grown(moves) => {
-                f.write_str("grown")?;
-                numbers(f, moves)
-            }
+            Shape::Grown(moves) => numbers(f, "grown", moves),
             Shape::Glued { faces, sides } => {
-                write!(f, "glued {faces}")?;
-                numbers(f, sides.as_flattened())
+                numbers(f, &format!("glued {faces}"), sides.as_flattened())
             }
         }
     }
@@ -84,21 +80,18 @@ impl fmt::Display for Operation {
                     Fault::Foreign(face) => write!(f, " foreign {face}"),
                 }
             }
-            Operation::Plane { vertex, normal } => {
-                write!(f, "plane {vertex}")?;
-                numbers(f, normal)
-            }
+            Operation::Plane { vertex, normal } => numbers(f, &format!("plane {vertex}"), normal),
             Operation::Cut {
                 through,
                 tips,
                 rays,
             } => {
                 f.write_str(if *through { "cut through" } else { "cut" })?;
-                f.write_str(match tips {
+                let tips = match tips {
                     CutTips::Vertex => "",
                     CutTips::Midpoint => " midpoint",
-                })?;
-                numbers(f, rays.as_flattened().as_flattened())
+                };
+                numbers(f, tips, rays.as_flattened().as_flattened())
             }
             Operation::Insert {
                 half_edge,
@@ -110,8 +103,7 @@ impl fmt::Display for Operation {
                     match spot {
                         Spot::Edge { offset, part } => write!(f, " edge {offset} {part}")?,
                         Spot::Face { offset, weights } => {
-                            write!(f, " face {offset}")?;
-                            numbers(f, weights)?;
+                            numbers(f, &format!(" face {offset}"), weights)?;
                         }
                     }
                 }
@@ -124,8 +116,8 @@ impl fmt::Display for Operation {
                 any: is_any,
                 weights,
             } => {
-                write!(f, "merge{} {vertex} {other}", any(is_any))?;
-                numbers(f, weights)
+                let name = format!("merge{} {vertex} {other}", any(is_any));
+                numbers(f, &name, weights)
             }
             Operation::Slide {
                 vertex,
@@ -140,7 +132,8 @@ impl fmt::Display for Operation {
     }
 }
 
-fn numbers<N: fmt::Display>(f: &mut fmt::Formatter<'_>, numbers: &[N]) -> fmt::Result {
+fn numbers<N: fmt::Display>(f: &mut fmt::Formatter<'_>, name: &str, numbers: &[N]) -> fmt::Result {
+    f.write_str(name)?;
     numbers.iter().try_for_each(|number| write!(f, " {number}"))
 }
 
@@ -157,15 +150,10 @@ pub struct ScriptError {
 
 impl fmt::Display for ScriptError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            line,
-            word,
-            expected,
-        } = self;
-        if word.is_empty() {
-            write!(f, "line {line} ends where {expected} was expected")
-        } else {
-            write!(f, "line {line}: {expected} was expected, not `{word}`")
+        let (line, expected) = (self.line, &self.expected);
+        match self.word.as_str() {
+            "" => write!(f, "line {line} ends where {expected} was expected"),
+            word => write!(f, "line {line}: {expected} was expected, not `{word}`"),
         }
     }
 }
@@ -176,6 +164,11 @@ impl FromStr for Script {
     type Err = ScriptError;
 
     fn from_str(text: &str) -> Result<Script, ScriptError> {
+        let error = |line, (word, expected)| ScriptError {
+            line,
+            word,
+            expected,
+        };
         let mut shape = None;
         let mut operations = Vec::new();
         let mut end = 0;
@@ -201,20 +194,12 @@ impl FromStr for Script {
             if let Some(word) = line.words.next() {
                 line.refuse(word, "the end of the line");
             }
-            if let Some((word, expected)) = line.error {
-                return Err(ScriptError {
-                    line: end,
-                    word,
-                    expected,
-                });
+            if let Some(wrong) = line.error {
+                return Err(error(end, wrong));
             }
         }
-        let error = ScriptError {
-            line: end + 1,
-            word: String::new(),
-            expected: "a shape".into(),
-        };
-        let shape = shape.ok_or(error)?;
+        let missing = || error(end + 1, (String::new(), "a shape".to_owned()));
+        let shape = shape.ok_or_else(missing)?;
         Ok(Script { shape, operations })
     }
 }
@@ -278,20 +263,15 @@ impl Source for Line<'_> {
         }
     }
 
-    fn list<T>(
-        &mut self,
-        most: usize,
-        end: Option<&str>,
-        item: impl Fn(&mut Self) -> T,
-    ) -> (Vec<T>, bool) {
+    fn list<T>(&mut self, most: usize, end: &str, item: fn(&mut Self) -> T) -> (Vec<T>, bool) {
         let mut items = Vec::new();
         while items.len() < most {
             let next = self.words.clone().next();
-            if next.is_none() || next == end {
+            if next.is_none_or(|next| next == end) {
                 break;
             }
             items.push(item(self));
         }
-        (items, end.is_some_and(|end| self.takes(end)))
+        (items, self.takes(end))
     }
 }

@@ -1,6 +1,6 @@
 //! Running a script.
 
-use super::{Fault, Operation, Script, Shape, Spot};
+use super::{Fault, Operation, Script, Spot};
 use crate::attribute::PerCorner;
 use crate::edit::{Cursor, Edits};
 use crate::geometry::{Plane, Point, Ray};
@@ -116,7 +116,8 @@ impl Script {
     ///
     /// [`Operation::Tear`] consists of many steps, one for each split. A cut is one step.
     pub fn run(&self, mut observe: impl FnMut(&World, &Step<'_>)) -> World {
-        let mut world = World::new(&self.shape);
+        let (mesh, positions) = self.shape.make();
+        let mut world = World::of(mesh, positions);
         observe(&world, &Step::Built);
         for operation in &self.operations {
             world.apply(operation, &mut observe);
@@ -126,17 +127,6 @@ impl Script {
 }
 
 impl World {
-    /// Creates a world from the mesh of a shape, before any operation.
-    ///
-    /// # Panics
-    ///
-    /// If a number of the shape is below its lower limit.
-    #[must_use]
-    pub fn new(shape: &Shape) -> World {
-        let (mesh, positions) = shape.make();
-        World::of(mesh, positions)
-    }
-
     /// Creates a world from a mesh, before any operation.
     ///
     /// # Panics
@@ -155,8 +145,8 @@ impl World {
             mesh,
             positions,
         };
-        let begin = (&mut world.positions, &mut world.corners);
-        world.edits.replay(&mut { begin });
+        let begin = &mut (&mut world.positions, &mut world.corners);
+        world.edits.replay(begin);
         world
     }
 
@@ -208,14 +198,11 @@ impl World {
                 tips,
                 rays,
             } => {
-                let rays = rays.map(|[origin, direction]| {
+                let [a, b] = rays.map(|[origin, direction]| {
                     let origin = origin.map(|x| f64::from(x) / 32.0);
-                    Ray::new(Point::from(origin), direction.map(f64::from).into())
+                    Ray::new(Point::from(origin), direction.map(f64::from).into()).ok()
                 });
-                let scissor = match rays {
-                    [Ok(a), Ok(b)] => Scissor::new(a, b).ok(),
-                    _ => None,
-                };
+                let scissor = a.zip(b).and_then(|(a, b)| Scissor::new(a, b).ok());
                 let Some(scissor) = scissor else {
                     return observe(self, &Step::Nothing);
                 };
@@ -273,14 +260,9 @@ impl World {
                 let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
                 let stitches = mend::stitches(&self.mesh, chosen);
                 let first = self.edits.cursor();
-                let merges = mend::sew(
-                    &mut self.mesh,
-                    &self.positions,
-                    &stitches,
-                    |v| self.area.at(v),
-                    f64::INFINITY,
-                    &mut self.edits,
-                );
+                let (mesh, edits) = (&mut self.mesh, &mut self.edits);
+                let (weight, far) = (|v| self.area.at(v), f64::INFINITY);
+                let merges = mend::sew(mesh, &self.positions, &stitches, weight, far, edits);
                 let step = Step::Sewn {
                     first,
                     stitches: &stitches,
@@ -335,9 +317,10 @@ impl World {
             }
         };
         let points: Vec<PointId> = spots.iter().map(add).collect();
-        let (Spot::Edge { offset, .. } | Spot::Face { offset, .. }) =
-            spots.first().copied().unwrap_or(Spot::FIRST);
-        let f = at(offset).face();
+        let offset_of = |spot: &Spot| match *spot {
+            Spot::Edge { offset, .. } | Spot::Face { offset, .. } => offset,
+        };
+        let f = at(spots.first().map_or(0, offset_of)).face();
         let end = |number: u8| match usize::from(number) % (3 + points.len()) {
             corner @ 0..3 => ChordEnd::Corner(f.half_edges()[corner]),
             point => ChordEnd::Point(points[point - 3]),
