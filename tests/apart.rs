@@ -83,9 +83,9 @@ impl Whole<'_> {
         let mut parts = ExactSum::new();
         for (piece, leader) in pieces.iter().zip(leaders) {
             let own = (0..self.piece_of.len()).filter(|&f| self.piece_of[f] == leader);
-            assert!(piece.faces().iter().map(|f| f.index()).eq(own), "faces");
-            let at = |v: VertexId| positions.at(piece.vertices()[v.index()]);
-            parts.extend(piece.mesh().faces().map(|f| area(piece.mesh(), &at, f)));
+            assert!(piece.faces.iter().map(|f| f.index()).eq(own), "faces");
+            let at = |v: VertexId| positions.at(piece.vertices[v.index()]);
+            parts.extend(piece.mesh.faces().map(|f| area(&piece.mesh, &at, f)));
             self.check_piece(piece, counts);
         }
         let at = |v| positions.at(v);
@@ -96,22 +96,22 @@ impl Whole<'_> {
     }
 
     fn check_piece(&self, piece: &DerivedMesh, counts: &mut Counts) {
-        let (own, mesh) = (piece.mesh(), self.mesh);
+        let (own, mesh) = (&piece.mesh, self.mesh);
         assert_eq!(own.check(), []);
-        assert_eq!(own.vertex_count(), piece.vertices().len());
-        assert!(piece.vertices().is_sorted(), "vertices ascend");
-        let corners = piece.faces().iter().flat_map(|f| f.half_edges());
-        assert!(piece.corners().iter().copied().eq(corners), "corners");
-        let back = |h: HalfEdgeId| piece.corners()[h.index()];
-        assert!(piece.faces().is_sorted_by(|f, g| f < g), "faces ascend");
-        let is_here = |h: &HalfEdgeId| piece.faces().binary_search(&h.face()).is_ok();
+        assert_eq!(own.vertex_count(), piece.vertices.len());
+        assert!(piece.vertices.is_sorted(), "vertices ascend");
+        let corners = piece.faces.iter().flat_map(|f| f.half_edges());
+        assert!(piece.corners.iter().copied().eq(corners), "corners");
+        let back = |h: HalfEdgeId| piece.corners[h.index()];
+        assert!(piece.faces.is_sorted_by(|f, g| f < g), "faces ascend");
+        let is_here = |h: &HalfEdgeId| piece.faces.binary_search(&h.face()).is_ok();
 
         let mut labels: BTreeMap<(VertexId, usize), VertexId> = BTreeMap::new();
         for h in own.half_edges() {
             let source = back(h);
-            let vertex = piece.vertices()[own.origin(h).index()];
+            let vertex = piece.vertices[own.origin(h).index()];
             assert_eq!(vertex, mesh.origin(source), "the vertex of {h}");
-            assert_eq!(piece.faces()[h.face().index()], source.face());
+            assert_eq!(piece.faces[h.face().index()], source.face());
             // The same links, where both sides are here.
             let twin = self.twins[source.index()].and_then(HalfEdgeId::new);
             let here = twin.filter(is_here);
@@ -132,8 +132,8 @@ impl Whole<'_> {
             assert_eq!(known, own.origin(h), "{h} has a way to the others");
         }
         assert_eq!(labels.len(), own.vertex_count(), "one for each way round");
-        for &v in piece.vertices() {
-            let is_copy = |w: &VertexId| piece.vertices()[w.index()] == v;
+        for &v in &piece.vertices {
+            let is_copy = |w: &VertexId| piece.vertices[w.index()] == v;
             let copies: Vec<VertexId> = own.vertices().filter(is_copy).collect();
             counts.separated += usize::from(copies.len() > 1);
             let of_copies = copies.iter().flat_map(|&w| own.corners_of(w)).map(back);

@@ -41,13 +41,13 @@ impl Mesh {
     /// edits.replay(&mut heat);
     ///
     /// let mut pieces = mesh.pieces(&mesh.components());
-    /// pieces.sort_by_key(|piece| std::cmp::Reverse(piece.faces().len())); // the largest first
+    /// pieces.sort_by_key(|piece| std::cmp::Reverse(piece.faces.len())); // the largest first
     /// let piece = &pieces[1];
-    /// let vertices = piece.vertices().iter().copied();
+    /// let vertices = piece.vertices.iter().copied();
     /// let own_positions = Positions::new(vertices.clone().map(|v| positions.at(v)))?;
     /// let own_heat = PerVertex::new(vertices.map(|v| *heat.at(v)).collect());
-    /// assert_eq!(own_positions.len(), piece.mesh().vertex_count());
-    /// assert_eq!(own_heat.as_slice().len(), piece.mesh().vertex_count());
+    /// assert_eq!(own_positions.len(), piece.mesh.vertex_count());
+    /// assert_eq!(own_heat.as_slice().len(), piece.mesh.vertex_count());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -131,39 +131,15 @@ impl Mesh {
 /// [`Cursor::START`](crate::Cursor::START), with values that are copied from those of the source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DerivedMesh {
-    mesh: Mesh,
-    /// Ascending.
-    vertices: Vec<VertexId>,
-    /// Strictly ascending.
-    faces: Vec<FaceId>,
-    corners: Vec<HalfEdgeId>,
-}
-
-impl DerivedMesh {
-    /// Returns the derived mesh.
-    #[must_use]
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// Returns the vertex of the source that each vertex of the derived mesh comes from. The list is
-    /// indexed by derived vertex and ascending; it may contain a vertex of the source more than once.
-    #[must_use]
-    pub fn vertices(&self) -> &[VertexId] {
-        &self.vertices
-    }
-
-    /// Returns the face of the source that each face of the derived mesh comes from. The list is
-    /// indexed by derived face and ascending.
-    #[must_use]
-    pub fn faces(&self) -> &[FaceId] {
-        &self.faces
-    }
-
-    /// Returns the corner of the source that each corner of the derived mesh comes from. The list
-    /// is indexed by derived half-edge.
-    #[must_use]
-    pub fn corners(&self) -> &[HalfEdgeId] {
-        &self.corners
-    }
+    /// The derived mesh.
+    pub mesh: Mesh,
+    /// The vertex of the source that each vertex of the derived mesh comes from. The list is indexed by
+    /// derived vertex and ascending; it may contain a vertex of the source more than once.
+    pub vertices: Vec<VertexId>,
+    /// The face of the source that each face of the derived mesh comes from. The list is indexed by
+    /// derived face and ascending.
+    pub faces: Vec<FaceId>,
+    /// The corner of the source that each corner of the derived mesh comes from. The list is indexed by
+    /// derived half-edge.
+    pub corners: Vec<HalfEdgeId>,
 }

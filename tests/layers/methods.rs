@@ -149,10 +149,10 @@ fn a_chosen_sheet_of_a_stack_is_torn_as_if_it_were_alone() {
             let (_, of_all) = torn_by(method, scissor, &work);
             let mut expected = BTreeSet::new();
             for own in sheets.iter().map(|&number| &alone[number]) {
-                let at = own.vertices().iter().map(|&v| work.positions.at(v));
+                let at = own.vertices.iter().map(|&v| work.positions.at(v));
                 let at = Positions::new(at).expect("usable");
-                let (_, torn) = torn_by(method, scissor, &Work::new((own.mesh().clone(), at)));
-                expected.extend(torn.into_iter().map(|h| own.corners()[h].index()));
+                let (_, torn) = torn_by(method, scissor, &Work::new((own.mesh.clone(), at)));
+                expected.extend(torn.into_iter().map(|h| own.corners[h].index()));
             }
             assert_eq!(torn, expected, "{method:?} through {sheets:?}");
             seen.count(&torn, &of_all);

@@ -87,7 +87,7 @@ impl Pieces {
         output::make_folder(folder)?;
         let mut pieces = mesh.pieces(&mesh.components());
         // Of equal ones the one with the lowest face comes first, as it does now.
-        pieces.sort_by_key(|piece| Reverse(piece.faces().len()));
+        pieces.sort_by_key(|piece| Reverse(piece.faces.len()));
         let writer = PieceWriter::new(torn);
         let mut list = List {
             schema: SCHEMA,
@@ -142,10 +142,10 @@ pub(super) fn words(written: &report::Pieces) -> String {
 
 /// The area of a piece, rounded once for each face and once as a whole.
 fn area_of(piece: &DerivedMesh, positions: &Positions) -> f64 {
-    let mesh = piece.mesh();
+    let mesh = &piece.mesh;
     let areas = mesh.faces().map(|f| {
         let corners = mesh.face_vertices(f);
-        area(corners.map(|v| positions.at(piece.vertices()[v.index()])))
+        area(corners.map(|v| positions.at(piece.vertices[v.index()])))
     });
     areas.collect::<ExactSum>().to_f64()
 }

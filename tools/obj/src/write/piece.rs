@@ -137,10 +137,10 @@ impl<'t> PieceWriter<'t> {
         for library in &self.libraries {
             out.text(library)?;
         }
-        let separated = Separated::new(piece.mesh(), u32::from);
+        let separated = Separated::new(&piece.mesh, u32::from);
         let copies = separated.copies.iter().copied();
-        for v in piece.mesh().vertices().chain(copies) {
-            let source = piece.vertices()[v.index()];
+        for v in piece.mesh.vertices().chain(copies) {
+            let source = piece.vertices[v.index()];
             let place: [f64; 3] = positions.at(source).into();
             out.statement(b"v", &place, torn.extra_numbers(source.index()))?;
         }
@@ -180,7 +180,7 @@ impl<'t> PieceWriter<'t> {
         }
         out.flush()?;
         Ok(WriteSummary {
-            vertices: piece.mesh().vertex_count() + separated.copies.len(),
+            vertices: piece.mesh.vertex_count() + separated.copies.len(),
             faces: faces.len(),
             separated: separated.copies.len(),
             unspoken: 0,
@@ -221,18 +221,18 @@ impl<'t> PieceWriter<'t> {
 
     /// The faces of a piece in the order of the file.
     fn in_order(&self, piece: &DerivedMesh) -> Vec<FaceId> {
-        let mut faces: Vec<FaceId> = piece.mesh().faces().collect();
-        faces.sort_unstable_by_key(|f| self.ranks[piece.faces()[f.index()].index()]);
+        let mut faces: Vec<FaceId> = piece.mesh.faces().collect();
+        faces.sort_unstable_by_key(|f| self.ranks[piece.faces[f.index()].index()]);
         faces
     }
 
     fn said_of(&self, piece: &DerivedMesh, f: FaceId) -> [Option<&'t [u8]>; KEYWORDS.len()] {
-        self.said[self.states[piece.faces()[f.index()].index()] as usize]
+        self.said[self.states[piece.faces[f.index()].index()] as usize]
     }
 
     /// The texture coordinate and the normal of a corner of a piece.
     fn indices_of(&self, piece: &DerivedMesh, h: HalfEdgeId) -> [Option<u32>; 2] {
-        self.torn.corners.at(piece.corners()[h.index()].index())
+        self.torn.corners.at(piece.corners[h.index()].index())
     }
 }
 
