@@ -364,10 +364,9 @@ impl<T: Blend> Follower for DrawBuffers<T> {
                     self.indices.resize(self.values.len(), NONE);
                     self.rings.resize(self.values.len(), [NONE; 2]);
                     for child in family {
-                        let corners = child.face.half_edges().into_iter();
-                        corners
-                            .zip(child.vertices)
-                            .for_each(|(h, v)| self.attach(h, v));
+                        for (h, v) in child.face.half_edges().into_iter().zip(child.vertices) {
+                            self.attach(h, v);
+                        }
                     }
                 }
                 self.sweep();
@@ -377,11 +376,8 @@ impl<T: Blend> Follower for DrawBuffers<T> {
                 self.moved(merge.kept);
                 // The last vertex has another name, and what a GPU has of it is as it was.
                 self.slots_of.swap_remove(merge.gone.index());
-                let mut slot = self
-                    .slots_of
-                    .get(merge.gone.index())
-                    .copied()
-                    .unwrap_or(NONE);
+                let first = self.slots_of.get(merge.gone.index());
+                let mut slot = *first.unwrap_or(&NONE);
                 while slot != NONE {
                     self.slots[slot as usize].vertex = merge.gone;
                     slot = self.slots[slot as usize].next;
@@ -390,10 +386,9 @@ impl<T: Blend> Follower for DrawBuffers<T> {
             Edit::Slide(slide) => {
                 self.detach(slide.corners);
                 edit.apply_to_corners(&mut self.values, T::blend);
-                slide
-                    .corners
-                    .iter()
-                    .for_each(|&h| self.attach(h, slide.vertex));
+                for &h in slide.corners {
+                    self.attach(h, slide.vertex);
+                }
                 self.sweep(); // All slots of the vertex were left and filled, and so count as changed.
             }
         }

@@ -161,8 +161,9 @@ impl Edits {
              `starting_at(edits.cursor())`"
         );
         let skipped = (seen - first) as usize;
+        let next = self.records.get(skipped);
         assert!(
-            cursor == self.place(skipped),
+            cursor == next.map_or(self.end, |next| next.edit.before()),
             "foreign: this follower has seen {seen} edits, which are not the first {seen} of this \
              log: it followed another one. One whose values are those of this mesh begins with \
              `starting_at(edits.cursor())`"
@@ -285,12 +286,6 @@ impl Edits {
         self.links.clear();
         self.points.clear();
         self.children.clear();
-    }
-
-    /// The place before record `i` of those that are here, or after the last.
-    fn place(&self, i: usize) -> Cursor {
-        let record = self.records.get(i);
-        record.map_or(self.end, |record| record.edit.before())
     }
 
     fn record(&self, i: usize) -> Edit<'_> {

@@ -178,9 +178,7 @@ impl std::fmt::Debug for ExactSum {
 
 impl Extend<f64> for ExactSum {
     fn extend<I: IntoIterator<Item = f64>>(&mut self, numbers: I) {
-        for x in numbers {
-            self.add(x);
-        }
+        numbers.into_iter().for_each(|x| self.add(x));
     }
 }
 

@@ -54,6 +54,11 @@ macro_rules! id {
             pub(crate) const fn from_u32(index: u32) -> Self {
                 Self(index)
             }
+
+            #[inline]
+            pub(crate) const fn to_u32(self) -> u32 {
+                self.0
+            }
         }
 
         impl fmt::Display for $name {
@@ -70,7 +75,7 @@ macro_rules! id {
 
         impl From<$name> for u32 {
             fn from(id: $name) -> u32 {
-                id.0
+                id.to_u32()
             }
         }
     };
@@ -102,19 +107,7 @@ id!(
     u32::MAX / 3
 );
 
-impl VertexId {
-    #[inline]
-    pub(crate) const fn to_u32(self) -> u32 {
-        self.0
-    }
-}
-
 impl HalfEdgeId {
-    #[inline]
-    pub(crate) const fn to_u32(self) -> u32 {
-        self.0
-    }
-
     /// Returns the face that this half-edge belongs to.
     #[inline]
     #[must_use]

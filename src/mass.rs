@@ -172,17 +172,14 @@ impl Masses {
             faces[mesh.origin(h).index()] += 1;
         }
         // With n faces a vertex can be halved n - 1 times before nothing is left to split.
-        let too_light = |(v, mass): (VertexId, f64)| {
-            let halvings = faces[v.index()].saturating_sub(1) as i32;
-            mass > 0.0 && exponent_above(mass) - 1 - halvings < f64::MIN_EXP - 1
-        };
         let mass = |v: VertexId| units[v.index()] as f64 * unit;
-        let light: Vec<_> = mesh
-            .vertices()
-            .filter(|&v| too_light((v, mass(v))))
-            .collect();
-        if !light.is_empty() {
-            return Err(MassError::TooLight { vertices: light });
+        let is_too_light = |&v: &VertexId| {
+            let halvings = faces[v.index()].saturating_sub(1) as i32;
+            mass(v) > 0.0 && exponent_above(mass(v)) - 1 - halvings < f64::MIN_EXP - 1
+        };
+        let vertices: Vec<VertexId> = mesh.vertices().filter(is_too_light).collect();
+        if !vertices.is_empty() {
+            return Err(MassError::TooLight { vertices });
         }
         let whole = |v: VertexId| Halves {
             first: Part {

@@ -9,10 +9,8 @@ use crate::place::Positions;
 
 fn made(points: Vec<[f64; 3]>, triangles: &[[u32; 3]]) -> (Mesh, Positions) {
     let mesh = Mesh::build(points.len(), triangles).expect("a named shape is a manifold");
-    (
-        mesh,
-        Positions::new(points).expect("a named shape has finite coordinates"),
-    )
+    let positions = Positions::new(points).expect("a named shape has finite coordinates");
+    (mesh, positions)
 }
 
 /// Creates one triangle in the plane z = 0.

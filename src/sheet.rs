@@ -206,14 +206,9 @@ impl<V: Followers> Sheet<V> {
     pub fn mend(&mut self, chosen: impl Fn(VertexId) -> bool) -> usize {
         self.edit(|sheet| {
             let stitches = mend::stitches(&sheet.mesh, chosen);
-            let merges = mend::sew(
-                &mut sheet.mesh,
-                &sheet.positions,
-                &stitches,
-                |v| weight(sheet.masses.as_ref(), v),
-                f64::INFINITY,
-                &mut sheet.edits,
-            );
+            let (mesh, edits) = (&mut sheet.mesh, &mut sheet.edits);
+            let (weight, far) = (|v| weight(sheet.masses.as_ref(), v), f64::INFINITY);
+            let merges = mend::sew(mesh, &sheet.positions, &stitches, weight, far, edits);
             merges.expect("I8: copies have one root, and a mass is a weight")
         })
     }

@@ -239,21 +239,13 @@ impl RemovalPlan {
         let mut corners: [Option<HalfEdgeId>; 3] = [None; 3];
         let mut parts = [const { Vec::new() }; 3];
         for child in &family.children {
+            let part = &child.part;
             let own = match child.divided {
-                NONE => child
-                    .part
-                    .face
-                    .half_edges()
-                    .map(|h| Side { first: h, last: h }),
+                NONE => part.face.half_edges().map(|h| Side { first: h, last: h }),
                 inner => self.whole[inner as usize]?,
             };
-            let FacePart {
-                corners: at,
-                on_sides,
-                ..
-            } = child.part;
             for (i, side) in own.into_iter().enumerate() {
-                if let Some(corner) = at[i] {
+                if let Some(corner) = part.corners[i] {
                     let h = side.first;
                     let first = *corners[corner].get_or_insert(h);
                     let is_one = mesh.origin(first) == mesh.origin(h);
@@ -262,11 +254,11 @@ impl RemovalPlan {
                     }
                 }
                 let next = (i + 1) % 3;
-                match (0..3).find(|&of_parent| on_sides[i][of_parent] && on_sides[next][of_parent])
-                {
+                let [from, to] = [part.on_sides[i], part.on_sides[next]];
+                match (0..3).find(|&of_parent| from[of_parent] && to[of_parent]) {
                     Some(of_parent) => {
-                        let begins = at[i] == Some(of_parent);
-                        let ends = at[next] == Some((of_parent + 1) % 3);
+                        let begins = part.corners[i] == Some(of_parent);
+                        let ends = part.corners[next] == Some((of_parent + 1) % 3);
                         parts[of_parent].push((side, begins, ends));
                     }
                     None if mesh.ghost_pair(side.first).is_some() => return None,
@@ -320,23 +312,18 @@ fn joined(parts: &[(Side, bool, bool)], mesh: &Mesh) -> Option<Side> {
     let first = parts.iter().find(|(_, begins, _)| *begins);
     let last = parts.iter().find(|(.., ends)| *ends);
     let (first, last) = (first?.0.first, last?.0.last); // A record may be of no face.
-    let ghost = mesh.ghost_pair(first);
     let is_torn = |h: HalfEdgeId| mesh.ghost_pair(h).is_some();
     if parts
         .iter()
-        .any(|(part, ..)| is_torn(part.first) != ghost.is_some())
+        .any(|(part, ..)| is_torn(part.first) != is_torn(first))
     {
         return None;
     }
     // Torn is what has different vertices on its two sides, at one end or both.
-    let is_apart = |h: HalfEdgeId, ghost: HalfEdgeId| {
-        [
-            mesh.origin(h) != mesh.target(ghost),
-            mesh.target(h) != mesh.origin(ghost),
-        ]
-    };
-    let stays_torn = match (ghost, mesh.ghost_pair(last)) {
-        (Some(one), Some(other)) => is_apart(first, one)[0] || is_apart(last, other)[1],
+    let stays_torn = match [first, last].map(|h| mesh.ghost_pair(h)) {
+        [Some(ghost), Some(of_last)] => {
+            mesh.origin(first) != mesh.target(ghost) || mesh.target(last) != mesh.origin(of_last)
+        }
         _ => true,
     };
     stays_torn.then_some(Side { first, last })

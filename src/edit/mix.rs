@@ -59,13 +59,8 @@ impl<I> Mix<I> {
     pub fn nearest(self) -> I {
         match self {
             Mix::Copy(one) => one,
-            Mix::Between { ends: [a, b], t } => {
-                if t > 0.5 {
-                    b
-                } else {
-                    a
-                }
-            }
+            Mix::Between { ends: [_, b], t } if t > 0.5 => b,
+            Mix::Between { ends: [a, _], .. } => a,
             Mix::Weighted {
                 of: [a, b, c],
                 weights: [wa, wb, wc],

@@ -83,13 +83,12 @@ impl Soup<'_> {
                 self.look_at_edge(along, visit);
             }
         });
-        let mut link = Link::default();
         self.in_ranges(
             |h| self.origin(h),
             |half_edges| {
                 half_edges.sort_unstable_by_key(|&h| (self.origin(h), h));
                 for around in half_edges.chunk_by_mut(|&h, &g| self.origin(h) == self.origin(g)) {
-                    self.look_at_vertex(around, &mut link, visit);
+                    self.look_at_vertex(around, visit);
                 }
             },
         );
@@ -216,10 +215,8 @@ impl Soup<'_> {
     /// at it, in any direction and with however many others: what is wrong with the edge is
     /// said elsewhere. So fans are the connected parts of the link of the vertex: its nodes are
     /// the neighbours, and each face joins two.
-    fn look_at_vertex(self, around: &mut [u32], link: &mut Link, visit: &mut impl FnMut(Defect)) {
-        let Link { nodes, parts } = link;
-        nodes.clear();
-        parts.reset(0);
+    fn look_at_vertex(self, around: &mut [u32], visit: &mut impl FnMut(Defect)) {
+        let (mut nodes, mut parts) = (BTreeMap::new(), DisjointSets::default());
         for &h in &*around {
             let ends = [self.target(h), self.opposite(h)];
             let [a, b] = ends.map(|v| *nodes.entry(v).or_insert_with(|| parts.push()));
@@ -237,11 +234,4 @@ impl Soup<'_> {
         let fans = Fans::of_corners(fans, self.listed);
         visit(Defect::BowTie { vertex, fans });
     }
-}
-
-/// The link of a vertex: the numbers of its neighbours, and which of them faces join.
-#[derive(Default)]
-struct Link {
-    nodes: BTreeMap<u32, u32>,
-    parts: DisjointSets,
 }

@@ -8,7 +8,7 @@
 use std::fmt;
 
 use super::{BuildError, Link, Mesh, NO_HALF_EDGE};
-use crate::id::{HalfEdgeId, VertexId};
+use crate::id::VertexId;
 
 impl Mesh {
     /// Builds a torn mesh from its triangles and the root of each vertex. `roots[v]` is the
@@ -53,8 +53,12 @@ impl Mesh {
         for (h, &v) in mesh.origin.iter().enumerate().rev() {
             mesh.outgoing[v as usize] = h as u32; // The last one written is the smallest.
         }
-        for h in 0..mesh.half_edge_count() as u32 {
-            mesh.tear_if_apart(HalfEdgeId::from_u32(h));
+        for h in mesh.half_edges() {
+            let Some(g) = mesh.pair(h) else { continue };
+            if mesh.origin(h) != mesh.target(g) || mesh.target(h) != mesh.origin(g) {
+                mesh.link[h.index()].0 |= Link::TORN;
+                mesh.link[g.index()].0 |= Link::TORN;
+            }
         }
         let lost = |&(v, &root): &(usize, &u32)| {
             let has_corner = |v: usize| mesh.outgoing[v] != NO_HALF_EDGE;
@@ -62,14 +66,6 @@ impl Mesh {
         };
         let lost = roots.iter().enumerate().find(lost).map(refusal);
         lost.map_or(Ok(mesh), Err)
-    }
-
-    fn tear_if_apart(&mut self, h: HalfEdgeId) {
-        let Some(g) = self.pair(h) else { return };
-        if self.origin(h) != self.target(g) || self.target(h) != self.origin(g) {
-            self.link[h.index()].0 |= Link::TORN;
-            self.link[g.index()].0 |= Link::TORN;
-        }
     }
 
     /// Returns the root of every vertex, indexed by vertex, in the form that [`Mesh::build_torn`]

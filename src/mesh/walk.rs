@@ -67,11 +67,9 @@ impl Mesh {
         // The first corner of an open fan has no pair behind it; a fan without such
         // a corner is closed, and then is the whole orbit.
         let first_corners = move || self.corners_of(v).filter(|&h| self.pair(h).is_none());
-        let closed = if first_corners().next().is_none() {
-            self.half_edge_of(v)
-        } else {
-            None
-        };
+        let closed = self
+            .half_edge_of(v)
+            .filter(|_| first_corners().next().is_none());
         first_corners().chain(closed)
     }
 
