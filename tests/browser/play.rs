@@ -284,7 +284,9 @@ fn fingers_pull_pin_and_turn() {
     touch(&mut played.chrome, "touchEnd", &[]);
     played.until("pins", |now| now == 34.0);
     println!("{pins} pins before");
-    // The key of the pointer's place unpins.
+    // Keys work after a click on a box or on the list of keys; that of the pointer's place unpins.
+    played.chrome.press("front");
+    played.chrome.value("document.querySelector('summary').focus()");
     played.chrome.mouse("mouseMoved", MIDDLE);
     let key = json!({"type": "keyDown", "key": "p", "text": "p"});
     played.chrome.call("Input.dispatchKeyEvent", &key);

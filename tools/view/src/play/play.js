@@ -444,10 +444,14 @@ async function open() {
   // Keys are for the cloth again once something was chosen.
   for (const one of document.querySelectorAll("select")) one.addEventListener("change", () => one.blur());
   const keys = { h: "hand", c: "cut", m: "mend", " ": "pause", r: "reset", f: "fit", e: "edges", t: "theme" };
+  // So they are after a click on a button or a box; where one is reached by keys, they are its own.
+  addEventListener("click", ({ detail, target }) => {
+    if (detail && target.matches("button, summary, #front")) canvas.focus({ preventScroll: true });
+  });
+  const isTyped = ({ key, target }) => target.matches("select") || target.matches("button, summary, input") && !/^([a-z]|Escape)$/i.test(key);
   const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
   addEventListener("keydown", (event) => {
-    const { tagName } = event.target, isPressed = tagName === "BUTTON" && [" ", "Enter"].includes(event.key);
-    if (event.ctrlKey || event.metaKey || event.altKey || ["INPUT", "SELECT", "SUMMARY"].includes(tagName) || isPressed) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || isTyped(event)) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     if (keys[key]) actions[keys[key]]();
     else if (key === "p") hover ? pin(hover) : choose("pin");
