@@ -276,6 +276,14 @@ fn fingers_pull_pin_and_turn() {
     }
     assert!(played.fact("tears") > 10.0);
     touch(&mut played.chrome, "touchEnd", &[]);
+    // Drawn finer, what is crumpled is round.
+    played.chrome.press("pause");
+    let coarse = played.chrome.screen([680.0, 560.0]);
+    played.chrome.key("n");
+    played.chrome.drawn();
+    let fine = played.chrome.screen([680.0, 560.0]);
+    assert!(coarse.apart_from(&fine) > 300, "it is finer");
+    played.chrome.key("n");
     // One pins.
     let pins = played.fact("pins");
     played.chrome.value("reset.click()");
@@ -286,7 +294,9 @@ fn fingers_pull_pin_and_turn() {
     println!("{pins} pins before");
     // Keys work after a click on a box or on the list of keys; that of the pointer's place unpins.
     played.chrome.press("front");
-    played.chrome.value("document.querySelector('summary').focus()");
+    played
+        .chrome
+        .value("document.querySelector('summary').focus()");
     played.chrome.mouse("mouseMoved", MIDDLE);
     let key = json!({"type": "keyDown", "key": "p", "text": "p"});
     played.chrome.call("Input.dispatchKeyEvent", &key);
@@ -367,9 +377,18 @@ fn a_file_is_played_and_a_bad_one_changes_nothing() {
     played.saved("save", "it's a flag-torn.obj");
     let torn = played.folder.path("it's a flag-torn.obj");
     checked(&torn);
-    // What was torn is played on, and keeps its record.
+    // What was torn is played on, and keeps its record: it is mended to what was torn first.
     played.take(&torn);
     played.until("pieces", |pieces| pieces >= 2.0);
+    played.saved("save", "it's a flag-torn-torn.obj");
+    let words = ["it's a flag-torn-torn.obj", "whole.obj"].map(|name| played.folder.name(name));
+    let words = ["tearmesh", "mend", &words[0], "-o", &words[1]].map(str::to_owned);
+    let (exit, said) = typed(words);
+    assert_eq!(exit, Exit::Done, "{said}");
+    assert!(
+        said.contains("-> 1 piece") && said.contains("-> 1089"),
+        "{said}"
+    );
     // One vertex more than there may be.
     let mut many = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned();
     many.push_str(&"v 0 0 1\n".repeat(19_998));

@@ -42,6 +42,11 @@ fn a_simulation_is_played_and_can_be_turned() {
     chrome.value("time.value -= 1; time.dispatchEvent(new Event('input'))");
     let before = chrome.screen(size);
     assert!(before.places(is_seam).is_empty(), "it is whole");
+    // A shadow is on the ground below, which is the background but darker.
+    let is_shadow = |[r, g, b]: [u8; 3]| r == g && r.abs_diff(b) < 4 && (120..240).contains(&r);
+    let dark = before.places(is_shadow).len();
+    println!("{dark} pixels of shadow");
+    assert!(dark > 5000, "{dark} pixels of shadow");
     chrome.value("time.value = 0; time.dispatchEvent(new Event('input'))");
     assert_eq!(chrome.text("clock"), "0.00 s");
     assert!(chrome.text("plots").contains("largest stretch"));

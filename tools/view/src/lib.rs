@@ -35,7 +35,7 @@ mod trace;
 
 pub use camera::{Camera, CameraError};
 pub use fit::{ANGLE_OF_VIEW, fit, fit_all};
-pub use page::{CutLine, MOMENTS_PER_S, Moment, Page, Plot};
+pub use page::{CutLine, MOMENTS_PER_S, Moment, Page};
 pub use pc2::write_pc2;
 pub use picture::{PIXELS_MAX, Picture, PictureSize};
 pub use play::{PlayPage, is_page};

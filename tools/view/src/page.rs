@@ -1,9 +1,10 @@
 //! A page that shows meshes in a browser: one HTML file that needs no network and nothing beside it.
 //!
 //! What is shown lies in the page as one stream, deflated, in base64: a JSON text ([`Page`] says what is in
-//! it), and behind it the faces ([`codec`]), the [`Shade`] and the places of the vertices ([`motion`]) of every moment. No
+//! it), and behind it the faces ([`codec`]) and the places of the vertices ([`motion`]) of every moment. No
 //! text of a file stands anywhere else but in the title, so none can break out of the page; and the page
-//! forbids itself all that would need a network.
+//! forbids itself all that would need a network. Its script finds the shade of each moment when it is shown
+//! (`page/shade.js`): that of a film would be as long as the film again.
 
 mod codec;
 mod motion;
@@ -19,12 +20,10 @@ use tearmesh::{HalfEdgeId, Mesh, Place, Point, Scissor, Vector};
 
 use crate::bounds::Bounds;
 use crate::camera::CameraError;
-use crate::figure::crease_cosine;
 use crate::fit::{ANGLE_OF_VIEW, fit};
 use crate::palette::{self, Color};
 use crate::pieces::Pieces;
 use crate::shade;
-use crate::sky::{Ground, Shade};
 
 /// An HTML page that shows a mesh at one or more moments.
 ///
@@ -32,8 +31,7 @@ use crate::sky::{Ground, Shade};
 /// only changes of the faces are stored. A viewer who clicks two points sees where a cut between them would
 /// go, and the command that makes it.
 ///
-/// A mesh at rest has the shade of its folds, and a shadow below it, as in a picture. Meshes that are played have
-/// none.
+/// A mesh has the shade of its folds, and a shadow below it, as in a picture.
 ///
 /// Positions of the first moment are kept to 24 bits. Those of later moments are rounded to 1/65,536 of the
 /// longest side of the box around all moments.
@@ -90,17 +88,6 @@ pub struct CutLine {
     pub output: String,
 }
 
-/// A diagram of one or more quantities over time.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Plot {
-    /// The title of the diagram.
-    pub name: String,
-    /// The unit of the values; empty if they have no unit.
-    pub unit: String,
-    /// The name and the points of each line. A point is a time in seconds and the value at that time.
-    pub lines: Vec<(String, Vec<[f64; 2]>)>,
-}
-
 /// The number of moments per second for moments without a [`Moment::time_s`], on a page with at least
 /// twelve moments.
 pub const MOMENTS_PER_S: f64 = 30.0;
@@ -133,8 +120,6 @@ struct Shot {
     /// The lengths of all torn edges, each counted once: at rest where that is known.
     torn: f64,
     loops: usize,
-    /// None if it is played.
-    shade: Option<Shade>,
 }
 
 impl Page {
@@ -154,19 +139,15 @@ impl Page {
         self.facts.push([name.into(), what.into()]);
     }
 
-    /// Adds a diagram beside the mesh.
-    pub fn plot(&mut self, plot: Plot) {
-        let line =
-            |(name, points): (String, Vec<[f64; 2]>)| json!({"name": name, "points": points});
-        let lines: Vec<Value> = plot.lines.into_iter().map(line).collect();
-        let plot = json!({"name": plot.name, "unit": plot.unit, "lines": lines});
+    /// Adds a diagram beside the mesh, of one or more quantities over time: its title, the unit of the
+    /// values, which may be empty, and the name and the points of each line. A point is a time in seconds and
+    /// the value at that time.
+    pub fn plot(&mut self, name: &str, unit: &str, lines: &[(String, Vec<[f64; 2]>)]) {
+        let lines = lines.iter();
+        let lines = lines.map(|(name, points)| json!({"name": name, "points": points}));
+        let lines: Vec<Value> = lines.collect();
+        let plot = json!({"name": name, "unit": unit, "lines": lines});
         self.plots.push(plot);
-    }
-
-    /// Returns the number of moments.
-    #[must_use]
-    pub fn moment_count(&self) -> usize {
-        self.shots.len()
     }
 
     /// Returns the description of the last moment, or `None` if the page has no moment.
@@ -213,14 +194,7 @@ impl Page {
         let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
         let torn = torn.map(|h| length(place.at(mesh.target(h)) - place.at(mesh.origin(h))));
         let at_rest = moment.torn_at_rest_m;
-        let is_film = self.shots.len() + 1 >= FILM;
-        if is_film {
-            self.shots.iter_mut().for_each(|shot| shot.shade = None);
-        }
-        let is_still = moment.time_s.is_none() && !is_film;
-        let shade = is_still.then(|| Shade::new(mesh, place, self.up));
         self.shots.push(Shot {
-            shade: shade.flatten(),
             moment,
             state: self.states.len() - 1,
             points: mesh.vertices().map(|v| place.at(v)).collect(),
@@ -271,15 +245,6 @@ impl Page {
             (&*shot.points, &*state.corners)
         });
         let places = motion::write(moments, &lattice);
-        let shades = self.shots.iter().map(|shot| shot.shade.as_ref());
-        let bytes = shades.clone().flatten().flat_map(|shade| &shade.bytes);
-        let shade: Vec<u8> = bytes.copied().collect();
-        let grounds = shades.map(|shade| {
-            let Ground { middle, sides, .. } = &shade?.ground;
-            let [across, down] = *sides;
-            let axes = [middle - lattice.origin, across, down];
-            Some(axes.map(|axis| <[f64; 3]>::from(axis / lattice.side)))
-        });
         let text = json!({
             "title": self.title,
             "up": self.up.as_slice(),
@@ -291,18 +256,15 @@ impl Page {
             "few": FILM,
             "states": self.states.len(),
             "faceBytes": faces.len(),
-            "shadeBytes": shade.len(),
-            "grounds": grounds.collect::<Vec<_>>(),
             "moments": self.moments(),
             "facts": self.facts,
             "plots": self.plots,
             "colors": colors(),
             "light": shade::LIGHT,
             "shadow": shade::SHADOW,
-            "crease": crease_cosine(None),
             "snap": Scissor::SNAP,
         });
-        (text.to_string(), [faces, shade, places].concat())
+        (text.to_string(), [faces, places].concat())
     }
 
     fn moments(&self) -> Vec<Value> {
@@ -376,11 +338,13 @@ pub(crate) fn script(own: &[&str]) -> String {
 pub(crate) const FRAME: &str = include_str!("page/page.html");
 pub(crate) const STYLE: &str = include_str!("page/page.css");
 /// What every page begins its script with, file by file: each uses those before it.
-const SHARED_SCRIPTS: [&str; 6] = [
+const SHARED_SCRIPTS: [&str; 8] = [
     include_str!("page/vectors.js"),
     include_str!("page/packed.js"),
     include_str!("page/camera.js"),
     include_str!("page/cutter.js"),
+    include_str!("page/shade.js"),
+    include_str!("page/finer.js"),
     include_str!("page/scene.js"),
     include_str!("page/overlay.js"),
 ];

@@ -4,10 +4,10 @@
 //! behind something else. All is + − × ÷ √, so the shade is the same on every machine.
 
 use tearmesh::geometry::{cross, dot, length};
-use tearmesh::{Mesh, Place, Point, Vector};
+use tearmesh::{Point, Vector};
 
 use crate::camera::{aside, unit};
-use crate::figure::{Figure, crease_cosine};
+use crate::figure::Figure;
 
 /// The side of a map of depths, in texels.
 const TEXELS: usize = 256;
@@ -35,15 +35,6 @@ pub(crate) struct Sky {
     /// Of each point, on the front and on the back.
     pub(crate) seen: Vec<[f64; 2]>,
     pub(crate) ground: Option<Ground>,
-}
-
-/// The shade of a mesh, for a page.
-#[derive(Clone, Debug)]
-pub(crate) struct Shade {
-    /// The part of the sky, of 255, that the front of each vertex sees, that each back sees, and each cell of the
-    /// ground, row by row.
-    pub(crate) bytes: Vec<u8>,
-    pub(crate) ground: Ground,
 }
 
 /// A level ground below a figure, and how much of the sky it sees.
@@ -76,9 +67,8 @@ impl Sky {
         });
         let cell_points: Vec<Vector> = cell_points.collect();
         let has_many = figure.faces.len() >= MANY_FACES;
-        let n = if has_many { 2 } else { 4 };
         let mut map = DepthMap::default();
-        for (towards, weight) in directions(n) {
+        for (towards, weight) in directions(if has_many { 2 } else { 4 }) {
             map.look(&points, &figure.faces, towards);
             for ((&p, &normal), seen) in points.iter().zip(&figure.normals).zip(&mut seen) {
                 let cosine = dot(normal, towards);
@@ -111,23 +101,6 @@ impl Sky {
             seen: seen.into_iter().map(|sides| sides.map(part)).collect(),
             ground,
         }
-    }
-}
-
-impl Shade {
-    /// The shade of a mesh that is smooth all over; none if it has no extent.
-    pub(crate) fn new(mesh: &Mesh, place: &(impl Place + ?Sized), up: Vector) -> Option<Shade> {
-        let figure = Figure::new(mesh, place, crease_cosine(None), &[], false);
-        let sky = Sky::new(&figure, Some(up));
-        let ground = sky.ground?;
-        let mut seen = vec![[1.0; 2]; mesh.vertex_count()];
-        for (&v, &at) in mesh.indices().iter().zip(figure.faces.as_flattened()) {
-            seen[v as usize] = sky.seen[at as usize];
-        }
-        let side = |side: usize| seen.iter().map(move |seen| seen[side]);
-        let parts = side(0).chain(side(1)).chain(ground.cells.iter().copied());
-        let bytes = parts.map(|part| (part * 255.0).round() as u8).collect();
-        Some(Shade { bytes, ground })
     }
 }
 
@@ -304,7 +277,7 @@ impl DepthMap {
 
 #[cfg(test)]
 mod tests {
-    use tearmesh::shapes;
+    use tearmesh::{Mesh, shapes};
 
     use super::*;
 

@@ -2,7 +2,7 @@
 
 use tearmesh::geometry::length;
 use tearmesh_cloth::scene::{HoldForces, Run, TearLog};
-use tearmesh_view::{Moment, Page, Plot};
+use tearmesh_view::{Moment, Page};
 
 use super::frames::{RATE_PER_S, places};
 use crate::exit::Stop;
@@ -25,7 +25,7 @@ impl Recorder {
 
     /// Records a moment if it is time for one.
     pub(super) fn record(&mut self, run: &Run) -> Result<(), Stop> {
-        let due = (self.page.moment_count() as f64 / RATE_PER_S / run.step_s()).round();
+        let due = (self.stretch.len() as f64 / RATE_PER_S / run.step_s()).round();
         match (run.tally().steps as f64) < due {
             true => Ok(()),
             false => self.take(run),
@@ -63,11 +63,9 @@ impl Recorder {
         for (name, what) in facts {
             self.page.tell(*name, what);
         }
-        self.page.plot(Plot {
-            name: "largest stretch".to_owned(),
-            unit: "of the length at rest".to_owned(),
-            lines: vec![(String::new(), self.stretch)],
-        });
+        let lines = [(String::new(), self.stretch)];
+        self.page
+            .plot("largest stretch", "of the length at rest", &lines);
         let frames = tear_log.hold_forces();
         let holds = frames.first().map_or(0, |frame| frame.forces_n.len());
         let line = |hold: usize| {
@@ -76,11 +74,8 @@ impl Recorder {
             (format!("hold {}", hold + 1), points)
         };
         if holds > 0 {
-            self.page.plot(Plot {
-                name: "force at holds".to_owned(),
-                unit: "N".to_owned(),
-                lines: (0..holds.min(LINES)).map(line).collect(),
-            });
+            let lines: Vec<_> = (0..holds.min(LINES)).map(line).collect();
+            self.page.plot("force at holds", "N", &lines);
         }
         Ok(self.page)
     }

@@ -8,9 +8,8 @@ async function unpack() {
   const bytes = await unpacked("data", "deflate");
   const length = new DataView(bytes.buffer).getUint32(0, true);
   const data = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
-  const shade = 4 + length + data.faceBytes, places = shade + data.shadeBytes;
-  data.states = readStates(bytes.subarray(4 + length, shade), data.states);
-  readShade(bytes.subarray(shade, places), data);
+  const places = 4 + length + data.faceBytes;
+  data.states = readStates(bytes.subarray(4 + length, places), data.states);
   readPlaces(bytes.subarray(places), data);
   const rate = data.moments.length < data.few ? 1 : data.rate;
   data.moments.forEach((moment, i) => { moment.seconds = moment.time ?? i / rate; });
@@ -45,18 +44,6 @@ function readStates(bytes, count) {
   return Array.from({ length: count }, () => {
     state = { corners: changed(state.corners), kinds: changed(state.kinds), pieces: changed(state.pieces) };
     return state;
-  });
-}
-
-// Puts `shade` into each moment that has one: the parts of the sky that the fronts and the backs of vertices see,
-// and `ground`: its middle, half of its sides, and the parts that its cells see.
-function readShade(bytes, { moments, grounds }) {
-  let at = 0;
-  const next = (count) => bytes.subarray(at, at += count);
-  moments.forEach((moment, i) => {
-    if (!grounds[i]) return;
-    moment.shade = { front: next(moment.vertices), back: next(moment.vertices) };
-    moment.ground = { middle: grounds[i][0], sides: grounds[i].slice(1), cells: next(CELLS * CELLS) };
   });
 }
 

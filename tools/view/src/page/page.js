@@ -10,7 +10,7 @@ async function open() {
   const isPlayed = moments.length > 1;
   // A simulation or many meshes are a film; a few meshes are looked at one after another.
   const isFilm = moments.length >= data.few || moments[0].time !== null;
-  let scene = new Scene(canvas, data.crease);
+  let scene = new Scene(canvas);
   let now = 0, state = -1, box, isDirty = false;
   let hasEdges = false, hasBox = true, isDrawing = false;
   const prefersDark = matchMedia("(prefers-color-scheme: dark)");
@@ -29,7 +29,7 @@ async function open() {
     isDirty = false;
     const colors = isDark ? data.colors.dark : data.colors.light;
     scene.begin(colors.background);
-    if (moments[now].ground) scene.drawGround(camera, moments[now].ground, data.shadow);
+    scene.drawGround(camera, moments[now].sky.ground, data.shadow);
     scene.drawFaces(camera, box, data.colors.pieces, data.light);
     if (hasEdges) scene.drawEdges(camera, box, colors.edge, 0.45);
     if (hasBox) scene.drawLines("box", camera, box, colors.box, 1);
@@ -58,6 +58,10 @@ async function open() {
     redraw();
   }
 
+  // The box around what is shown: in a film, around all moments of it.
+  let filmBox;
+  const seenBox = () => (isFilm ? filmBox ??= boxOfMoments(moments, states) : boxOfMoments([moments[now]], states));
+
   // The faces of the moment that is shown, once they are others.
   function load() {
     const moment = moments[now], { corners, kinds } = states[moment.state];
@@ -65,15 +69,16 @@ async function open() {
       state = moment.state;
       scene.setState(states[state]);
     }
-    scene.setPlaces(moment.places, moment.shade);
+    // All moments of a film are above one ground.
+    moment.sky ??= skyOf(moment.places, corners, seenBox(), unit(data.up), isFilm);
+    scene.setPlaces(moment.places, moment.sky);
     box = boxOf(moment.places, corners);
-    const point = (v) => [0, 1, 2].map((axis) => moment.places[3 * v + axis]);
     const open = { boundary: [], seam: [] };
     kinds.forEach((kind, h) => {
-      if (kind) open[kind === TORN ? "seam" : "boundary"].push(...point(corners[h]), ...point(corners[h - h % 3 + (h + 1) % 3]));
+      if (kind) open[kind === TORN ? "seam" : "boundary"].push(corners[h], corners[h - h % 3 + (h + 1) % 3]);
     });
-    scene.setLines("boundary", open.boundary);
-    scene.setLines("seam", open.seam);
+    scene.setEdges("boundary", open.boundary);
+    scene.setEdges("seam", open.seam);
     const edges = [];
     for (let bits = 0; bits < 8; bits++) {
       for (const axis of [1, 2, 4]) if (!(bits & axis)) edges.push(...boxCorner(box, bits), ...boxCorner(box, bits | axis));
@@ -275,12 +280,17 @@ async function open() {
   const pressed = (id, is) => $(id).setAttribute("aria-pressed", is);
   const fit = () => {
     camera.goHome();
-    camera.fit(boxOfMoments(isFilm ? moments : [moments[now]], states));
+    camera.fit(seenBox());
     redraw();
   };
   const actions = {
     fit,
     edges: () => pressed("edges", hasEdges = !hasEdges),
+    finer: () => {
+      pressed("finer", scene.isFiner = !scene.isFiner);
+      state = -1;
+      load();
+    },
     box: () => pressed("box", hasBox = !hasBox),
     draw: () => {
       pressed("draw", isDrawing = !isDrawing);
@@ -311,7 +321,7 @@ async function open() {
   const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || isTyped(event)) return;
-    const keys = { f: "fit", e: "edges", b: "box", d: "draw", t: "theme" }, pressedBy = keys[event.key.toLowerCase()];
+    const keys = { f: "fit", e: "edges", n: "finer", b: "box", d: "draw", t: "theme" }, pressedBy = keys[event.key.toLowerCase()];
     if (pressedBy) $(pressedBy).click();
     else if (event.key === "Escape") clear();
     else if (isPlayed && event.key === " ") play(!isPlaying);
@@ -394,7 +404,7 @@ async function open() {
   };
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => {
-    scene = new Scene(canvas, data.crease);
+    scene = Object.assign(new Scene(canvas), { isFiner: scene.isFiner });
     state = -1;
     show(now);
   });

@@ -1,8 +1,8 @@
 // The mesh on the graphics card: faces and edges fetch the places of their vertices from a texture; lines are
 // quads as wide as they are on the screen.
 const WIDE = 2048;
-// The cells of a ground along each side.
-const CELLS = 128;
+// Into how many parts a finer mesh divides each edge.
+const FINER = 3;
 const FETCH = `#version 300 es
 precision highp float; precision highp int;
 uniform highp sampler2D places; uniform mat4 matrix; uniform vec3 eye; uniform float nearer;
@@ -61,13 +61,12 @@ void main() {
 }`, EDGES[1]];
 
 class Scene {
-  // From the cosine `crease` on, two faces are one smooth surface: from −1 on, all faces of a vertex.
-  constructor(canvas, crease) {
+  constructor(canvas) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
     if (!gl) throw new Error("This page needs WebGL 2, which this browser does not have or has turned off.");
     this.gl = gl;
     this.canvas = canvas;
-    this.crease = crease;
+    this.isFiner = false;
     this.faces = this.program(FACES);
     this.edges = this.program(EDGES);
     this.lines = this.program(LINES);
@@ -109,92 +108,51 @@ class Scene {
   }
 
   setState({ corners, pieces }) {
-    this.fill("corners", corners);
-    const numbers = new Uint8Array(corners.length);
-    for (let i = 0; i < numbers.length; i++) numbers[i] = pieces[i / 3 | 0] % 10;
+    this.finer = this.isFiner ? new Finer(corners, FINER) : null;
+    this.coarse = corners;
+    this.corners = this.finer?.corners ?? corners;
+    this.fill("corners", this.corners);
+    const parts = this.corners.length / corners.length, numbers = new Uint8Array(this.corners.length);
+    for (let i = 0; i < numbers.length; i++) numbers[i] = pieces[Math.floor(i / 3 / parts)] % 10;
     this.fill("pieces", numbers);
-    this.corners = corners;
     this.hasEdges = false;
-    // The corners at each vertex, one after another: those of v are from first[v] up to first[v + 1].
-    const count = corners.reduce((most, v) => Math.max(most, v), 0) + 1;
-    this.first = new Uint32Array(count + 1);
-    for (const v of corners) this.first[v + 1]++;
-    for (let v = 0; v < count; v++) this.first[v + 1] += this.first[v];
-    const next = this.first.slice();
-    this.around = new Uint32Array(corners.length);
-    corners.forEach((v, corner) => { this.around[next[v]++] = corner; });
   }
 
   // Without a shade, all vertices see all of the sky.
   setPlaces(places, shade) {
-    const { gl } = this, count = places.length / 3, rows = Math.ceil(count / WIDE);
-    const texels = new Float32Array(4 * WIDE * rows);
+    const { gl, finer, corners } = this;
+    let normals = vertexNormals(places, this.coarse), [front, back] = [shade?.front, shade?.back];
+    if (finer) {
+      places = finer.places(places, normals);
+      normals = vertexNormals(places, corners);
+      if (shade) [front, back] = [front, back].map((side) => finer.mixed(side, 1, Uint8Array));
+    }
+    this.places = places;
+    const count = places.length / 3, rows = Math.ceil(count / WIDE), texels = new Float32Array(4 * WIDE * rows);
     for (let v = 0; v < count; v++) {
       for (let axis = 0; axis < 3; axis++) texels[4 * v + axis] = places[3 * v + axis];
-      texels[4 * v + 3] = shade ? shade.front[v] + 256 * shade.back[v] : 65535;
+      texels[4 * v + 3] = shade ? front[v] + 256 * back[v] : 65535;
     }
     gl.bindTexture(gl.TEXTURE_2D, this.texture);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, WIDE, rows, 0, gl.RGBA, gl.FLOAT, texels);
     for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
-    this.fill("normals", this.normals(places));
+    const ofCorners = new Float32Array(3 * corners.length);
+    for (let i = 0, at = 0; i < corners.length; i++) {
+      for (let axis = 0; axis < 3; axis++, at++) ofCorners[at] = normals[3 * corners[i] + axis];
+    }
+    this.fill("normals", ofCorners);
   }
 
-  // The normal of each corner: the mean, by area, of those faces of its vertex that go on without a crease.
-  normals(places) {
-    const { corners, first, around, crease } = this, faces = corners.length / 3;
-    if (crease <= -1) return this.smoothNormals(places);
-    const spanned = new Float64Array(corners.length), sizes = new Float64Array(faces);
-    for (let f = 0; f < faces; f++) {
-      const [i, j, k] = [3 * corners[3 * f], 3 * corners[3 * f + 1], 3 * corners[3 * f + 2]];
-      const ux = places[j] - places[i], uy = places[j + 1] - places[i + 1], uz = places[j + 2] - places[i + 2];
-      const vx = places[k] - places[i], vy = places[k + 1] - places[i + 1], vz = places[k + 2] - places[i + 2];
-      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-      spanned[3 * f] = x;
-      spanned[3 * f + 1] = y;
-      spanned[3 * f + 2] = z;
-      sizes[f] = Math.sqrt(x * x + y * y + z * z);
-    }
-    const normals = new Float32Array(3 * corners.length);
-    for (let corner = 0; corner < corners.length; corner++) {
-      const f = (corner / 3) | 0, v = corners[corner], least = crease * sizes[f];
-      const [a, b, c] = [spanned[3 * f], spanned[3 * f + 1], spanned[3 * f + 2]];
-      let x = 0, y = 0, z = 0;
-      for (let at = first[v]; at < first[v + 1]; at++) {
-        const g = (around[at] / 3) | 0, [d, e, h] = [spanned[3 * g], spanned[3 * g + 1], spanned[3 * g + 2]];
-        if (a * d + b * e + c * h < least * sizes[g]) continue;
-        x += d;
-        y += e;
-        z += h;
-      }
-      const scale = 1 / (Math.sqrt(x * x + y * y + z * z) || 1);
-      normals[3 * corner] = x * scale;
-      normals[3 * corner + 1] = y * scale;
-      normals[3 * corner + 2] = z * scale;
-    }
-    return normals;
-  }
-
-  smoothNormals(places) {
-    const { corners } = this, sums = new Float64Array(places.length), normals = new Float32Array(3 * corners.length);
-    for (let f = 0; f < corners.length; f += 3) {
-      const i = 3 * corners[f], j = 3 * corners[f + 1], k = 3 * corners[f + 2];
-      const ux = places[j] - places[i], uy = places[j + 1] - places[i + 1], uz = places[j + 2] - places[i + 2];
-      const vx = places[k] - places[i], vy = places[k + 1] - places[i + 1], vz = places[k + 2] - places[i + 2];
-      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-      for (const at of [i, j, k]) {
-        sums[at] += x;
-        sums[at + 1] += y;
-        sums[at + 2] += z;
+  // Lines along edges of the mesh, by the numbers of their ends.
+  setEdges(name, ends) {
+    const { finer, places } = this, numbers = [];
+    for (let i = 0; i < ends.length; i += 2) {
+      const along = finer?.along(ends[i], ends[i + 1]) ?? [ends[i], ends[i + 1]];
+      for (let j = 1; j < along.length; j++) {
+        for (const v of [along[j - 1], along[j]]) numbers.push(places[3 * v], places[3 * v + 1], places[3 * v + 2]);
       }
     }
-    for (let corner = 0; corner < corners.length; corner++) {
-      const at = 3 * corners[corner], [x, y, z] = [sums[at], sums[at + 1], sums[at + 2]];
-      const scale = 1 / (Math.sqrt(x * x + y * y + z * z) || 1);
-      normals[3 * corner] = x * scale;
-      normals[3 * corner + 1] = y * scale;
-      normals[3 * corner + 2] = z * scale;
-    }
-    return normals;
+    this.setLines(name, numbers);
   }
 
   // Segments, each as six numbers.

@@ -17,8 +17,7 @@ async function open() {
   const canvas = $("scene"), pen = $("marks").getContext("2d");
   const camera = new Camera([0, 1, 0], [0, 0, 1], data.angle);
   const prefersDark = matchMedia("(prefers-color-scheme: dark)");
-  // The cosine of no crease at all: cloth is smooth all over.
-  let scene = new Scene(canvas, -1);
+  let scene = new Scene(canvas);
   let file = null, isDark, hasEdges = false, mode = "hand", isPaused = false, isStopped = false;
   let lattice, box, places, corners, facts, topology = "";
   // The first point of a cut, a line that is being drawn, and the OBJ file before the last cut.
@@ -124,11 +123,7 @@ async function open() {
     }
     box = boxOf(places, corners);
     scene.setPlaces(places);
-    for (const kind of ["boundary", "seam"]) {
-      const segments = new Float32Array(3 * ends[kind].length);
-      ends[kind].forEach((v, i) => segments.set(places.subarray(3 * v, 3 * v + 3), 3 * i));
-      scene.fill(kind, segments);
-    }
+    for (const kind of ["boundary", "seam"]) scene.setEdges(kind, ends[kind]);
   }
   // The ends of edges that have a face on one side only, and the vertices that are held.
   const ends = { boundary: [], seam: [] };
@@ -418,6 +413,11 @@ async function open() {
     },
     fit,
     edges: () => $("edges").setAttribute("aria-pressed", hasEdges = !hasEdges),
+    finer: () => {
+      $("finer").setAttribute("aria-pressed", scene.isFiner = !scene.isFiner);
+      topology = "";
+      refresh();
+    },
     theme: () => setTheme(!isDark),
     copy: async () => {
       getSelection().selectAllChildren($("line"));
@@ -443,7 +443,7 @@ async function open() {
   $("wind").addEventListener("change", blow);
   // Keys are for the cloth again once something was chosen.
   for (const one of document.querySelectorAll("select")) one.addEventListener("change", () => one.blur());
-  const keys = { h: "hand", c: "cut", m: "mend", " ": "pause", r: "reset", f: "fit", e: "edges", t: "theme" };
+  const keys = { h: "hand", c: "cut", m: "mend", " ": "pause", r: "reset", f: "fit", e: "edges", n: "finer", t: "theme" };
   // So they are after a click on a button or a box; where one is reached by keys, they are its own.
   addEventListener("click", ({ detail, target }) => {
     if (detail && target.matches("button, summary, #front")) canvas.focus({ preventScroll: true });
@@ -545,7 +545,7 @@ async function open() {
   };
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => {
-    scene = new Scene(canvas, -1);
+    scene = Object.assign(new Scene(canvas), { isFiner: scene.isFiner });
     topology = "";
     refresh();
   });
