@@ -154,7 +154,7 @@ pub(crate) fn check_page(path: &Path) -> Result<(), Stop> {
 }
 
 /// Refuses a mesh that is named like a file of a format other than OBJ.
-fn check_mesh(path: &Path) -> Result<(), Stop> {
+pub(crate) fn check_mesh(path: &Path) -> Result<(), Stop> {
     let ending = ending(path).unwrap_or_default();
     let is_of = |(endings, _): &&(&str, _)| endings.split(' ').any(|one| one == ending);
     match FOREIGN.iter().find(is_of) {

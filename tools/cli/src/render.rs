@@ -5,7 +5,7 @@ mod strip;
 use std::path::Path;
 
 use tearmesh::{Ray, Scissor};
-use tearmesh_view::{Camera, RenderOptions, fit};
+use tearmesh_view::{Camera, RenderOptions, fit, write_drawn};
 
 use crate::args::RenderArgs;
 use crate::cut::scissors::{no_plane, warn_of_skew};
@@ -26,6 +26,14 @@ pub(crate) fn run(
     files::check_picture(&args.output)?;
     let inputs = std::slice::from_ref(&args.input);
     files::check_shown(&args.output, inputs, "the input")?;
+    if let Some(obj) = &args.obj {
+        files::check_mesh(obj)?;
+        files::check_shown(
+            obj,
+            &[args.input.clone(), args.output.clone()],
+            "named already",
+        )?;
+    }
     let size = args.size.as_f64();
     let camera = |look| Camera::new(look, args.up.coords, args.fov, size);
     let given = args.camera.map(camera).transpose();
@@ -48,11 +56,16 @@ pub(crate) fn run(
         }
     };
     output::write_or_print(&args.output, streams.output, |out| drawn.write_png(out))?;
+    let obj = args.obj.as_ref().map(|path| {
+        output::write(path, |out| write_drawn(mesh, positions, &options, out))?;
+        Ok::<_, Fault>(format!(", {}", path.display()))
+    });
+    let obj = obj.transpose()?.unwrap_or_default();
     if args.output == Path::new("-") {
         return Ok(String::new());
     }
     Ok(format!(
-        "render: {}, {}, {} · {}x{} pixels · wrote {}",
+        "render: {}, {}, {} · {}x{} pixels · wrote {}{obj}",
         count(mesh.vertex_count(), "vertex", "vertices"),
         count(mesh.face_count(), "face", "faces"),
         count(mesh.components().count(), "piece", "pieces"),

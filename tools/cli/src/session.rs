@@ -240,7 +240,7 @@ impl<'a, 's> Session<'a, 's> {
         let Some(path) = self.files.wanted(&self.files.picture) else {
             return Ok(());
         };
-        let size = PictureSize::default();
+        let size = PictureSize::USUAL;
         let camera = fit(mesh, place, up, ANGLE_OF_VIEW, size.as_f64());
         let camera = camera.map_err(picture::no_camera)?;
         let options = RenderOptions {

@@ -62,7 +62,7 @@ impl Camera {
     /// let ray = camera.ray([400.0, 0.0])?;
     /// assert!((ray.direction() - Vector::new(0.0, 1.0, -1.0)).norm() < 1e-15);
     /// let seen = camera.seen(Point::new(0.0, 5.0, 0.0));
-    /// assert!((camera.pixel(seen)[0] - 400.0).abs() < 1e-12 && camera.pixel(seen)[1].abs() < 1e-12);
+    /// assert!(seen.x.abs() < 1e-12 && (seen.y / seen.z - 1.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -117,17 +117,6 @@ impl Camera {
         let from_eye = p - self.eye;
         let part = |axis: Vector| dot(from_eye, axis) / dot(axis, axis);
         Vector::new(part(self.right), part(self.up), dot(from_eye, self.middle))
-    }
-
-    /// Returns the place of a point in the picture: its distances from the left and the upper edge, in
-    /// pixels. `seen` is the result of [`Camera::seen`], and its z must be positive.
-    #[must_use]
-    pub fn pixel(&self, seen: Vector) -> [f64; 2] {
-        let [width, height] = self.size;
-        [
-            (seen.x / seen.z + 1.0) / 2.0 * width,
-            (1.0 - seen.y / seen.z) / 2.0 * height,
-        ]
     }
 
     /// The eye, and the direction in which a line of sight goes that [`Camera::seen`] gives as this.
@@ -217,10 +206,10 @@ mod tests {
                 ];
                 let off = (seen[0] - x).abs().max((seen[1] - y).abs());
                 assert!(off < 1e-9, "{x} {y}: {seen:?}");
-                let shown = camera.pixel(camera.seen(p));
-                let off = (shown[0] - x).abs().max((shown[1] - y).abs());
-                assert!(off < 1e-9, "{x} {y}: {shown:?}");
-                assert!((camera.seen(p).z + pz).abs() < 1e-12);
+                let shown = camera.seen(p);
+                let off = [shown.x / shown.z - clip[0], shown.y / shown.z - clip[1]];
+                assert!(off.iter().all(|x| x.abs() < 1e-11), "{x} {y}: {shown:?}");
+                assert!((shown.z + pz).abs() < 1e-12);
             }
         }
     }

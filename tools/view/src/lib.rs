@@ -39,5 +39,5 @@ pub use page::{CutLine, MOMENTS_PER_S, Moment, Page};
 pub use pc2::write_pc2;
 pub use picture::{PIXELS_MAX, Picture, PictureSize};
 pub use play::{PlayPage, is_page};
-pub use render::{RenderOptions, faces_seen, render};
+pub use render::{RenderOptions, faces_seen, render, write_drawn};
 pub use trace::trace;

@@ -15,7 +15,7 @@ pub struct Picture {
 pub const PIXELS_MAX: u64 = 1 << 26;
 
 /// The width and height of a picture, in pixels. Each is at least 1, and their product is at most
-/// [`PIXELS_MAX`]. The default is 960 by 720 pixels.
+/// [`PIXELS_MAX`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureSize {
     width: u32,
@@ -23,6 +23,12 @@ pub struct PictureSize {
 }
 
 impl PictureSize {
+    /// 960 by 720 pixels.
+    pub const USUAL: PictureSize = PictureSize {
+        width: 960,
+        height: 720,
+    };
+
     /// Creates a size, or returns `None` if width or height is 0 or if their product exceeds
     /// [`PIXELS_MAX`].
     ///
@@ -55,16 +61,6 @@ impl PictureSize {
     #[must_use]
     pub fn as_f64(self) -> [f64; 2] {
         [f64::from(self.width), f64::from(self.height)]
-    }
-}
-
-/// The default is 960 by 720 pixels.
-impl Default for PictureSize {
-    fn default() -> PictureSize {
-        PictureSize {
-            width: 960,
-            height: 720,
-        }
     }
 }
 

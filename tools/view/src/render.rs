@@ -1,5 +1,7 @@
 //! A picture of a mesh: shaded from both sides, its pieces coloured, its seams and its boundary drawn over.
 
+use std::io::{self, Write};
+
 use tearmesh::geometry::max_abs;
 use tearmesh::{FaceId, Mesh, Place, Point, Scissor, Vector};
 
@@ -79,6 +81,59 @@ pub fn render(
     in_bands(mesh, place, camera, size, options, BAND)
 }
 
+fn figure(mesh: &Mesh, place: &(impl Place + ?Sized), options: &RenderOptions) -> Figure {
+    let crease = crease_cosine(options.crease_deg);
+    let mut figure = Figure::new(mesh, place, crease, &options.texture, options.edges);
+    if options.fringe {
+        figure.fringe(mesh, place);
+    }
+    match options.finer {
+        0 | 1 => figure,
+        n => figure.finer(n),
+    }
+}
+
+/// Writes the surface that [`render`] draws as OBJ, for another renderer: with the normals of its points, drawn
+/// finer if that was wanted, and with the threads of the fringe as lines of the group `fringe`. A vertex stands
+/// there once for each normal and each texture coordinate that it has, and nothing says what is torn.
+///
+/// # Errors
+///
+/// Any I/O error of `out`.
+///
+/// # Panics
+///
+/// If a vertex of the mesh is unknown to `place`.
+pub fn write_drawn(
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    options: &RenderOptions,
+    mut out: impl Write,
+) -> io::Result<()> {
+    let figure = figure(mesh, place, options);
+    let corner = |at| match (at + 1, figure.texture.is_empty()) {
+        (at, true) => format!("{at}//{at}"),
+        (at, false) => format!("{at}/{at}/{at}"),
+    };
+    for p in &figure.points {
+        writeln!(out, "v {} {} {}", p.x, p.y, p.z)?;
+    }
+    for [u, v] in &figure.texture {
+        writeln!(out, "vt {u} {v}")?;
+    }
+    for n in &figure.normals {
+        writeln!(out, "vn {} {} {}", n.x, n.y, n.z)?;
+    }
+    for corners in &figure.faces {
+        writeln!(out, "f {}", corners.map(corner).join(" "))?;
+    }
+    writeln!(out, "g fringe")?;
+    for (_, [from, to]) in figure.lines.iter().filter(|line| line.0 == Kind::Thread) {
+        writeln!(out, "l {} {}", from + 1, to + 1)?;
+    }
+    Ok(())
+}
+
 /// Draws about so many lines of sight at a time.
 fn in_bands(
     mesh: &Mesh,
@@ -88,14 +143,7 @@ fn in_bands(
     options: &RenderOptions,
     band: usize,
 ) -> Picture {
-    let crease = crease_cosine(options.crease_deg);
-    let mut figure = Figure::new(mesh, place, crease, &options.texture, options.edges);
-    if options.fringe {
-        figure.fringe(mesh, place);
-    }
-    if options.finer > 1 {
-        figure = figure.finer(options.finer);
-    }
+    let figure = figure(mesh, place, options);
     let view = View::new(figure.points.iter().copied(), camera, size, SIDE);
     let scene = Scene {
         view: &view,

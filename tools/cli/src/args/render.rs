@@ -91,6 +91,13 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     pub(crate) fringe: bool,
 
+    /// Also write the surface as it is drawn, for another renderer.
+    ///
+    /// It has normals, the faces of --finer, and the threads of --fringe as lines of the group `fringe`, but no
+    /// record of its tears: cut and mend the file that was read.
+    #[arg(long, value_name = "F.obj", conflicts_with = "strip")]
+    pub(crate) obj: Option<PathBuf>,
+
     /// Play a scene, and draw N moments of it beside each other, from the first tear to the end.
     ///
     /// Each moment has the width and height of --size.
