@@ -175,19 +175,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_half_edge_knows_its_face_and_its_neighbours_in_it() {
-        for f in 0..5 {
-            let [a, b, c] = FaceId(f).half_edges();
-            for (h, next, prev, corner) in [(a, b, c, 0), (b, c, a, 1), (c, a, b, 2)] {
-                assert_eq!(
-                    (h.face(), h.next(), h.prev(), h.corner()),
-                    (FaceId(f), next, prev, corner)
-                );
-            }
-        }
-    }
-
-    #[test]
     fn ids_end_before_the_value_that_stands_for_none() {
         assert_eq!(VertexId::new(VertexId::LIMIT), None);
         assert_eq!(VertexId::new(7).map(VertexId::index), Some(7));

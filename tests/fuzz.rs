@@ -1,21 +1,16 @@
 //! Replays what the fuzz targets of the library start from, and what they found.
 
 use std::panic::catch_unwind;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use tearmesh::script::Script;
 
 use crate::cases::cases;
 use crate::cut_mend;
+use crate::inputs::{inputs, seeds_and_finds};
 use crate::lockstep;
 use crate::random::Random;
 use crate::rays::{Case, Outcome};
-
-fn folder(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("fuzz")
-        .join(name)
-}
 
 #[test]
 fn seeds_of_the_target_are_these_scripts() {
@@ -27,38 +22,15 @@ fn seeds_of_the_target_are_these_scripts() {
     for (name, text) in seeds {
         let script: Script = text.parse().expect(name);
         lockstep::check(&script);
-        let bytes = std::fs::read(folder("seeds/script").join(name)).expect("a seed");
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/seeds/script");
+        let bytes = std::fs::read(path.join(name)).expect("a seed");
         assert_eq!(Script::from_bytes(&bytes), script, "{name}");
     }
 }
 
-/// The inputs in a folder, which need not be there.
-fn inputs(name: &str) -> Vec<Vec<u8>> {
-    let Ok(folder) = folder(name).read_dir() else {
-        return Vec::new();
-    };
-    let mut paths: Vec<PathBuf> = folder
-        .map(|entry| entry.expect("a readable folder").path())
-        .collect();
-    paths.sort();
-    let read = |path: &PathBuf| {
-        println!("{}", path.display());
-        std::fs::read(path).expect("a readable file")
-    };
-    paths.iter().map(read).collect()
-}
-
-/// What the seeds and the finds of a target are.
-fn seeds_and_finds(target: &str) -> impl Iterator<Item = Vec<u8>> {
-    ["seeds", "regressions"]
-        .map(|kind| inputs(&format!("{kind}/{target}")))
-        .into_iter()
-        .flatten()
-}
-
 #[test]
 fn scripts_that_fuzzing_found_agree_with_the_oracle() {
-    for bytes in inputs("regressions/script") {
+    for bytes in inputs("regressions", "script") {
         let script = Script::from_bytes(&bytes);
         println!("{script}");
         lockstep::check(&script);

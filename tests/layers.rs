@@ -1,18 +1,18 @@
 //! Cuts through the layers that the rays meet first, against chains that are found by brute force.
 //!
-//! The oracle knows triangles and numbers: it cuts each triangle with plane and strip, joins those that
-//! share an edge which is crossed between the rays, and asks each triangle where a ray hits it.
+//! The oracle knows triangles and numbers: it takes what plane and strip have in common with each triangle from
+//! the oracle of straight cuts, joins those that share an edge which is crossed between the rays, and asks each
+//! triangle where a ray hits it.
 
 mod methods;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
-use tearmesh::{
-    CutLayers, CutMethod, Edit, Mesh, Plane, Point, Positions, Ray, Scissor, Vector, shapes,
-};
+use tearmesh::{CutLayers, CutMethod, Edit, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 
 use crate::oracle::joined_sets;
+use crate::oracle::straight::{Cut, End, Surface, is_generic, length, minus, segments};
 use crate::random::Random;
 use crate::surfaces::{File, built, corpus};
 use crate::work::{Work, triangles};
@@ -20,13 +20,9 @@ use crate::work::{Work, triangles};
 /// How near a special case a cut may be, in edges, for the oracle to judge it.
 const NEAR: f64 = 1e-6;
 
-/// An end of a piece, and the edge (as sorted vertices) on which it is; none at a ray.
-type End = (Point, Option<[u32; 2]>);
-
 /// What plane and strip have in common with the triangles of a mesh.
 struct Oracle {
-    triangles: Vec<[u32; 3]>,
-    points: Vec<Point>,
+    surface: Surface,
     near: f64,
     /// For each crossed face the ends of what lies between the rays.
     pieces: BTreeMap<usize, [End; 2]>,
@@ -38,70 +34,19 @@ struct Oracle {
 struct Special;
 
 impl Oracle {
-    fn new(work: &Work, plane: &Plane, sides: &[Plane]) -> Result<Oracle, Special> {
-        let (mesh, points) = (&work.mesh, work.positions.as_slice());
-        let ends = |h| [mesh.target(h), mesh.origin(h)].map(|v| points[v.index()]);
-        let lengths = mesh.edges().map(|h| (ends(h)[1] - ends(h)[0]).norm());
-        let mean_edge = lengths.sum::<f64>() / mesh.edges().count() as f64;
-        let mut oracle = Oracle {
-            triangles: triangles(mesh).to_vec(),
-            points: points.to_vec(),
-            near: NEAR * mean_edge,
-            pieces: BTreeMap::new(),
-            chain: BTreeMap::new(),
-        };
-        for f in 0..oracle.triangles.len() {
-            if let Some(piece) = oracle.piece(f, plane, sides)? {
-                oracle.pieces.insert(f, piece);
-            }
+    fn new(work: &Work, cut: &Cut) -> Result<Oracle, Special> {
+        let surface = work.surface();
+        if !is_generic(&surface, cut) {
+            return Err(Special);
         }
+        let mut oracle = Oracle {
+            near: NEAR * surface.mean_edge(),
+            pieces: segments(&surface, cut),
+            chain: BTreeMap::new(),
+            surface,
+        };
         oracle.join();
         Ok(oracle)
-    }
-
-    fn far(&self, p: Point, plane: &Plane) -> Result<f64, Special> {
-        let distance = plane.distance(p);
-        let is_far = distance.abs() >= self.near;
-        is_far.then_some(distance).ok_or(Special)
-    }
-
-    /// What plane and strip have in common with a triangle.
-    fn piece(&self, f: usize, plane: &Plane, sides: &[Plane]) -> Result<Option<[End; 2]>, Special> {
-        let triangle = self.triangles[f];
-        let mut ends = Vec::new();
-        for i in 0..3 {
-            let mut edge = [triangle[i], triangle[(i + 1) % 3]];
-            let [p, q] = edge.map(|v| self.points[v as usize]);
-            let (d, e) = (self.far(p, plane)?, self.far(q, plane)?);
-            if (d < 0.0) != (e < 0.0) {
-                edge.sort_unstable();
-                ends.push((p + (q - p) * (d / (d - e)), Some(edge)));
-            }
-        }
-        let [mut p, mut q] = match ends[..] {
-            [] => return Ok(None),
-            [p, q] => [p, q],
-            _ => panic!("a plane crosses two edges of a triangle or none"),
-        };
-        for side in sides {
-            let (d, e) = (self.far(p.0, side)?, self.far(q.0, side)?);
-            let tip = p.0 + (q.0 - p.0) * (d / (d - e));
-            if d < 0.0 && e < 0.0 {
-                return Ok(None);
-            } else if d < 0.0 {
-                p = (tip, None);
-            } else if e < 0.0 {
-                q = (tip, None);
-            }
-            // The next side plane must not take a tip of this one for its own.
-            for other in sides.iter().filter(|other| *other != side) {
-                self.far(tip, other)?;
-            }
-        }
-        // Two strips of one face may lie outside each other: then the face has no part.
-        let middle = p.0 + (q.0 - p.0) * 0.5;
-        let is_inside = sides.iter().all(|side| side.distance(middle) > 0.0);
-        Ok(is_inside.then_some([p, q]))
     }
 
     /// Numbers the chains: pieces that share an edge have one number.
@@ -112,7 +57,7 @@ impl Oracle {
             let edges = ends.iter().filter_map(|end| end.1);
             joined.extend(edges.map(|edge| [f, *first.entry(edge).or_insert(f)]));
         }
-        let chain = joined_sets(self.triangles.len(), &joined);
+        let chain = joined_sets(self.surface.faces.len(), &joined);
         self.chain = self.pieces.keys().map(|&f| (f, chain[f])).collect();
     }
 
@@ -120,8 +65,8 @@ impl Oracle {
     fn hit(&self, ray: &Ray) -> Result<Option<usize>, Special> {
         let mut hits: Vec<(f64, usize)> = Vec::new();
         let along = ray.direction().normalize();
-        for (f, triangle) in self.triangles.iter().enumerate() {
-            let [a, b, c] = triangle.map(|v| self.points[v as usize]);
+        for (f, triangle) in self.surface.faces.iter().enumerate() {
+            let [a, b, c] = triangle.map(|v| Point::from(self.surface.points[v as usize]));
             let normal = (b - a).cross(&(c - a));
             let upright = normal.dot(&along);
             if upright.abs() <= 1e-12 * normal.norm() {
@@ -167,7 +112,7 @@ impl Oracle {
         };
         let ends = self.pieces.iter().flat_map(|(f, ends)| {
             let chain = self.chain[f];
-            ends.iter().map(move |end| (end.0, chain))
+            ends.iter().map(move |end| (Point::from(end.0), chain))
         });
         let mut ends: Vec<(f64, usize)> = ends.map(|(p, chain)| (far(p), chain)).collect();
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -180,6 +125,12 @@ impl Oracle {
             _ => Ok((first.map(|end| end.1), false)),
         }
     }
+}
+
+/// The cut of two rays, for the oracle.
+fn cut_of(rays: &[Ray; 2]) -> Cut {
+    let plain = |ray: &Ray| (ray.origin().into(), ray.direction().into());
+    Cut::between(rays.each_ref().map(plain))
 }
 
 /// What two rays are to cut of a mesh.
@@ -196,8 +147,7 @@ impl Choice {
     /// None if the rays are one line, or come too near to a special case.
     fn of(work: &Work, rays: [Ray; 2]) -> Option<Choice> {
         let scissor = Scissor::new(rays[0], rays[1]).ok()?;
-        let sides = scissor.sides().expect("there are rays");
-        let oracle = Oracle::new(work, &scissor.plane(), &sides).ok()?;
+        let oracle = Oracle::new(work, &cut_of(&rays)).ok()?;
         let [a, b] = rays;
         let [one, other] = [oracle.first(&a, &b).ok()?, oracle.first(&b, &a).ok()?];
         let chains = [one.0, other.0];
@@ -232,7 +182,7 @@ impl Counts {
             return;
         };
         let Choice { oracle, kept, .. } = &choice;
-        let length_of = |f: &usize| (oracle.pieces[f][1].0 - oracle.pieces[f][0].0).norm();
+        let length_of = |f: &usize| length(minus(oracle.pieces[f][1].0, oracle.pieces[f][0].0));
         let length: f64 = kept.iter().map(length_of).sum();
         let scissor = choice.scissor.clone().snap(0.0);
         let scissor = scissor.layers(CutLayers::First);

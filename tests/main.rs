@@ -22,6 +22,8 @@ mod fuzz;
 mod geometry;
 mod house;
 mod hub;
+#[path = "support/inputs.rs"]
+mod inputs;
 mod insert;
 mod layers;
 mod lockstep;

@@ -132,7 +132,7 @@ fn a_chosen_sheet_of_a_stack_is_torn_as_if_it_were_alone() {
         let is_whole = |f: &usize| kept.contains(f) || !sheets.contains(&(f / faces));
         // The plane may meet a sheet in several lines, and where there is a vertex between the rays beside
         // one that passes outside, through all layers it would be split too.
-        let Ok(lines) = Oracle::new(&work, &scissor.plane(), &[]) else {
+        let Ok(lines) = Oracle::new(&work, &cut_of(&rays).through()) else {
             continue;
         };
         let is_one_line = |sheet: &usize| {

@@ -32,10 +32,8 @@ pub(super) fn is_refused_where_it_should(
     match outcome {
         Err(MergeRefusal::Weights { given }) => {
             assert_eq!(given, weights);
-            assert!(
-                weights.iter().any(|&weight| weight < 0.0),
-                "{weights:?} are weights"
-            );
+            let has_negative = weights.iter().any(|&weight| weight < 0.0);
+            assert!(has_negative, "{weights:?} are weights");
         }
         Err(refusal) => {
             let refused = match refusal {
@@ -54,21 +52,11 @@ pub(super) fn is_refused_where_it_should(
 /// The share is that of the vertex that stays, whichever was named first.
 pub(super) fn has_the_weights(edit: &Edit<'_>, one: VertexId, weights: [f64; 2]) {
     let merge = merge_of(edit);
-    let [kept, gone] = if merge.kept == one {
-        weights
-    } else {
-        [weights[1], weights[0]]
-    };
-    let share = if kept + gone == 0.0 {
-        0.5
-    } else {
-        kept / (kept + gone)
-    };
-    assert!(
-        (merge.share - share).abs() < 1e-15,
-        "{} instead of {share}",
-        merge.share
-    );
+    let kept = weights[usize::from(merge.kept != one)];
+    let sum = weights[0] + weights[1];
+    let share = if sum == 0.0 { 0.5 } else { kept / sum };
+    let is = merge.share;
+    assert!((is - share).abs() < 1e-15, "{is} instead of {share}");
 }
 
 /// Makes the merge of a record again; it must come out the same.
@@ -97,37 +85,22 @@ pub(super) fn changes_nothing_else(before: &Mesh, after: &Mesh, edit: &Edit<'_>)
     } = merge_of(edit);
     assert!(kept < gone, "the lower id stays");
     let last = before.vertex_count() - 1;
-    assert_eq!(after.vertex_count(), last, "one vertex less");
-    assert_eq!(
-        after.face_count(),
-        before.face_count(),
-        "no face more or less"
-    );
+    let counts = (after.vertex_count(), after.face_count());
+    assert_eq!(counts, (last, before.face_count()), "one vertex less");
     let sorted = |corners: &[HalfEdgeId]| {
         let mut corners = corners.to_vec();
         corners.sort();
         corners
     };
     let of = |v: VertexId| -> Vec<HalfEdgeId> {
-        before
-            .half_edges()
-            .filter(|&h| before.origin(h) == v)
-            .collect()
+        let is_of = |h: &HalfEdgeId| before.origin(*h) == v;
+        before.half_edges().filter(is_of).collect()
     };
     assert_eq!(sorted(corners), of(gone), "the corners of {gone}");
-    assert_eq!(
-        renumbered.is_some(),
-        gone.index() != last,
-        "whether the last is renumbered"
-    );
+    assert!(renumbered.is_some() == (gone.index() != last), "the last");
     if let Some(it) = renumbered {
         assert_eq!((it.from.index(), it.to), (last, gone));
-        assert_eq!(
-            sorted(it.corners),
-            of(it.from),
-            "the corners of {}",
-            it.from
-        );
+        assert_eq!(sorted(it.corners), of(it.from), "corners of the last");
     }
     for h in before.half_edges() {
         let origin = match before.origin(h) {
@@ -155,17 +128,11 @@ pub(super) fn undoes_the_last_split(before: &Mesh, after: &Mesh, split: &Split<'
     let (old, new) = (split.old, split.new);
     let merge = mend::merge(&mut mesh, new, old, [1.0, 3.0], &mut edits).expect("just split");
     assert_eq!(merge.corners.len(), split.corners.len());
-    assert!(
-        split.corners.iter().all(|h| merge.corners.contains(h)),
-        "the corners go back"
-    );
-    let sewn = |link| merge.sewn.contains(link);
-    assert!(
-        merge.sewn.len() == split.torn.len() && split.torn.iter().all(sewn),
-        "what was torn is sewn: {:?}, {:?}",
-        split.torn,
-        merge.sewn
-    );
+    let goes_back = |h| merge.corners.contains(h);
+    assert!(split.corners.iter().all(goes_back), "the corners go back");
+    let (torn, sewn) = (split.torn, merge.sewn);
+    let is_sewn = torn.len() == sewn.len() && torn.iter().all(|link| sewn.contains(link));
+    assert!(is_sewn, "what was torn is sewn: {torn:?}, {sewn:?}");
     assert_eq!((merge.kept, merge.renumbered), (old, None));
     assert_eq!(mesh, *before, "a merge undoes the split");
 }
@@ -179,11 +146,8 @@ pub(super) fn copies_are_sewn(before: &Mesh, after: &Mesh, stitches: &[Stitch]) 
         let is_copy = |&(v, &root): &(usize, &u32)| root as usize != v;
         roots.iter().enumerate().filter(is_copy).count()
     };
-    assert_eq!(
-        copies(after) + stitches.len(),
-        copies(before),
-        "copies that are left"
-    );
+    let left = copies(before) - stitches.len();
+    assert_eq!(copies(after), left, "copies that are left");
     if copies(after) == 0 {
         let torn = after.half_edges().find(|&h| after.ghost_pair(h).is_some());
         assert_eq!(torn, None, "nothing is torn where there are no copies");

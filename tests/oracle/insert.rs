@@ -160,16 +160,11 @@ impl Soup {
         let before = self.clone();
         let (places, vertices) = self.place(spots);
         let divided = self.divided(spots, &vertices);
-        let families: Vec<&[Child]> = children
-            .chunk_by(|one, next| one.parent == next.parent)
-            .collect();
-        assert!(
-            families
-                .iter()
-                .map(|family| family[0].parent)
-                .eq(divided.keys().copied()),
-            "each face with a point is divided, in ascending order"
-        );
+        let families = children.chunk_by(|one, next| one.parent == next.parent);
+        let families: Vec<&[Child]> = families.collect();
+        let parents = families.iter().map(|family| family[0].parent);
+        let is_right = parents.eq(divided.keys().copied());
+        assert!(is_right, "each face with a point is divided, in order");
         for (family, face) in families.iter().zip(divided.values()) {
             self.check_family(family, face);
             let chord = chord.filter(|&(f, _)| f == family[0].parent);
@@ -296,41 +291,27 @@ impl Soup {
         let mut sides = Vec::new();
         let mut total = 0.0;
         for (i, child) in family.iter().enumerate() {
-            assert_eq!(
-                child.face == child.parent,
-                i == 0,
-                "the first child has the id"
-            );
+            let is_first = i == 0;
+            assert_eq!(child.face == child.parent, is_first, "the first has the id");
             let nodes = child.vertices.map(|v| node(face, v).at);
             for (weights, at) in child.weights.iter().zip(nodes) {
-                for (a, b) in weights.iter().zip(at) {
-                    assert!(
-                        (a - b).abs() < ROUNDING,
-                        "{child:?}: a source is not at {at:?}"
-                    );
-                }
+                let is_there = weights
+                    .iter()
+                    .zip(at)
+                    .all(|(a, b)| (a - b).abs() < ROUNDING);
+                assert!(is_there, "{child:?}: a source is not at {at:?}");
             }
             let area = determinant(nodes);
-            assert!(
-                area > 0.0,
-                "{child:?} has no area, or lies the wrong way round"
-            );
-            assert!(
-                (child.share - area).abs() < ROUNDING,
-                "{child:?} covers {area}"
-            );
+            assert!(area > 0.0, "{child:?} has no area, or the wrong way round");
+            let off = (child.share - area).abs();
+            assert!(off < ROUNDING, "{child:?} covers {area}");
             total += area;
             sides.extend((0..3).map(|i| side(child.vertices, i)));
         }
-        assert!(
-            (total - 1.0).abs() < ROUNDING,
-            "the children cover {total} of their parent"
-        );
+        assert!((total - 1.0).abs() < ROUNDING, "{total} is covered");
         sides.sort();
-        assert!(
-            sides.windows(2).all(|two| two[0] != two[1]),
-            "a side occurs once"
-        );
+        let is_once = sides.windows(2).all(|two| two[0] != two[1]);
+        assert!(is_once, "a side occurs once");
         let n = face.ring.len();
         let outline: Vec<[u32; 2]> = (0..n)
             .map(|i| [face.ring[i].vertex, face.ring[(i + 1) % n].vertex])
@@ -339,11 +320,8 @@ impl Soup {
             assert!(sides.contains(ends), "{ends:?} is part of the outline");
         }
         for &ends in &sides {
-            let is_inner = sides.contains(&reversed(ends));
-            assert!(
-                is_inner != outline.contains(&ends),
-                "{ends:?} is on the outline or between two children"
-            );
+            let [is_inner, is_outer] = [sides.contains(&reversed(ends)), outline.contains(&ends)];
+            assert!(is_inner != is_outer, "{ends:?} is outside or between two");
         }
     }
 
@@ -363,11 +341,7 @@ impl Soup {
         let mut classes = self.whole.as_flattened().to_vec();
         classes.sort();
         classes.dedup();
-        assert_eq!(
-            fans.len(),
-            classes.len(),
-            "one fan for each vertex of the whole"
-        );
+        assert_eq!(fans.len(), classes.len(), "one fan for each vertex");
 
         let mut parent: Vec<usize> = (0..self.faces.len()).collect();
         for child in children {
@@ -379,27 +353,20 @@ impl Soup {
         };
         let mut parts = BTreeMap::<[usize; 2], Vec<bool>>::new();
         for link in &self.links {
-            parts
-                .entry(between(link))
-                .or_default()
-                .push(self.is_torn(*link));
+            let parts = parts.entry(between(link)).or_default();
+            parts.push(self.is_torn(*link));
         }
         for link in &before.links {
             let torn = before.is_torn(*link);
             let on_it =
                 |spot: &&Spot| matches!(spot, Spot::Side { side, .. } if link.contains(side));
             let count = 1 + spots.iter().filter(on_it).count();
-            assert_eq!(
-                parts.remove(&between(link)),
-                Some(vec![torn; count]),
-                "the parts of {link:?} are as that was"
-            );
+            let parts = parts.remove(&between(link));
+            assert_eq!(parts, Some(vec![torn; count]), "the parts of {link:?}");
         }
         for ([f, g], torn) in parts {
-            assert!(
-                f == g && !torn.contains(&true),
-                "{f} and {g} were never joined"
-            );
+            let is_inner = f == g && !torn.contains(&true);
+            assert!(is_inner, "{f} and {g} were never joined");
         }
     }
 
@@ -420,10 +387,8 @@ impl Soup {
             let own = least + until - given;
             given = until;
             let off = own as f64 - units as f64 * child.share;
-            assert!(
-                off.abs() <= 3.0 * count as f64 + 4.0,
-                "{child:?} weighs {own} of {units}"
-            );
+            let most = 3.0 * count as f64 + 4.0;
+            assert!(off.abs() <= most, "{child:?} weighs {own} of {units}");
             let mass = [own / 3, (own + 1) / 3, own.div_ceil(3)];
             if i == 0 {
                 self.corner_mass[parent] = mass;
@@ -431,10 +396,7 @@ impl Soup {
                 self.corner_mass.push(mass);
             }
         }
-        assert_eq!(
-            given, shared,
-            "the children weigh what their parent weighed"
-        );
+        assert_eq!(given, shared, "children weigh what their parent did");
     }
 }
 
@@ -459,13 +421,8 @@ fn check_shape(family: &[Child], face: &Divided, chord: Option<[u32; 2]>) {
             let ring: Vec<[f64; 3]> = face.ring.iter().map(|node| node.at).collect();
             let mut largest = largest_minimum(&ring);
             if let Some(ends) = chord {
-                let sides = family
-                    .iter()
-                    .flat_map(|child| [0, 1, 2].map(|i| side(child.vertices, i)));
-                assert!(
-                    sides.into_iter().any(|side| side == ends),
-                    "{ends:?} is an edge"
-                );
+                let has_it = |child: &Child| (0..3).any(|i| side(child.vertices, i) == ends);
+                assert!(family.iter().any(has_it), "{ends:?} is an edge");
                 let place = |v| face.ring.iter().position(|node| node.vertex == v);
                 let [one, other] = ends.map(|v| place(v).expect("on the outline"));
                 let (one, other) = (one.min(other), one.max(other));
@@ -473,17 +430,13 @@ fn check_shape(family: &[Child], face: &Divided, chord: Option<[u32; 2]>) {
                 largest = largest_minimum(&ring[one..=other]).min(largest_minimum(&far));
             }
             let smallest = family.iter().map(|child| child.share).fold(1.0, f64::min);
-            assert!(
-                smallest >= largest - ROUNDING,
-                "{smallest} could be {largest}: {family:?}"
-            );
+            let is_largest = smallest >= largest - ROUNDING;
+            assert!(is_largest, "{smallest} could be {largest}: {family:?}");
         }
-        [centre] => assert!(
-            family
-                .iter()
-                .all(|child| child.vertices.contains(&centre.vertex)),
-            "a single point is joined to everything: {family:?}"
-        ),
+        [centre] => {
+            let has_it = |child: &Child| child.vertices.contains(&centre.vertex);
+            assert!(family.iter().all(has_it), "not joined: {family:?}");
+        }
         _ => {}
     }
 }

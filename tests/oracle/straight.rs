@@ -28,7 +28,7 @@ use std::fmt;
 
 use super::joined_sets;
 use expected::Expected;
-pub(crate) use expected::is_generic;
+pub(crate) use expected::{End, is_generic, segments};
 pub(crate) use surface::{Cut, Surface, cross, dot, length, minus, on_the_way};
 use surface::{bits, place};
 

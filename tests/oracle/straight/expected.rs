@@ -106,6 +106,25 @@ impl Expected {
     }
 }
 
+/// An end of what a face has in common with plane and strip, and the edge (as sorted vertices) on which it is;
+/// none at a side plane.
+pub(crate) type End = ([f64; 3], Option<[u32; 2]>);
+
+/// What each face that is crossed between the side planes has in common with plane and strip.
+pub(crate) fn segments(before: &Surface, cut: &Cut) -> BTreeMap<usize, [End; 2]> {
+    let of = |(f, face): (usize, &[u32; 3])| {
+        let slit = Slit::of(before, cut, face)?;
+        let (from, to) = slit.inside?;
+        let [(one, p), (other, q)] = slit.ends;
+        let end = |t: f64, (a, b): (u32, u32), at| match t == 0.0 || t == 1.0 {
+            true => (at, Some([a.min(b), a.max(b)])),
+            false => (on_the_way(p, q, t), None),
+        };
+        Some((f, [end(from, one, p), end(to, other, q)]))
+    };
+    before.faces.iter().enumerate().filter_map(of).collect()
+}
+
 /// Where the plane crosses a face.
 struct Slit {
     /// The edges where it enters and leaves, directed as in the face, and the points there.

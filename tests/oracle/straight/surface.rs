@@ -3,6 +3,10 @@
 use std::collections::BTreeMap;
 
 use crate::oracle::joined_sets;
+pub(crate) use vectors::{cross, dot, length, minus};
+
+#[path = "../../support/vectors.rs"]
+mod vectors;
 
 /// Triangles. What hangs together shares numbers of vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -179,26 +183,6 @@ impl Surface {
         };
         rims.iter().map(fans).collect()
     }
-}
-
-pub(crate) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(crate) fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 /// The point at `t` of the way from `p` to `q`.

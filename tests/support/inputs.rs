@@ -1,0 +1,29 @@
+//! What fuzz targets start from, and what they found.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The inputs of a target in `fuzz/seeds` or `fuzz/regressions`, in the order of their names; each is printed.
+pub(crate) fn inputs(kind: &str, target: &str) -> Vec<Vec<u8>> {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let fuzz = ["fuzz", "../../fuzz"].map(|fuzz| package.join(fuzz));
+    let fuzz = fuzz.into_iter().find(|fuzz| fuzz.is_dir());
+    let Ok(folder) = fuzz.expect("the folder").join(kind).join(target).read_dir() else {
+        assert_eq!(kind, "regressions", "{target} has seeds");
+        return Vec::new();
+    };
+    let paths = folder.map(|entry| entry.expect("a readable folder").path());
+    let mut paths: Vec<_> = paths.collect();
+    paths.sort();
+    let read = |path: &PathBuf| {
+        println!("{}", path.display());
+        fs::read(path).expect("a readable file")
+    };
+    paths.iter().map(read).collect()
+}
+
+/// What the seeds and the finds of a target are.
+pub(crate) fn seeds_and_finds(target: &str) -> impl Iterator<Item = Vec<u8>> {
+    let both = ["seeds", "regressions"].map(|kind| inputs(kind, target));
+    both.into_iter().flatten()
+}
