@@ -3,23 +3,12 @@
 
 use super::random::Random;
 use super::triangulate::{polygon, triangles};
+use super::vectors::{cross, dot, minus};
 
 type Place = [f64; 3];
 
 /// A face whose altitude is a smaller part of its longest side has no area to speak of.
 const THIN: f64 = 1e-3;
-
-fn minus(a: Place, b: Place) -> Place {
-    [0, 1, 2].map(|i| a[i] - b[i])
-}
-
-fn dot(a: Place, b: Place) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn cross(a: Place, b: Place) -> Place {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| a[i] * b[j] - a[j] * b[i])
-}
 
 /// The least altitude of a triangle, as a part of its longest side; negative if it faces away.
 fn altitude([a, b, c]: [Place; 3], normal: Place) -> f64 {

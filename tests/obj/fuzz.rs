@@ -1,46 +1,19 @@
 //! What fuzzing found, and the seeds it started from, replayed.
 
-use std::fs;
-use std::path::Path;
-
 use crate::differential::{self, Outcome};
+use crate::inputs::seeds_and_finds;
 use crate::random::Random;
 use crate::same_bytes;
 
-/// The seeds and the regressions of a fuzz target.
-fn inputs(target: &str) -> Vec<Vec<u8>> {
-    let fuzz = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz");
-    let mut inputs = Vec::new();
-    for folder in ["seeds", "regressions"] {
-        let Ok(entries) = fs::read_dir(fuzz.join(folder).join(target)) else {
-            assert_eq!(folder, "regressions", "{target} has seeds");
-            continue;
-        };
-        for entry in entries {
-            let path = entry.expect("an entry").path();
-            println!("{}", path.display());
-            inputs.push(fs::read(path).expect("an input"));
-        }
-    }
-    inputs
-}
-
 #[test]
 fn seeds_and_regressions_survive() {
-    let inputs = inputs("obj_read");
-    assert!(
-        inputs
-            .iter()
-            .filter(|bytes| same_bytes::check_file(bytes, &[]))
-            .count()
-            >= 5
-    );
+    let meshes = seeds_and_finds("obj_read").filter(|bytes| same_bytes::check_file(bytes, &[]));
+    assert!(meshes.count() >= 5);
 }
 
 #[test]
 fn torn_seeds_and_regressions_survive() {
-    let inputs = inputs("obj_roundtrip");
-    let meshes = inputs.iter().filter(|bytes| same_bytes::check(bytes));
+    let meshes = seeds_and_finds("obj_roundtrip").filter(|bytes| same_bytes::check(bytes));
     assert!(meshes.count() >= 4);
 }
 
@@ -50,7 +23,7 @@ fn torn_seeds_and_regressions_survive() {
 fn seeds_survive_random_deeds() {
     let mut random = Random(4);
     let mut meshes = 0;
-    for bytes in inputs("obj_roundtrip") {
+    for bytes in seeds_and_finds("obj_roundtrip") {
         let file = bytes.split(|&byte| byte == 0).next().expect("a file");
         for round in 0..150 {
             let mut lines: Vec<&[u8]> = file.split_inclusive(|&byte| byte == b'\n').collect();
@@ -69,10 +42,8 @@ fn seeds_survive_random_deeds() {
 
 #[test]
 fn obj_rs_reads_the_seeds_as_we_do() {
-    let outcomes: Vec<_> = inputs("obj_differential")
-        .iter()
-        .map(|bytes| differential::check(bytes))
-        .collect();
+    let inputs = seeds_and_finds("obj_differential");
+    let outcomes: Vec<_> = inputs.map(|bytes| differential::check(&bytes)).collect();
     let count = |wanted| outcomes.iter().filter(|&&one| one == wanted).count();
     assert!(count(Outcome::Same) >= 4, "{outcomes:?}");
     assert!(count(Outcome::Refused) >= 2, "{outcomes:?}");

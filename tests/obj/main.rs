@@ -15,6 +15,8 @@ mod differential;
 mod digest;
 mod edited;
 mod fuzz;
+#[path = "../support/inputs.rs"]
+mod inputs;
 mod memory;
 mod mesh;
 mod normals;
@@ -35,6 +37,8 @@ mod torn_damage;
 mod torn_record;
 mod triangulate;
 mod undone;
+#[path = "../support/vectors.rs"]
+mod vectors;
 mod work;
 
 use proptest::test_runner::Config;

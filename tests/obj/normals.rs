@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::random::Random;
+use super::vectors::length;
 use super::work::Work;
 use super::{read, text};
 
@@ -22,10 +23,6 @@ fn strip(random: &mut Random) -> String {
         file += &format!("f {a}//{a} {b}//{b} {c}//{c}\n");
     }
     file
-}
-
-fn length(normal: [f64; 3]) -> f64 {
-    normal.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The mean of normals: its direction by adding them up, its length by adding up lengths.

@@ -259,21 +259,3 @@ impl Hash {
         self.add(&vertex.to_le_bytes());
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_hash_is_fnv_1a() {
-        for (text, expected) in [
-            ("", 0xcbf2_9ce4_8422_2325),
-            ("a", 0xaf63_dc4c_8601_ec8c),
-            ("foobar", 0x8594_4171_f739_67e8),
-        ] {
-            let mut hash = Hash::default();
-            hash.add(text.as_bytes());
-            assert_eq!(hash.0, expected);
-        }
-    }
-}

@@ -155,19 +155,3 @@ pub(super) fn quoted(bytes: &[u8]) -> String {
     }
     format!("`{text}`")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_place_of_a_fault_is_that_in_its_physical_line() {
-        let line = Line {
-            bytes: b"f 1 \\\n  \xc3\xa9\xff 2",
-            number: 7,
-        };
-        let (location, excerpt) = locate(&line, &(11..12));
-        assert_eq!(location, Location { line: 8, column: 5 });
-        assert_eq!((&excerpt.text[..], excerpt.length), ("  é\u{fffd} 2", 1));
-    }
-}

@@ -339,22 +339,4 @@ mod tests {
         }
         assert!(usual_count > 100_000, "{usual_count}");
     }
-
-    #[test]
-    fn a_token_ends_at_a_blank_a_comment_and_a_continuation() {
-        for (bytes, token) in [
-            (&b"ab"[..], &b"ab"[..]),
-            (b"ab c", b"ab"),
-            (b"ab#c", b"ab"),
-            (b"ab\\\nc", b"ab"),
-            (b"ab\\ \t\r\nc", b"ab"),
-            (b"ab\\", b"ab"),
-            (b"a\\b", b"a\\b"),
-            (b"a\\ b", b"a\\"),
-        ] {
-            let line = Line { bytes, number: 1 };
-            let shown = String::from_utf8_lossy(bytes);
-            assert_eq!(Scan::new(line).token(), token, "{shown:?}");
-        }
-    }
 }

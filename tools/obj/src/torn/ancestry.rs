@@ -216,33 +216,6 @@ impl Distances {
 mod tests {
     use super::*;
 
-    fn described(ancestry: &Ancestry) -> Vec<[u32; 3]> {
-        let all = ancestry.split_off(|v| v).into_iter();
-        all.map(|s| [s.vertex, s.from, s.cut]).collect()
-    }
-
-    #[test]
-    fn a_split_of_a_copy_is_told_from_one_of_the_first() {
-        let mut ancestry = Ancestry::new(1, &[]);
-        ancestry.split(0, 1); // 1
-        ancestry.split(1, 2); // 2, from 1
-        ancestry.split(0, 2); // 3, from 0
-        assert_eq!(described(&ancestry), [[1, 0, 1], [2, 1, 2], [3, 0, 2]]);
-        assert_eq!(ancestry.distances().apart_since(2, 3), 1);
-        assert_eq!(ancestry.distances().apart_since(2, 1), 2);
-    }
-
-    #[test]
-    fn a_merge_drops_the_oldest_link_of_two_ways() {
-        let mut ancestry = Ancestry::new(1, &[]);
-        ancestry.split(0, 1);
-        ancestry.split(1, 2);
-        ancestry.merge(0, 2); // 1 is apart from both: since 1 and since 2.
-        assert_eq!(described(&ancestry), [[1, 0, 2]]);
-        ancestry.merge(0, 1);
-        assert_eq!(described(&ancestry), [[0; 3]; 0]);
-    }
-
     /// Random trees: what is apart since when, against a table of all pairs.
     #[test]
     fn the_tree_is_the_table_of_all_pairs() {
