@@ -3,7 +3,6 @@
 
 use std::cell::Cell;
 use std::num::NonZero;
-use std::thread;
 
 use tearmesh::{Mesh, Positions};
 use tearmesh_cloth::scene::ensemble::{
@@ -48,34 +47,6 @@ impl Staged {
     }
 }
 
-/// The run of a seed at a part of the step.
-fn member(staged: &Staged, (step_divisor, seed): (NonZero<u32>, u64)) -> Member {
-    ensemble::member(staged.subject(), step_divisor, seed, &|| false)
-}
-
-#[test]
-fn a_member_is_the_same_in_any_order_and_on_any_thread() {
-    let staged = Staged::new(8, Scene::rip);
-    let jobs = [ONE, TWO].map(|divisor| [1, 2, 3].map(|seed| (divisor, seed)));
-    let jobs = jobs.as_flattened();
-    let members: Vec<Member> = jobs.iter().map(|&job| member(&staged, job)).collect();
-    let last_first = jobs.iter().rev().map(|&job| member(&staged, job));
-    assert!(last_first.eq(members.iter().rev().cloned()));
-    let of_threads = thread::scope(|scope| {
-        let staged = &staged;
-        let start = |&job| scope.spawn(move || member(staged, job));
-        let threads = [&jobs[0], &jobs[5]].map(start);
-        threads.map(|thread| thread.join().expect("no panic"))
-    });
-    assert_eq!(of_threads, [0, 5].map(|i| members[i].clone()));
-    for members in members.chunks(3) {
-        // A rip is chaotic, so no two seeds tear the same length.
-        assert!([0, 1, 2].iter().all(|&i| members[i].seed == i as u64 + 1));
-        let (torn_m, is_whole) = gathered(members.to_vec()).numbers(TORN);
-        assert!(is_whole && torn_m[0] != torn_m[1] && torn_m[1] != torn_m[2]);
-    }
-}
-
 fn gathered(members: Vec<Member>) -> Ensemble {
     Ensemble {
         step_divisor: ONE,
@@ -113,6 +84,8 @@ fn a_disturbance_shuffles_faces_and_moves_by_the_noise() {
     assert!((0.9 * NOISE_M..=NOISE_M).contains(&largest), "{largest}");
     let mean = parts.iter().sum::<f64>() / parts.len() as f64;
     assert!(mean.abs() < 0.2 * NOISE_M, "{mean}");
+    let other = Disturbance::new(&mesh, 6);
+    assert!(other.offsets_m != disturbance.offsets_m && other.mesh != disturbance.mesh);
 }
 
 /// The oracle of a member is a run that is disturbed and played here.
@@ -166,7 +139,7 @@ fn a_failed_run_and_one_of_a_refused_scene_are_members() {
     let failed = |change: &dyn Fn(&mut Scene)| {
         let mut staged = Staged::new(4, Scene::hang);
         change(&mut staged.scene);
-        let failed = member(&staged, (ONE, 1));
+        let failed = ensemble::member(staged.subject(), ONE, 1, &|| false);
         assert_eq!(failed.status, MemberStatus::Failed);
         failed
     };

@@ -11,26 +11,7 @@ use crate::parts::scenes::{methods, staged, torn_first};
 
 /// `rip` on a sheet of 10 × 10 cells, with the number of the step, and the edge with the largest load. All
 /// that would move them is a change of the fabric, of a step's length, or of what decides.
-const EXPECTED: &str = "\
-provot stretch: step 1057 of 1/1440 s, v82-v93
-provot toughness: step 1057 of 1/1440 s, v82-v93
-provot force: step 820 of 1/1440 s, v71-v82
-pbd stretch: step 146 of 1/240 s, v71-v82
-pbd toughness: step 146 of 1/240 s, v71-v82
-pbd force: step 156 of 1/240 s, v72-v60
-verlet stretch: step 1569 of 1/2160 s, v71-v82
-verlet toughness: step 1525 of 1/2160 s, v60-v70
-verlet force: step 1569 of 1/2160 s, v71-v82
-xpbd stretch: step 631 of 1/780 s, v60-v70
-xpbd toughness: step 603 of 1/780 s, v60-v70
-xpbd force: step 728 of 1/780 s, v60-v70
-implicit stretch: step 175 of 1/240 s, v71-v82
-implicit toughness: step 170 of 1/240 s, v60-v70
-implicit force: step 175 of 1/240 s, v71-v82
-xpbd by tens stretch: step 93 of 1/120 s, v60-v70
-xpbd by tens toughness: step 89 of 1/120 s, v60-v70
-xpbd by tens force: step 100 of 1/120 s, v71-v82
-";
+const EXPECTED: &str = include_str!("first_tears.txt");
 
 const TWO: NonZero<u32> = NonZero::<u32>::MIN.saturating_add(1);
 

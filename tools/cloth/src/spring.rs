@@ -143,6 +143,7 @@ pub(crate) fn ratios(colour: &mut Colour, positions: &[Point]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::Random;
 
     const COUNT: usize = 2 * TOGETHER + 5;
 
@@ -155,13 +156,8 @@ mod tests {
 
     impl Pairs {
         fn new() -> Pairs {
-            let mut state = 1_u64;
-            let mut random = || {
-                state = state
-                    .wrapping_mul(6_364_136_223_846_793_005)
-                    .wrapping_add(1);
-                (state >> 40) as f64 / (1_u64 << 24) as f64
-            };
+            let mut random = Random::new(1);
+            let mut random = || random.next();
             let mut point = || Point::new(random(), random(), random());
             let mut positions: Vec<Point> = (0..2 * COUNT).map(|_| point()).collect();
             positions[14] = positions[15];
