@@ -3,48 +3,15 @@
 use std::collections::BTreeSet;
 
 use crate::harness::Folder;
-
-/// The points and the polylines of a file of lines, with indices from 0.
-fn lines(text: &str) -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
-    let (mut points, mut lines) = (Vec::new(), Vec::new());
-    for line in text.lines() {
-        let (keyword, rest) = line.split_once(' ').expect("a statement");
-        let words = rest.split(' ');
-        match keyword {
-            "v" => {
-                let numbers: Vec<f64> = words.map(|x| x.parse().expect("a number")).collect();
-                points.push([numbers[0], numbers[1], numbers[2]]);
-            }
-            "l" => {
-                let indices = words.map(|i| i.parse::<usize>().expect("an index") - 1);
-                lines.push(indices.collect());
-            }
-            _ => assert_eq!(keyword, "o"),
-        }
-    }
-    (points, lines)
-}
+use crate::plain::Plain;
 
 /// Two sheets of squares, 1 and 0 high.
-fn two_sheets() -> String {
-    let mut text = String::new();
-    for z in [1, 0] {
-        for (x, y) in (0..5).flat_map(|x| (0..5).map(move |y| (x, y))) {
-            text += &format!("v {x}.03 {y} {z}\n");
-        }
-    }
-    for sheet in [0, 25] {
-        for v in (0..4).flat_map(|x| (1..5).map(move |y| sheet + 5 * x + y)) {
-            text += &format!("f {} {} {} {}\n", v, v + 5, v + 6, v + 1);
-        }
-    }
-    text
-}
+const SHEETS: &str = include_str!("sheets.obj");
 
 #[test]
 fn the_first_layers_alone_are_cut() {
     let folder = Folder::new();
-    folder.write("sheets.obj", two_sheets());
+    folder.write("sheets.obj", SHEETS);
     let cut = |rays: &str, more: &str| {
         let report = folder.report(&format!("cut sheets.obj --rays {rays} {more} -o cut.obj"));
         let text = folder.read("cut.obj");
@@ -77,21 +44,22 @@ fn the_first_layers_alone_are_cut() {
 #[test]
 fn the_seam_is_written_as_lines() {
     let folder = Folder::new();
-    folder.write("sheets.obj", two_sheets());
+    folder.write("sheets.obj", SHEETS);
     let line = "tearmesh cut sheets.obj --rays 0.5,1.4,9:0,0,-1 3.1,2.3,9:0,0,-1 \
                 --rays 2.2,-1,9:0,0,-1 2.4,9,9:0,0,-1 --seam seam.obj -o cut.obj";
     let report = folder.report(line);
     let text = folder.read("seam.obj");
     let begun = |begin| text.lines().filter(move |line| line.starts_with(begin));
     assert_eq!(begun("o ").count(), 2);
-    let (points, polylines) = lines(&text);
+    let seam = Plain::read(&text);
     // Two slits, and two cuts across that the slits divide.
-    assert_eq!(polylines.len(), 2 + 4);
+    assert_eq!(seam.lines.len(), 2 + 4);
     let length = |[a, b]: [usize; 2]| {
-        let off = [0, 1, 2].map(|i| points[b][i] - points[a][i]);
+        let off = [0, 1, 2].map(|i| seam.vertices[b][i] - seam.vertices[a][i]);
         off.iter().map(|x| x * x).sum::<f64>().sqrt()
     };
-    let edges = polylines
+    let edges = seam
+        .lines
         .iter()
         .flat_map(|line| line.windows(2).map(|two| [two[0], two[1]]));
     let sum: f64 = edges.map(length).sum();
@@ -111,7 +79,7 @@ fn the_seam_is_written_as_lines() {
     let faces = sides.map(|[a, b]| format!("f {a} {b} 5\nf {b} {a} 6\n"));
     folder.write("ball.obj", vertices.to_owned() + &faces.concat());
     assert_eq!(folder.report(ball)["cuts"][0]["pieces"], 2);
-    let (_, round) = lines(&folder.read("round.obj"));
+    let round = Plain::read(&folder.read("round.obj")).lines;
     assert_eq!((round.len(), round[0].first()), (1, round[0].last()));
 }
 

@@ -6,6 +6,7 @@ use tearmesh_cli::Exit;
 
 use crate::harness::{Folder, root};
 use crate::in_process::{Case, PATHS};
+use crate::inputs::inputs;
 
 /// The seeds, and how each ends.
 const SEEDS: [(&str, Exit); 15] = [
@@ -39,13 +40,8 @@ fn seeds_end_as_they_should() {
 
 #[test]
 fn finds_of_fuzzing_are_replayed() {
-    let Ok(entries) = fs::read_dir(root().join("fuzz/regressions/cut_cli")) else {
-        return; // Nothing was found so far.
-    };
-    for entry in entries {
-        let path = entry.expect("an entry").path();
-        println!("{}", path.display());
-        Case::from_bytes(&fs::read(path).expect("an input")).check();
+    for bytes in inputs("regressions", "cut_cli") {
+        Case::from_bytes(&bytes).check();
     }
 }
 

@@ -1,14 +1,14 @@
 //! `cut --gap`: lips stand apart, no face turns over, and nothing else changes. Files are read line by
 //! line here, by nothing of ours.
 
-use std::collections::BTreeMap;
-
 use serde_json::Value;
+use tearmesh::{Positions, shapes};
 use tearmesh_cli::Exit;
 
-use crate::harness::{Folder, in_memory};
-use crate::plain::Plain;
+use crate::harness::{Folder, file_of, in_memory};
+use crate::plain::{Plain, pieces};
 use crate::random::Random;
+use crate::vectors::{cross, dot, length, minus};
 
 /// A file as its lines have it: where each `v` says that it is, where the record says so, and faces.
 struct Apart {
@@ -43,49 +43,23 @@ impl Apart {
     /// How many pieces there are where points that are equal to eight digits are one, and faces that
     /// share an edge one piece: as trimesh loads a file.
     fn welded_pieces(&self) -> usize {
-        let key = |at: [f64; 3]| at.map(|x| (x * 1e8).round() as i64);
-        let mut edges: BTreeMap<[[i64; 3]; 2], Vec<usize>> = BTreeMap::new();
-        for (f, face) in self.faces.iter().enumerate() {
-            for i in 0..3 {
-                let mut ends = [face[i], face[(i + 1) % 3]].map(|v| key(self.shown[v]));
+        let key = |v: usize| self.shown[v].map(|x| (x * 1e8).round() as i64);
+        let sides = self.faces.iter().map(|face| {
+            let side = |i: usize| {
+                let mut ends = [face[i], face[(i + 1) % 3]].map(key);
                 ends.sort_unstable();
-                edges.entry(ends).or_default().push(f);
-            }
-        }
-        let mut piece: Vec<usize> = (0..self.faces.len()).collect();
-        fn root(piece: &mut [usize], mut f: usize) -> usize {
-            while piece[f] != f {
-                piece[f] = piece[piece[f]];
-                f = piece[f];
-            }
-            f
-        }
-        for faces in edges.values() {
-            for &f in &faces[1..] {
-                let [one, other] = [faces[0], f].map(|f| root(&mut piece, f));
-                piece[one] = other;
-            }
-        }
-        (0..piece.len()).filter(|&f| piece[f] == f).count()
+                ends
+            };
+            [0, 1, 2].map(side).to_vec()
+        });
+        let pieces = pieces(sides);
+        (0..pieces.len()).filter(|&f| pieces[f] == f).count()
     }
-}
-
-fn from(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| b[i] - a[i])
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 fn normal(face: &[usize], points: &[[f64; 3]]) -> [f64; 3] {
     let [a, b, c] = [0, 1, 2].map(|i| points[face[i]]);
-    let (u, v) = (from(a, b), from(a, c));
-    [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ]
+    cross(minus(b, a), minus(c, a))
 }
 
 /// What was checked.
@@ -120,7 +94,7 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
     );
     assert_eq!(report["cuts"], other["cuts"]);
     let count = |name: &str| report["gap"][name].as_u64().expect("a count");
-    let length = report["gap"]["length"].as_f64().expect("a length");
+    let apart = report["gap"]["length"].as_f64().expect("a length");
     tally.moved += count("vertices_moved");
     tally.clamped += count("vertices_clamped");
     assert_eq!(
@@ -141,16 +115,15 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
     );
     let pieces_moved = count("pieces_moved");
     let most = match pieces_moved {
-        0 => length / 2.0,
+        0 => apart / 2.0,
         // With their own lips, and those between others by more.
-        more => length * (more - 1) as f64,
+        more => apart * (more - 1) as f64,
     };
     let mut full = 0;
     for (is, shown) in one.is.iter().zip(&one.shown) {
-        let off = from(*is, *shown);
-        let far = dot(off, off).sqrt();
+        let far = length(minus(*is, *shown));
         assert!(far <= most + rounding, "{line}: {far}");
-        full += u64::from((far - length / 2.0).abs() <= 1e-9 * length + rounding);
+        full += u64::from((far - apart / 2.0).abs() <= 1e-9 * apart + rounding);
     }
     assert!(
         full + count("vertices_clamped") >= count("vertices_moved") || pieces_moved > 0,
@@ -284,19 +257,11 @@ fn pieces_that_part_wholly_move_as_they_are() {
     let mut random = Random(5);
     for case in 0..30 {
         let n = 3 + case % 8;
-        let mut text = String::new();
-        for i in 0..(n + 1) * (n + 1) {
-            text += &format!("v {} {} 0\n", i % (n + 1), i / (n + 1));
-        }
-        for i in 0..n * n {
-            let a = i / n * (n + 1) + i % n + 1;
-            let [b, c, d] = [a + 1, a + n + 2, a + n + 1];
-            text += &match random.next() < 0.5 {
-                true => format!("f {a} {b} {c}\nf {a} {c} {d}\n"),
-                false => format!("f {a} {b} {d}\nf {b} {c} {d}\n"),
-            };
-        }
-        folder.write("grid.obj", text);
+        let (mesh, square) =
+            shapes::grid_with_diagonals(n as u32, n as u32, |_, _| random.next() < 0.5);
+        let points = square.as_slice().iter().map(|p| p * n as f64);
+        let positions = Positions::new(points).expect("small");
+        folder.write("grid.obj", file_of(&(mesh, positions)));
         let middle = n as f64 * (0.3 + 0.4 * random.next());
         let [x, y] = [random.next() - 0.5, random.next() - 0.5];
         let plane = format!(
@@ -312,10 +277,7 @@ fn pieces_that_part_wholly_move_as_they_are() {
         );
         let plain = Apart::read(&folder.bytes("cut.obj"));
         let size = n as f64 + gap;
-        let far = |points: &[[f64; 3]], a: usize, b: usize| {
-            let way = from(points[a], points[b]);
-            dot(way, way).sqrt()
-        };
+        let far = |points: &[[f64; 3]], a: usize, b: usize| length(minus(points[b], points[a]));
         for face in &plain.faces {
             for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (face[i], face[j])) {
                 let [is, shown] = [&plain.is, &plain.shown].map(|points| far(points, a, b));
@@ -324,18 +286,15 @@ fn pieces_that_part_wholly_move_as_they_are() {
         }
         // Each vertex of the seam and its copy.
         let mut apart = 0;
-        let length = (x * x + y * y).sqrt();
+        let norm = (x * x + y * y).sqrt();
         for a in 0..plain.is.len() {
             for b in a + 1..plain.is.len() {
                 if plain.is[a] != plain.is[b] {
                     continue;
                 }
-                let way = from(plain.shown[a], plain.shown[b]);
-                assert!(
-                    (dot(way, way).sqrt() - gap).abs() <= 1e-12 * size,
-                    "{line}: {way:?}"
-                );
-                let square = (way[0] * x + way[1] * y).abs() / length;
+                let way = minus(plain.shown[b], plain.shown[a]);
+                assert!((length(way) - gap).abs() <= 1e-12 * size, "{line}: {way:?}");
+                let square = (way[0] * x + way[1] * y).abs() / norm;
                 assert!(
                     square >= [1.0 - 1e-9, 0.99][case % 2] * gap,
                     "{line}: {way:?}"

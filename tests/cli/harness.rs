@@ -6,6 +6,7 @@ use std::process::{Command, Output, Stdio};
 use std::sync::{Mutex, PoisonError};
 
 use serde_json::Value;
+use tearmesh::{Mesh, Positions};
 use tearmesh_cli::Exit;
 
 use crate::digest;
@@ -227,6 +228,17 @@ impl Folder {
         assert_eq!(answer.exit, 0, "{line}\n{}", answer.seen());
         answer.json()
     }
+}
+
+/// A mesh as a file.
+pub(crate) fn file_of((mesh, positions): &(Mesh, Positions)) -> String {
+    let places = positions.as_slice().iter();
+    let vertices = places.map(|p| format!("v {} {} {}\n", p.x, p.y, p.z));
+    let face = |f| {
+        let [a, b, c] = mesh.face_vertices(f).map(|v| v.index() + 1);
+        format!("f {a} {b} {c}\n")
+    };
+    vertices.chain(mesh.faces().map(face)).collect()
 }
 
 /// The words of a line, but for the name of the command.

@@ -4,27 +4,11 @@
 use std::process::Child;
 use std::time::{Duration, Instant};
 
-use crate::harness::{Folder, signal};
+use tearmesh::shapes;
 
-/// A flat sheet that takes a while to read and to write.
-fn large_sheet(cells: usize) -> String {
-    let mut obj = String::new();
-    for j in 0..=cells {
-        for i in 0..=cells {
-            obj.push_str(&format!("v {} {} 0\n", i as f64 / 7.0, j as f64 / 7.0));
-        }
-    }
-    for j in 0..cells {
-        for i in 0..cells {
-            let a = j * (cells + 1) + i + 1;
-            let (b, c, d) = (a + 1, a + cells + 2, a + cells + 1);
-            obj.push_str(&format!("f {a} {b} {c}\nf {a} {c} {d}\n"));
-        }
-    }
-    obj
-}
+use crate::harness::{Folder, file_of, signal};
 
-/// A folder with a large sheet.
+/// A folder with a sheet that takes a while to read and to write.
 struct Sheet {
     folder: Folder,
     input: String,
@@ -32,13 +16,13 @@ struct Sheet {
 
 impl Sheet {
     fn new() -> Sheet {
-        let (folder, input) = (Folder::new(), large_sheet(100));
+        let (folder, input) = (Folder::new(), file_of(&shapes::grid(100, 100)));
         folder.write("large.obj", &input);
         Sheet { folder, input }
     }
 
     fn cut(&self, output: &str) -> Child {
-        let line = "cut large.obj --rays 9.3,-1,5:0,0,-1 9.1,99,5:0,0,-1 -q -o";
+        let line = "cut large.obj --rays 0.653,-1,5:0,0,-1 0.637,9,5:0,0,-1 -q -o";
         let mut command = self.folder.command(&format!("{line} {output}"));
         command.spawn().expect("a run")
     }

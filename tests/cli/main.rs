@@ -19,6 +19,9 @@ mod gap;
 mod guide;
 mod harness;
 mod in_process;
+#[path = "../support/inputs.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
+mod inputs;
 #[cfg(unix)]
 mod killed;
 mod losses;
@@ -38,4 +41,6 @@ mod tear;
 mod through;
 mod transcripts;
 mod units;
+#[path = "../support/vectors.rs"]
+mod vectors;
 mod words;

@@ -37,46 +37,28 @@ fn every_verb_shows_its_mesh_and_how_to_cut_it() {
     folder.write("s.toml", "base = \"hang\"\nseconds = 0.1\n");
     fs::create_dir(folder.path("my meshes")).expect("a folder");
     fs::copy(folder.path("sheet.obj"), folder.path("my meshes/it's.obj")).expect("a copy");
-    let quoted = ["\"my meshes/it's.obj\"", "", "\"my meshes/it's-cut.obj\""];
-    for (line, page, cut) in [
-        (
-            &*format!("{CUT} -o torn.obj --view cut.html"),
-            "cut.html",
-            ["torn.obj", "", "torn-cut.obj"],
-        ),
-        (
-            "mend torn.obj -o m.obj --view m.html",
-            "m.html",
-            ["m.obj", "", "m-cut.obj"],
-        ),
-        (
-            "tear flag.obj --scene s.toml -o t.obj --view t.html",
-            "t.html",
-            ["t.obj", "", "t-cut.obj"],
-        ),
-        (
-            "view torn.obj --repair -o v.html",
-            "v.html",
-            ["torn.obj", " --repair", "torn-cut.obj"],
-        ),
-        ("view \"my meshes/it's.obj\"", "it's.html", quoted),
-        (
-            "view torn.obj --up 0,0,1 --separate-fans",
-            "torn.html",
-            ["torn.obj", " --separate-fans", "torn-cut.obj"],
-        ),
+    // What is typed, the page, and what it has of a cut: the file, options, and the output.
+    for row in [
+        "$CUT -o torn.obj --view cut.html | cut.html | torn.obj |  | torn-cut.obj",
+        "mend torn.obj -o m.obj --view m.html | m.html | m.obj |  | m-cut.obj",
+        "tear flag.obj --scene s.toml -o t.obj --view t.html | t.html | t.obj |  | t-cut.obj",
+        "view torn.obj --repair -o v.html | v.html | torn.obj | --repair | torn-cut.obj",
+        "view \"my meshes/it's.obj\" | it's.html | \"my meshes/it's.obj\" |  | \"my meshes/it's-cut.obj\"",
+        "view torn.obj --up 0,0,1 --separate-fans | torn.html | torn.obj | --separate-fans | torn-cut.obj",
         // Of a mesh that was read from a stream, or written to one.
-        (
-            "view - -o in.html < sheet.obj",
-            "in.html",
-            ["mesh.obj", "", "mesh-cut.obj"],
-        ),
-        (
-            &format!("{CUT} --view p.html"),
-            "p.html",
-            ["mesh.obj", "", "mesh-cut.obj"],
-        ),
+        "view - -o in.html < sheet.obj | in.html | mesh.obj |  | mesh-cut.obj",
+        "$CUT --view p.html | p.html | mesh.obj |  | mesh-cut.obj",
     ] {
+        let row = row.replace("$CUT", CUT);
+        let [line, page, file, options, output] = row.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{row}")
+        };
+        let options = if options.is_empty() {
+            String::new()
+        } else {
+            format!(" {options}")
+        };
+        let cut = [file, &options, output];
         folder.done(line);
         let html = folder.read(page);
         let moments = moments(&folder, page);

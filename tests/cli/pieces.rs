@@ -102,43 +102,12 @@ const CROSS: &str =
     "--rays 0.3,1,5:0,0,-1 0.3,0,5:0,0,-1 --rays 1,0.1,5:0,0,-1 0,0.1,5:0,0,-1 --through";
 
 /// A box of quads with a name for each side, texture coordinates and normals, extra numbers and seams.
-fn named_box() -> String {
-    let mut text = String::from("# a box\nmtllib box.mtl\no box\n");
-    for i in 0..8 {
-        text += &format!("v {} {} {} 0.{i} 0.5 0.25\n", i % 2, i / 2 % 2, i / 4);
-    }
-    for i in 0..4 {
-        text += &format!("vt {} {}\n", i % 2, i / 2);
-    }
-    text += "vn 0 0 -1\nvn 0 0 1\nvn 0 -1 0\nvn 0 1 0\nvn -1 0 0\nvn 1 0 0\n";
-    let sides = [
-        [1, 3, 4, 2],
-        [5, 6, 8, 7],
-        [1, 2, 6, 5],
-        [3, 7, 8, 4],
-        [1, 5, 7, 3],
-        [2, 4, 8, 6],
-    ];
-    for (side, corners) in sides.iter().enumerate() {
-        text += &format!("g side{side} all\nusemtl m{}\ns {}\n", side % 2, side % 3);
-        if side == 4 {
-            text += "o lid of it\n";
-        }
-        let corner = |(i, v): (usize, &i32)| match side {
-            5 => format!(" {v}//6"),
-            3 => format!(" {v}/{}", [1, 2, 4, 3][i]),
-            _ => format!(" {v}/{}/{}", [1, 2, 4, 3][i], side + 1),
-        };
-        let corners = corners.iter().enumerate().map(corner);
-        text += &format!("f{}\n", corners.collect::<String>());
-    }
-    text
-}
+const BOX: &str = include_str!("box.obj");
 
 #[test]
 fn pieces_keep_names_texture_coordinates_and_normals() {
     let folder = Folder::new();
-    folder.write("box.obj", named_box());
+    folder.write("box.obj", BOX);
     let planes = "--plane 0.4,0,0:1,0.1,0 --plane 0,0.3,0.2:0,1,0.3";
     folder.done(&format!("cut box.obj {planes} --pieces p -o out.obj"));
     assert_eq!(check(&folder, "out.obj", "p").len(), 4);

@@ -1,5 +1,7 @@
 //! A reader of OBJ in the simplest way, which shares no code with the library's: what the lines say.
 
+use std::collections::BTreeMap;
+
 /// The numbers and the faces of a file.
 #[derive(Default)]
 pub(crate) struct Plain {
@@ -10,6 +12,8 @@ pub(crate) struct Plain {
     pub(crate) faces: Vec<Vec<usize>>,
     /// Of each face, the texture coordinate at each corner, from 0.
     pub(crate) face_textures: Vec<Vec<Option<usize>>>,
+    /// Of each `l`, its vertices from 0.
+    pub(crate) lines: Vec<Vec<usize>>,
 }
 
 impl Plain {
@@ -35,6 +39,10 @@ impl Plain {
                     plain.faces.push(vertices.collect());
                     let textures = words().map(|corner| index(corner, 1));
                     plain.face_textures.push(textures.collect());
+                }
+                "l" => {
+                    let vertices = words().map(|word| index(word, 0).expect("a vertex"));
+                    plain.lines.push(vertices.collect());
                 }
                 _ => {}
             }
@@ -78,4 +86,27 @@ impl Plain {
         });
         areas.sum()
     }
+}
+
+/// For each thing the least that it is joined with, directly or not, by what they have in common.
+pub(crate) fn pieces<K: Ord>(things: impl Iterator<Item = Vec<K>>) -> Vec<usize> {
+    fn least(piece: &mut [usize], mut thing: usize) -> usize {
+        while piece[thing] != thing {
+            piece[thing] = piece[piece[thing]];
+            thing = piece[thing];
+        }
+        thing
+    }
+    let (mut first, mut piece) = (BTreeMap::new(), Vec::new());
+    for (thing, parts) in things.enumerate() {
+        piece.push(thing);
+        for part in parts {
+            let other = *first.entry(part).or_insert(thing);
+            let [one, other] = [thing, other].map(|thing| least(&mut piece, thing));
+            piece[one.max(other)] = one.min(other);
+        }
+    }
+    (0..piece.len())
+        .map(|thing| least(&mut piece, thing))
+        .collect()
 }

@@ -5,7 +5,7 @@ use std::io::{Write as _, stderr};
 use std::path::{Path, PathBuf};
 
 use crate::harness::{Folder, root};
-use crate::plain::Plain;
+use crate::plain::{Plain, pieces};
 
 /// The texture coordinate at each corner, with its bits.
 fn textures(plain: &Plain) -> Vec<Option<Vec<u64>>> {
@@ -30,27 +30,6 @@ fn same_faces(before: &Plain, after: &Plain) {
         textures(before) == textures(after),
         "other texture coordinates"
     );
-}
-
-/// For each face the least face that it is joined with by shared vertices.
-fn pieces(mesh: &Plain) -> Vec<usize> {
-    let mut piece: Vec<usize> = (0..mesh.faces.len()).collect();
-    loop {
-        let mut least: HashMap<usize, usize> = HashMap::new();
-        for (face, &piece) in mesh.faces.iter().zip(&piece) {
-            for v in face {
-                let least = least.entry(*v).or_insert(piece);
-                *least = piece.min(*least);
-            }
-        }
-        let least = |face: &Vec<usize>| face.iter().map(|v| least[v]).min();
-        let next = mesh.faces.iter().map(|face| least(face).expect("three"));
-        let next: Vec<usize> = next.collect();
-        if next == piece {
-            return piece;
-        }
-        piece = next;
-    }
 }
 
 /// Cuts a file straight, mends the cut, and takes out what it inserted: the faces are again those of
@@ -93,7 +72,7 @@ fn check(input: &Path, rays: &str, pieces_after: usize) {
     let triple = |name: &str| [0, 1, 2].map(|i| number(&cut["plane"][name][i]));
     let (point, normal) = (triple("point"), triple("normal"));
     let mut sides: HashMap<usize, [bool; 2]> = HashMap::new();
-    for (face, piece) in after.faces.iter().zip(pieces(&after)) {
+    for (face, piece) in after.faces.iter().zip(pieces(after.faces.iter().cloned())) {
         let distance = |&v: &usize| -> f64 {
             let place = after.at(v);
             (0..3).map(|i| (place[i] - point[i]) * normal[i]).sum()

@@ -151,53 +151,10 @@ mod tests {
         Args::command().debug_assert();
     }
 
-    /// What is typed, and what it is joined to: that of the row before where it is left out.
-    const ROWS: &[[&str; 2]] = &[
-        // Two rays become one argument however they are written.
-        [
-            "cut|--rays|1,2,3:4,5,6|-1,0,0@7,8,9|-o|x",
-            "cut|--rays=1,2,3:4,5,6;-1,0,0@7,8,9|-o|x",
-        ],
-        ["cut|--rays|1,2,3:4,5,6;-1,0,0@7,8,9|-o|x", ""],
-        ["cut|--rays=1,2,3:4,5,6;-1,0,0@7,8,9|-o|x", ""],
-        ["cut|--rays=1,2,3:4,5,6|-1,0,0@7,8,9|-o|x", ""],
-        [
-            "cut|--rays|1,2,3:4,5,6 -1,0,0@7,8,9|-o|x",
-            "cut|--rays=1,2,3:4,5,6 -1,0,0@7,8,9|-o|x",
-        ],
-        // So do two points.
-        ["cut|--points|-1,2|3,-4|-o|x", "cut|--points=-1,2;3,-4|-o|x"],
-        ["cut|--points=-1,2|3,-4|-o|x", ""],
-        // A blank beside a mark does not divide a ray.
-        [
-            "cut|in|--rays|1,2,3:|4,5,6|-1,0,|0|@7,8,9|-o|x",
-            "cut|in|--rays=1,2,3: 4,5,6;-1,0, 0 @7,8,9|-o|x",
-        ],
-        [
-            "cut|--rays|1|,2,3:4,5,6|1,2,3|:|4,5,-6|in",
-            "cut|--rays=1 ,2,3:4,5,6;1,2,3 : 4,5,-6|in",
-        ],
-        [
-            "cut|--plane|0,0,0:|-1,0,0|in|--up|0,|1,0",
-            "cut|--plane=0,0,0: -1,0,0|in|--up=0, 1,0",
-        ],
-        // An option ends a ray that is not whole.
-        ["cut|--rays|1,2,3:|-o|x", "cut|--rays=1,2,3:|-o|x"],
-        // What is no ray is left alone.
-        ["cut|--rays|1,2,3:4,5,6|-o|x", "cut|--rays=1,2,3:4,5,6|-o|x"],
-        ["cut|--rays|-o|x", "cut|--rays|-o|x"],
-        [
-            "cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6",
-            "cut|--|--rays|1,2,3:4,5,6|1,2,3:4,5,6",
-        ],
-        ["cut|--rays-file|a,b", "cut|--rays-file|a,b"],
-    ];
-
     #[test]
     fn rays_points_and_planes_become_one_argument_each() {
-        let mut expected = "";
-        for [typed, joined] in ROWS {
-            expected = if joined.is_empty() { expected } else { joined };
+        let rows = include_str!("args/joined.txt").lines();
+        for (typed, expected) in rows.filter_map(|row| row.split_once(" => ")) {
             let args: Vec<OsString> = typed.split('|').map(OsString::from).collect();
             let args = join_rays(&args);
             let words: Vec<_> = args.iter().map(|arg| arg.to_string_lossy()).collect();

@@ -46,6 +46,7 @@ impl SceneFile {
 mod tests {
     use tearmesh::shapes;
     use tearmesh_cloth::scene::{Axis, Frame};
+    use tearmesh_cloth::statistics::Random;
 
     use std::collections::BTreeSet;
 
@@ -65,40 +66,6 @@ mod tests {
             .scene(&frame(), None)
             .map_err(|stop| codes(stop.faults))?;
         Ok(format!("{scene:?} {:?}", file.up()))
-    }
-
-    /// What has to stand beside a key so that it means something.
-    fn beside(table: &str, key: &str) -> &'static str {
-        match (table, key) {
-            ("solver", "substeps" | "sweeps") => "method = \"xpbd\"",
-            ("solver", "stiffness" | "bend_stiffness") => "method = \"pbd\"",
-            ("solver", "limit_ratio" | "limit_passes") => "method = \"provot\"",
-            ("solver", "order" | "tolerance") => "method = \"implicit\"",
-            ("wind", "velocity_m_per_s") => "",
-            ("wind", _) => "velocity_m_per_s = [1, 0, 0]",
-            ("collider", "point") => "normal = [0, 1, 0]",
-            ("collider", "normal") => "point = [0, 0, 0]",
-            ("collider", "centre") | ("hold", "centre") => "radius_m = 0.25",
-            ("collider", "radius_m") | ("hold", "radius_m") => "centre = [0, 1, 0]",
-            ("hold", "radius") => "near = [0, 1]",
-            ("hold", "from") => "to = [9, 9, 9]",
-            ("hold", "to") => "from = [0, 0, 0]",
-            ("hold", "from_s" | "until_s" | "moves") => "near = [0, 1]",
-            ("cut", "rays") => "",
-            ("cut", _) => "rays = [\"0,1,5:0,0,-1\", \"0,-1,5:0,0,-1\"]",
-            ("strength", "factor") => "near = [0, 1]",
-            ("strength", "centre") => "factor = 2\nradius_m = 0.25",
-            ("strength", "radius_m") => "factor = 2\ncentre = [0, 1, 0]",
-            ("strength", "radius") => "factor = 2\nnear = [0, 1]",
-            ("strength", "from") => "factor = 2\nto = [9, 9, 9]",
-            ("strength", "to") => "factor = 2\nfrom = [0, 0, 0]",
-            ("strength", _) => "factor = 2",
-            ("fabric", "copies") => "stretch_n_per_m = 300",
-            ("tear", "threshold_warp") => "threshold_weft = 1.25",
-            ("tear", "threshold_weft") => "threshold_warp = 1.25",
-            ("tear", "warp") => "threshold_weft = 1.25\nthreshold_warp = 1.25",
-            _ => "",
-        }
     }
 
     /// All keys, with their tables, as the answer to an unknown one lists them.
@@ -129,70 +96,31 @@ mod tests {
         }
     }
 
-    /// Values of every kind.
-    const VALUES: &[&str] = &[
-        "0.375",
-        "0.625",
-        "0.75",
-        "1.375",
-        "2",
-        "3",
-        "true",
-        "false",
-        r#""hang""#,
-        r#""rip""#,
-        r#""z""#,
-        r#""-x""#,
-        r#""whole""#,
-        r#""halved""#,
-        r#""vertex""#,
-        r#""seam""#,
-        r#""buckling""#,
-        r#""spring""#,
-        r#""1""#,
-        r#""2""#,
-        r#""verlet""#,
-        r#""implicit""#,
-        r#""partition""#,
-        r#""uniform""#,
-        "[0, 0.375]",
-        "[0.5, 1]",
-        "[0.5, 1, 0.375]",
-        "[0, 0.25, 0.5]",
-        r#"["0,1,5:0,0,-1", "0,-1,5:0,0,-1"]"#,
-        r#"["0.5,1,5:0,0,-1", "0.5,-1,5:0,0,-1"]"#,
-        "[1, 2]",
-        "[3]",
-        "[[0, 0, 0, 0], [1, 0, 1, 0]]",
-        "[[0, 0, 0, 1]]",
-    ];
+    /// What stands before keys so that they mean something, and values of every kind.
+    const TEXTS: &str = include_str!("scene/keys.txt");
 
+    /// A file with one key, and what stands before it.
     fn file(table: &str, key: &str, value: &str) -> String {
-        let line = format!("{key} = {value}\n");
-        let implicit = "[solver]\nmethod = \"implicit\"\n[fabric]\n";
-        let woven = ["warp_n_per_m", "weft_n_per_m", "shear_n_per_m", "warp"];
-        match (table, key) {
-            ("fabric", key) if woven.contains(&key) => {
-                let others = woven[..2].iter().filter(|&&other| other != key);
-                let others: String = others.map(|other| format!("{other} = 300\n")).collect();
-                format!("{implicit}{others}{line}")
-            }
-            ("fabric", "rigidity_n_m") => format!("{implicit}bend_law = \"buckling\"\n{line}"),
-            ("fabric", "buckles_below") => {
-                format!("{implicit}bend_law = \"buckling\"\nrigidity_n_m = 1e-6\n{line}")
-            }
-            // A law without a number is none.
-            ("fabric", "bend_law") if value == "\"buckling\"" => {
-                format!("{implicit}rigidity_n_m = 1e-6\n{line}")
-            }
-            _ => format!("{}{}\n{line}", head(table), beside(table, key)),
-        }
+        let is_it = |row: &(&str, &str)| {
+            let mut names = row.0.split(' ');
+            let is_table = names.next() == Some(table);
+            is_table && names.any(|name| name == key || name == format!("{key}={value}"))
+        };
+        let mut rows = TEXTS.lines().filter_map(|row| row.split_once(" | "));
+        let lines = rows.find(is_it).map_or("", |(_, lines)| lines);
+        let head = if lines.starts_with('[') {
+            String::new()
+        } else {
+            head(table)
+        };
+        format!("{head}{}\n{key} = {value}\n", lines.replace("; ", "\n"))
     }
 
     #[test]
     fn every_key_is_read_and_means_something() {
         for (table, key) in keys() {
-            let made = VALUES.iter().map(|value| read(&file(table, &key, value)));
+            let values = TEXTS.lines().filter_map(|row| row.strip_prefix("= "));
+            let made = values.map(|value| read(&file(table, &key, value)));
             let made: BTreeSet<String> = made.flatten().collect();
             assert!(made.len() >= 2, "[{table}] {key} changes nothing: {made:?}");
         }
@@ -227,16 +155,11 @@ mod tests {
             include_str!("../../../tests/data/scarf.toml"),
             include_str!("../../../tests/data/pull.toml"),
         ];
-        let mut state = 2014_u64;
-        let mut random = |below: usize| {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 33) as usize % below
-        };
-        let bits = [
-            "[", "]", "=", "\"", "\n", "-", "9e999", "é", "[[hold]]", "nan", "'", "0x",
-        ];
+        let mut random = Random::new(2014);
+        let mut random = |below: usize| random.below(below);
+        let bits: Vec<&str> = "[ ] = \" \n - 9e999 é [[hold]] nan ' 0x"
+            .split(' ')
+            .collect();
         let mut accepted = 0;
         for i in 0..4000 {
             let mut text: Vec<char> = good[i % 2].chars().collect();
