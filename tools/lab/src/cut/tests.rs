@@ -1,13 +1,9 @@
-//! Bounds of the deviation of cuts, times by a clock of our own, and an interruption.
+//! Bounds of the deviation of cuts, and times by a clock of our own.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
-use crate::experiment::{Chart, Provenance, conduct, workers};
-
-fn cuts(cells: &[u32]) -> Cuts {
-    Cuts::new(cells, 6)
-}
+use crate::experiment::{conduct, workers};
 
 /// The rows by a clock that is a microsecond later whenever it is read.
 fn measured(cuts: &Cuts) -> Vec<Row> {
@@ -22,7 +18,7 @@ fn measured(cuts: &Cuts) -> Vec<Row> {
 
 #[test]
 fn snap_bounds_deviation_and_pieces_are_those_expected() {
-    let rows = measured(&cuts(&[24]));
+    let rows = measured(&Cuts::new(&[24], 6));
     assert_eq!(rows.len(), METHODS.len());
     let of = |name: &str, number: fn(&Row) -> Option<f64>| {
         let row = rows.iter().find(|row| row.method == name);
@@ -51,29 +47,4 @@ fn snap_bounds_deviation_and_pieces_are_those_expected() {
     let steps = steps.map(|name| of(name, |row| row.step_ratio));
     assert!(steps.is_sorted_by(|a, b| a > b), "{steps:?}");
     assert!(steps[0] > 0.5 && steps[0] <= 1.0 + 1e-6);
-}
-
-#[test]
-fn an_interrupted_table_has_a_row_for_each_method() {
-    let asked = AtomicU64::new(0);
-    // Before each run and each of its lines: it ends in the middle of the third.
-    let stop = || asked.fetch_add(1, Ordering::SeqCst) >= 18;
-    let bounds = Bounds {
-        clock: None,
-        stop: &stop,
-    };
-    let (rows, done) = conduct(&cuts(&[8, 6]), workers(), &bounds, |_| {});
-    assert_eq!(done, 2);
-    assert_eq!(rows.len(), 2 * METHODS.len());
-    let (whole, interrupted): (Vec<&Row>, Vec<&Row>) =
-        rows.iter().partition(|row| row.status == Status::Ok);
-    assert_eq!((whole.len(), interrupted.len()), (2, 18));
-    assert!(interrupted.iter().all(|row| row.step_ratio.is_none()));
-    let figure = cuts(&[]).figure(&rows, &Provenance::default());
-    assert!(
-        figure
-            .footer
-            .iter()
-            .any(|line| line.starts_with("INTERRUPTED"))
-    );
 }

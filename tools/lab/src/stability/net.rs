@@ -118,35 +118,3 @@ fn is_above(number: f64, matrix: &[Vec<f64>]) -> bool {
     }
     true
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A chain of n links that is held at one end has the largest frequency 2√(k/m) sin((2n − 1)π/(2(2n + 1))).
-    /// Between two nails, along which it swings as without tension, it has 2√(k/m) sin((n − 1)π/(2n)).
-    #[test]
-    fn chains_have_the_frequencies_of_books() {
-        let n = LINKS as f64;
-        let unit = 2.0 * 100.0_f64.sqrt();
-        let chain = (2.0 * n - 1.0) / (2.0 * (2.0 * n + 1.0));
-        let string = (n - 1.0) / (2.0 * n);
-        for ((name, build), fraction) in [(NETS[0], chain), (NETS[1], string)] {
-            let known = unit * (std::f64::consts::PI * fraction).sin();
-            let found = omega_rad_per_s(&build(1.0));
-            assert!(
-                (found / known - 1.0).abs() < 1e-10,
-                "{name} {found} {known}"
-            );
-        }
-    }
-
-    /// Dividing a mass by 1024 raises a frequency by at most √1024, and a particle of a thousandth of the mass
-    /// swings as between walls: its ω² is nearly 1024 times what it was for that particle alone.
-    #[test]
-    fn halving_a_mass_raises_the_frequency_within_bounds() {
-        let [sheet, halved] = [2, 3].map(|i| omega_rad_per_s(&(NETS[i].1)(1.0)));
-        assert!(halved < 32.0 * sheet, "{sheet} {halved}");
-        assert!(halved > 10.0 * sheet, "{sheet} {halved}");
-    }
-}
