@@ -186,13 +186,10 @@ impl Chrome {
             "mouseReleased" => ("left", 0),
             _ => ("none", 0),
         };
-        let kind = if kind == "mouseDragged" {
-            "mouseMoved"
-        } else {
-            kind
-        };
+        let delta_y = if kind == "mouseWheel" { -300 } else { 0 };
+        let kind = kind.replace("Dragged", "Moved");
         let event = json!({"type": kind, "x": x, "y": y, "button": button, "buttons": buttons,
-            "clickCount": 1, "deltaX": 0, "deltaY": if kind == "mouseWheel" { -300 } else { 0 }});
+            "clickCount": 1, "deltaX": 0, "deltaY": delta_y});
         self.call("Input.dispatchMouseEvent", &event);
     }
 
@@ -221,6 +218,25 @@ impl Chrome {
             let event = json!({"type": kind, "key": key, "text": text});
             self.call("Input.dispatchKeyEvent", &event);
         }
+    }
+
+    /// An event of fingers at these places.
+    pub(crate) fn touch(&mut self, kind: &str, places: &[[f64; 2]]) {
+        let points = (1..).zip(places);
+        let points = points.map(|(id, [x, y])| json!({"x": x, "y": y, "id": id}));
+        let event = json!({"type": kind, "touchPoints": points.collect::<Vec<_>>()});
+        self.call("Input.dispatchTouchEvent", &event);
+    }
+
+    /// Gives a control a value, as if a person had.
+    pub(crate) fn set(&mut self, id: &str, value: &str) {
+        let event = "dispatchEvent(new Event('input'))";
+        self.value(&format!("{id}.value = {value}, {id}.{event}"));
+    }
+
+    /// Whether something sticks out at the side of the window.
+    pub(crate) fn sticks_out(&mut self) -> bool {
+        self.value("document.documentElement.scrollWidth > innerWidth") == true
     }
 
     /// Drags from a place to another.

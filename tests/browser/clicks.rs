@@ -1,12 +1,8 @@
 //! Two points that are clicked, and the cut that the page's line makes.
 
-use std::fs;
-
-use tearmesh_cli::Exit;
-
 use crate::chrome::Chrome;
 use crate::eye::Eye;
-use crate::folder::{Folder, done, three, typed};
+use crate::harness::Folder;
 use crate::random::Random;
 use crate::screen::{apart, distance, is_trace};
 
@@ -25,62 +21,59 @@ fn the_line_cuts_where_the_page_shows_it() {
         return;
     };
     let folder = Folder::new();
-    folder.write("flag in the wind.obj", "flag.obj", |p| p.map(|x| x * 1e-3));
-    folder.write("far.obj", "sheet.obj", |[x, y, z]| {
+    let moved = |to: &str, mesh: &str, by: &dyn Fn([f64; 3]) -> [f64; 3]| {
+        let line = |line: &str| match line.strip_prefix("v ") {
+            Some(numbers) => {
+                let [x, y, z] = by(three(numbers));
+                format!("v {x} {y} {z}\n")
+            }
+            None => format!("{line}\n"),
+        };
+        let text = folder.read(mesh);
+        folder.write(to, text.lines().map(line).collect::<String>());
+    };
+    moved("flag in the wind.obj", "flag.obj", &|p| p.map(|x| x * 1e-3));
+    moved("far.obj", "sheet.obj", &|[x, y, z]| {
         [1e6 + x, y - 2e6, 5e5 + z]
     });
-    folder.write("sleeve.obj", "sleeve.obj", |p| p.map(|x| x * 1e3));
-    folder.write("quilt.obj", "quilt.obj", |[x, y, z]| {
+    moved("sleeve.obj", "sleeve.obj", &|p| p.map(|x| x * 1e3));
+    moved("quilt.obj", "quilt.obj", &|[x, y, z]| {
         [7.0 - x, 1e3 + y, z * 3.0]
     });
     // A sheet folded again and again, tiny and not at the origin.
-    folder.write("folded's.obj", "sheet.obj", |[x, y, z]| {
-        let fold = (x * 3.0).fract();
-        let fold = if ((x * 3.0) as u32).is_multiple_of(2) {
-            fold
-        } else {
-            1.0 - fold
-        };
-        [2.0 + fold * 5e-6, y * 2e-5, 1.0 + 1e-5 * (x + z)]
+    moved("folded's.obj", "sheet.obj", &|[x, y, z]| {
+        let fold = ((x * 3.0) % 2.0 - 1.0).abs();
+        [2.0 + (1.0 - fold) * 5e-6, y * 2e-5, 1.0 + 1e-5 * (x + z)]
     });
     let mut random = Random(2014);
-    let names = [
-        "flag in the wind.obj",
+    for mesh in [
+        "'flag in the wind.obj'",
         "far.obj",
         "sleeve.obj",
         "quilt.obj",
-        "folded's.obj",
-    ];
-    for name in names {
-        let (mesh, page) = (folder.name(name), folder.name("page.html"));
-        done(&["tearmesh", "view", &mesh, "-o", &page]);
+        "\"folded's.obj\"",
+    ] {
+        folder.done(&format!("view {mesh} -o page.html"));
         chrome.open(&folder.path("page.html"));
-        cut_at_random(&mut chrome, &folder, &mesh, &mut random, PAIRS);
+        cut_at_random(&mut chrome, &folder, mesh, &mut random, PAIRS);
     }
     // The end of a simulation, which the page knows by what has changed from moment to moment.
-    folder.write("sheet.obj", "sheet.obj", |p| p);
-    let [mesh, torn, page] = ["sheet.obj", "torn.obj", "torn.html"].map(|name| folder.name(name));
-    let tear = [
-        "tearmesh",
-        "tear",
-        &mesh,
-        "--scene",
-        "hang",
-        "--seconds",
-        "0.8",
-    ];
-    let slit = [
-        "--rays",
-        "0.3,0.4,5:0,0,-1",
-        "0.8,0.7,5:0,0,-1",
-        "--cut-at",
-        "0.3",
-    ];
-    done(&[&tear[..], &slit, &["-o", &torn, "--view", &page]].concat());
+    let slit = "--rays 0.3,0.4,5:0,0,-1 0.8,0.7,5:0,0,-1 --cut-at 0.3";
+    let tear = "tear sheet.obj --scene hang --seconds 0.8";
+    folder.done(&format!("{tear} {slit} -o torn.obj --view torn.html"));
     chrome.open(&folder.path("torn.html"));
-    chrome.value("time.value = time.max; time.dispatchEvent(new Event('input'))");
-    cut_at_random(&mut chrome, &folder, &torn, &mut random, PAIRS / 2);
+    chrome.set("time", "time.max");
+    cut_at_random(&mut chrome, &folder, "torn.obj", &mut random, PAIRS / 2);
     chrome.was_quiet();
+}
+
+/// The first three numbers of a line.
+fn three(line: &str) -> [f64; 3] {
+    let mut numbers = line.split_whitespace();
+    [(); 3].map(|()| {
+        let number = numbers.next().and_then(|x| x.parse().ok());
+        number.expect("three numbers")
+    })
 }
 
 /// Cuts a mesh on an open page so often, each time from elsewhere.
@@ -120,18 +113,14 @@ fn planned(chrome: &mut Chrome, folder: &Folder, mesh: &str, points: [[f64; 2]; 
         let hint = chrome.text("hint");
         assert_eq!(hint, "The line misses the mesh: click two other points.");
         assert!(traced(chrome, &eye, points).is_empty(), "no trace is left");
-        misses(&eye, mesh, points);
+        misses(folder, &eye, mesh, points);
         return false;
     }
     let is_first = line.contains(" --layers first");
     assert_eq!(chrome.value("front.checked"), is_first, "{line}");
-    let mut words = shlex::split(&line).expect("words that a shell understands");
-    let seam = folder.name("seam.obj");
-    words.extend(["--seam".to_owned(), seam.clone()]);
-    let (exit, said) = typed(words);
-    assert_eq!(exit, Exit::Done, "{line}\n{said}");
+    let said = folder.done(&format!("{line} --seam seam.obj"));
 
-    let segments = seam_pixels(&fs::read_to_string(seam).expect("a seam"), &eye);
+    let segments = seam_pixels(&folder.read("seam.obj"), &eye);
     assert!(!segments.is_empty(), "{line}\n{said}");
     for &end in segments.as_flattened() {
         let off = distance(end, points);
@@ -184,40 +173,27 @@ fn traced(chrome: &mut Chrome, eye: &Eye, marks: [[f64; 2]; 2]) -> Vec<[f64; 2]>
 }
 
 /// What the page says of a miss is what `cut --camera` says of it.
-fn misses(eye: &Eye, mesh: &str, points: [[f64; 2]; 2]) {
-    let size = eye.size.map(|x| x.to_string()).join("x");
-    let points = points.map(|[x, y]| format!("{x},{y}"));
-    let words = [
-        "tearmesh",
-        "cut",
-        mesh,
-        "--dry-run",
-        "--viewport",
-        &size,
-        "--points",
-    ];
-    let words = words.map(str::to_owned).into_iter();
-    let (exit, said) = typed(words.chain(points).chain(eye.options.clone()));
-    assert_eq!(exit, Exit::NothingCut, "{said}");
+fn misses(folder: &Folder, eye: &Eye, mesh: &str, points: [[f64; 2]; 2]) {
+    let [[ax, ay], [bx, by]] = points;
+    let ([width, height], options) = (eye.size, eye.options.join(" "));
+    let line = format!("cut {mesh} --dry-run --viewport {width}x{height} {options}");
+    folder.ends(&format!("{line} --points {ax},{ay} {bx},{by}"), 1);
 }
 
 /// The segments of a seam in a file, as they are seen.
 fn seam_pixels(text: &str, eye: &Eye) -> Vec<[[f64; 2]; 2]> {
-    let points: Vec<[f64; 2]> = text
-        .lines()
-        .filter_map(|line| line.strip_prefix("v "))
-        .map(|line| eye.pixel(three(line)))
-        .collect();
-    let lines = text.lines().filter_map(|line| line.strip_prefix("l "));
-    lines
-        .flat_map(|line| {
-            let numbers = line.split_whitespace();
-            let numbers = numbers.map(|n| n.parse::<usize>().expect("a number"));
-            let along: Vec<[f64; 2]> = numbers.map(|n| points[n - 1]).collect();
-            along
-                .windows(2)
-                .map(|pair| [pair[0], pair[1]])
-                .collect::<Vec<_>>()
-        })
-        .collect()
+    let of = |begin| {
+        text.lines()
+            .filter_map(move |line| line.strip_prefix(begin))
+    };
+    let points: Vec<[f64; 2]> = of("v ").map(|line| eye.pixel(three(line))).collect();
+    let mut segments = Vec::new();
+    for line in of("l ") {
+        let numbers = line
+            .split(' ')
+            .map(|n| n.parse::<usize>().expect("a number"));
+        let along: Vec<[f64; 2]> = numbers.map(|n| points[n - 1]).collect();
+        segments.extend(along.windows(2).map(|pair| [pair[0], pair[1]]));
+    }
+    segments
 }

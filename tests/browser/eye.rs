@@ -1,5 +1,7 @@
 //! The camera of a page, read from the line that it shows, and an own projection: the matrix of gluLookAt.
 
+use crate::vectors::{cross, dot, length, minus};
+
 /// What `tearmesh render` is told of a view.
 #[derive(Debug)]
 pub(crate) struct Eye {
@@ -24,7 +26,7 @@ impl Eye {
         let (eye, _) = eye.split_once('@').expect("an eye");
         let (_, at) = at.split_once('@').expect("what it looks at");
         let (eye, at, up) = (triple(eye), triple(at), triple(&after("--up")));
-        let backward = unit(sub(eye, at));
+        let backward = unit(minus(eye, at));
         let right = unit(cross(up, backward));
         let size = after("--size");
         let (width, height) = size.split_once('x').expect("a size");
@@ -41,7 +43,7 @@ impl Eye {
 
     /// Where a point is seen, in pixels right and down.
     pub(crate) fn pixel(&self, p: [f64; 3]) -> [f64; 2] {
-        let [x, y, z] = self.axes.map(|axis| dot(axis, sub(p, self.eye)));
+        let [x, y, z] = self.axes.map(|axis| dot(axis, minus(p, self.eye)));
         let [width, height] = self.size;
         let scale = self.focal * height / 2.0 / -z;
         [width / 2.0 + x * scale, height / 2.0 - y * scale]
@@ -53,22 +55,6 @@ fn triple(text: &str) -> [f64; 3] {
     [(); 3].map(|()| numbers.next().expect("three numbers"))
 }
 
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
 fn unit(a: [f64; 3]) -> [f64; 3] {
-    a.map(|x| x / dot(a, a).sqrt())
+    a.map(|x| x / length(a))
 }

@@ -7,11 +7,21 @@
 
 mod chrome;
 mod clicks;
+#[path = "../support/digest.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
+mod digest;
 mod eye;
-mod folder;
+#[path = "../cli/harness.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
+mod harness;
+#[path = "../cli/in_process.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
+mod in_process;
 mod play;
 mod playing;
 #[path = "../support/random.rs"]
 #[allow(dead_code, reason = "shared with other tests")]
 mod random;
 mod screen;
+#[path = "../support/vectors.rs"]
+mod vectors;

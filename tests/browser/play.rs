@@ -2,16 +2,14 @@
 //! is repeated to the bit, natively and in the browser.
 
 use std::fs;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
 use tearmesh::{Point, Ray, Vector};
-use tearmesh_cli::Exit;
 use tearmesh_play::{Player, Settings};
 
 use crate::chrome::Chrome;
-use crate::folder::{Folder, done, typed};
+use crate::harness::Folder;
 use crate::random::Random;
 use crate::screen::is_seam;
 
@@ -27,25 +25,33 @@ const BELOW: [f64; 2] = [340.0, 610.0];
 
 impl Played {
     /// Opens a page that a command wrote; none without a browser.
-    fn open(options: &[&str]) -> Option<Played> {
-        let chrome = Chrome::start()?;
-        let mut played = Played {
-            chrome,
-            folder: Folder::new(),
-        };
-        let page = played.folder.name("play.html");
-        done(&[&["tearmesh", "play", "-o", &page], options].concat());
-        let saved = played.folder.path("");
-        played.chrome.downloads_to(&saved);
-        played.chrome.open(&played.folder.path("play.html"));
-        Some(played)
+    fn open(options: &str) -> Option<Played> {
+        Played::within(Folder::new(), options)
+    }
+
+    fn within(folder: Folder, options: &str) -> Option<Played> {
+        let mut chrome = Chrome::start()?;
+        folder.done(&format!("play -o play.html {options}"));
+        chrome.downloads_to(&folder.path(""));
+        chrome.open(&folder.path("play.html"));
+        Some(Played { chrome, folder })
     }
 
     fn choose(&mut self, id: &str, value: &str) {
-        self.chrome.value(&format!(
-            "{id}.value = '{value}', {id}.dispatchEvent(new Event('change')), 0"
-        ));
+        let event = "dispatchEvent(new Event('change'))";
+        self.chrome
+            .value(&format!("{id}.value = '{value}', {id}.{event}, 0"));
         self.chrome.drawn();
+    }
+
+    /// Waits until something is so, for a minute at most.
+    fn wait(&mut self, what: &str, mut is_so: impl FnMut(&mut Played) -> bool) {
+        let begun = Instant::now();
+        while !is_so(self) {
+            let said = self.chrome.hidden_text("say");
+            assert!(begun.elapsed() < Duration::from_secs(60), "{what}: {said}");
+            std::thread::sleep(Duration::from_millis(50));
+        }
     }
 
     /// A number among the facts beside the cloth.
@@ -61,17 +67,7 @@ impl Played {
 
     /// Waits until a fact is what it is to be.
     fn until(&mut self, name: &str, is_it: impl Fn(f64) -> bool) {
-        let begun = Instant::now();
-        loop {
-            std::thread::sleep(Duration::from_millis(50));
-            let is = self.fact(name);
-            if is_it(is) {
-                return;
-            }
-            let said = self.chrome.hidden_text("say");
-            let took = begun.elapsed();
-            assert!(took < Duration::from_secs(60), "{name} is {is}; {said}");
-        }
+        self.wait(name, |played| is_it(played.fact(name)));
     }
 
     /// Lets simulated time pass.
@@ -97,17 +93,8 @@ impl Played {
         let path = self.folder.path(name);
         drop(fs::remove_file(&path));
         self.chrome.value(&format!("{button}.click()"));
-        let begun = Instant::now();
-        while !path.exists() {
-            let said = self.chrome.hidden_text("say");
-            let took = begun.elapsed();
-            assert!(
-                took < Duration::from_secs(20),
-                "{name} is not saved; {said}"
-            );
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        fs::read(path).expect("a saved file")
+        self.wait(name, |_| path.exists());
+        self.folder.bytes(name)
     }
 
     /// The digest of which the page speaks.
@@ -120,11 +107,11 @@ impl Played {
     }
 
     /// Has the page repeat a log, or take another file.
-    fn take(&mut self, path: &Path) {
+    fn take(&mut self, name: &str) {
         let root = self.chrome.call("DOM.getDocument", &json!({}));
         let query = json!({"nodeId": root["root"]["nodeId"], "selector": "#drop"});
         let input = self.chrome.call("DOM.querySelector", &query);
-        let files = json!({"nodeId": input["nodeId"], "files": [path]});
+        let files = json!({"nodeId": input["nodeId"], "files": [self.folder.path(name)]});
         self.chrome.call("DOM.setFileInputFiles", &files);
         self.chrome.drawn();
     }
@@ -143,39 +130,24 @@ impl Played {
         let native = Player::replayed(&document, &log).expect("a replay");
         assert_eq!(format!("{:016x}", native.digest()), digest, "native");
         assert!(native.obj().expect("a file") == obj, "the same file");
-        let path = self.folder.path("sheet-32.log");
-        self.take(&path);
-        let begun = Instant::now();
-        while !self.chrome.text("say").starts_with("Repeated") {
-            assert!(begun.elapsed() < Duration::from_secs(60), "it is repeated");
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        self.take("sheet-32.log");
+        self.wait("it is repeated", |played| {
+            played.chrome.text("say").starts_with("Repeated")
+        });
         assert_eq!(self.digest(), digest, "in the browser");
         let again = self.saved("save", "sheet-32-torn.obj");
         assert!(again == obj, "the same file, repeated");
     }
 }
 
-/// What `tearmesh check` says of a file, which it finds good.
-fn checked(path: &Path) -> String {
-    let words = ["tearmesh", "check", &path.display().to_string()].map(str::to_owned);
-    let (exit, said) = typed(words);
-    assert_eq!(exit, Exit::Done, "{said}");
-    said
-}
-
 #[test]
 #[ignore = "needs chromium"]
 fn a_mouse_rips_and_mends_and_saves_what_checks() {
-    let Some(mut played) = Played::open(&[]) else {
+    let Some(mut played) = Played::open("") else {
         return;
     };
-    assert!(
-        played
-            .chrome
-            .text("holds")
-            .contains("highest 3 % along y: 33")
-    );
+    let holds = played.chrome.text("holds");
+    assert!(holds.contains("highest 3 % along y: 33"), "{holds}");
     let size = [680.0, 640.0];
     played.pass(0.1);
     assert!(played.chrome.screen(size).places(is_seam).is_empty());
@@ -186,13 +158,10 @@ fn a_mouse_rips_and_mends_and_saves_what_checks() {
     assert!(played.chrome.screen(size).places(is_seam).len() > 300);
     played.chrome.mouse("mouseReleased", BELOW);
     played.saved("save", "sheet-32-torn.obj");
-    let said = checked(&played.folder.path("sheet-32-torn.obj"));
+    let said = played.folder.done("check sheet-32-torn.obj");
     assert!(said.contains(" ok "), "{said}");
     // The record has the tears: mended as a whole, it is the sheet again.
-    let [torn, whole] = ["sheet-32-torn.obj", "whole.obj"].map(|name| played.folder.name(name));
-    let words = ["tearmesh", "mend", &torn, "-o", &whole].map(str::to_owned);
-    let (exit, said) = typed(words);
-    assert_eq!(exit, Exit::Done, "{said}");
+    let said = played.folder.done("mend sheet-32-torn.obj -o whole.obj");
     assert!(said.contains("1089"), "{said}");
 
     played.chrome.press("mend");
@@ -205,7 +174,7 @@ fn a_mouse_rips_and_mends_and_saves_what_checks() {
 #[test]
 #[ignore = "needs chromium"]
 fn a_moving_flag_is_cut_as_the_line_says_and_then_ripped() {
-    let Some(mut played) = Played::open(&["--scene", "flag"]) else {
+    let Some(mut played) = Played::open("--scene flag") else {
         return;
     };
     played.pass(0.4);
@@ -227,17 +196,10 @@ fn a_moving_flag_is_cut_as_the_line_says_and_then_ripped() {
     let line = played.chrome.text("line");
     played.saved("before", "sheet-32-before.obj");
     let obj = played.saved("save", "sheet-32-torn.obj");
-    let mut words = shlex::split(&line).expect("words that a shell understands");
-    for word in &mut words {
-        if word.ends_with(".obj") {
-            *word = played.folder.name(word);
-        }
-    }
-    let (exit, said) = typed(words);
-    assert_eq!(exit, Exit::Done, "{line}\n{said}");
-    let cut = fs::read(played.folder.path("sheet-32-cut.obj")).expect("a cut file");
+    let said = played.folder.done(&line);
+    let cut = played.folder.bytes("sheet-32-cut.obj");
     assert!(cut == obj, "{line}\n{said}");
-    checked(&played.folder.path("sheet-32-torn.obj"));
+    played.folder.done("check sheet-32-torn.obj");
 
     played.chrome.press("pause");
     played.chrome.press("hand");
@@ -252,30 +214,19 @@ fn a_moving_flag_is_cut_as_the_line_says_and_then_ripped() {
 #[test]
 #[ignore = "needs chromium"]
 fn fingers_pull_pin_and_turn() {
-    let Some(mut played) = Played::open(&[]) else {
+    let Some(mut played) = Played::open("") else {
         return;
-    };
-    let touch = |chrome: &mut Chrome, kind: &str, points: &[[f64; 2]]| {
-        let points: Vec<_> = (1..)
-            .zip(points)
-            .map(|(id, [x, y])| json!({"x": x, "y": y, "id": id}))
-            .collect();
-        let touch = json!({"type": kind, "touchPoints": points});
-        chrome.call("Input.dispatchTouchEvent", &touch);
     };
     // Two fingers pull the cloth apart.
     let at = |apart: f64| [[340.0 - apart, 350.0], [340.0 + apart, 350.0]];
-    touch(&mut played.chrome, "touchStart", &at(60.0));
+    played.chrome.touch("touchStart", &at(60.0));
     for step in 0..10 {
-        touch(
-            &mut played.chrome,
-            "touchMove",
-            &at(60.0 + 28.0 * f64::from(step)),
-        );
+        let apart = 60.0 + 28.0 * f64::from(step);
+        played.chrome.touch("touchMove", &at(apart));
         played.pass(0.1);
     }
     assert!(played.fact("tears") > 10.0);
-    touch(&mut played.chrome, "touchEnd", &[]);
+    played.chrome.touch("touchEnd", &[]);
     // Drawn finer, what is crumpled is round.
     played.chrome.press("pause");
     let coarse = played.chrome.screen([680.0, 560.0]);
@@ -288,8 +239,8 @@ fn fingers_pull_pin_and_turn() {
     let pins = played.fact("pins");
     played.chrome.value("reset.click()");
     played.chrome.press("pin");
-    touch(&mut played.chrome, "touchStart", &[MIDDLE]);
-    touch(&mut played.chrome, "touchEnd", &[]);
+    played.chrome.touch("touchStart", &[MIDDLE]);
+    played.chrome.touch("touchEnd", &[]);
     played.until("pins", |now| now == 34.0);
     println!("{pins} pins before");
     // Keys work after a click on a box or on the list of keys; that of the pointer's place unpins.
@@ -310,8 +261,7 @@ fn fingers_pull_pin_and_turn() {
     // On a telephone all buttons are on the screen.
     played.chrome.size(390, 844);
     played.chrome.drawn();
-    let sticks_out = "document.documentElement.scrollWidth > innerWidth";
-    assert_eq!(played.chrome.value(sticks_out), json!(false));
+    assert!(!played.chrome.sticks_out());
     played.chrome.was_quiet();
 }
 
@@ -320,7 +270,7 @@ const SCENES: [&str; 5] = ["rip", "hang", "flag", "trouser", "fall"];
 #[test]
 #[ignore = "needs chromium"]
 fn every_scene_survives_whoever_plays_with_it() {
-    let Some(mut played) = Played::open(&[]) else {
+    let Some(mut played) = Played::open("") else {
         return;
     };
     played.choose("source", "16");
@@ -346,7 +296,7 @@ fn every_scene_survives_whoever_plays_with_it() {
             assert!(!is_over, "{scene}: {said}");
             let obj = played.saved("save", "sheet-16-torn.obj");
             assert!(!String::from_utf8_lossy(&obj).contains("NaN"), "{scene}");
-            checked(&played.folder.path("sheet-16-torn.obj"));
+            played.folder.done("check sheet-16-torn.obj");
         }
     }
     played.chrome.was_quiet();
@@ -356,15 +306,14 @@ fn every_scene_survives_whoever_plays_with_it() {
 #[ignore = "needs chromium"]
 fn a_file_is_played_and_a_bad_one_changes_nothing() {
     let folder = Folder::new();
-    folder.write("it's a flag.obj", "flag.obj", |p| p);
-    let flag = folder.name("it's a flag.obj");
-    let Some(mut played) = Played::open(&[&flag, "--scene", "hang"]) else {
+    folder.write("it's a flag.obj", folder.read("flag.obj"));
+    let Some(mut played) = Played::within(folder, "\"it's a flag.obj\" --scene hang") else {
         return;
     };
     assert_eq!(played.chrome.text("title"), "it's a flag.obj");
     played.pass(0.2);
-    fs::write(folder.path("bad.obj"), "v 0 0 0\nf 1 2 3\n").expect("a file");
-    played.take(&folder.path("bad.obj"));
+    played.folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n");
+    played.take("bad.obj");
     played.chrome.drawn();
     let said = played.chrome.text("say");
     assert!(said.starts_with("bad.obj: line 2"), "{said}");
@@ -375,25 +324,20 @@ fn a_file_is_played_and_a_bad_one_changes_nothing() {
     let line = played.chrome.text("line");
     assert!(line.contains("'it'\\''s a flag-before.obj'"), "{line}");
     played.saved("save", "it's a flag-torn.obj");
-    let torn = played.folder.path("it's a flag-torn.obj");
-    checked(&torn);
+    played.folder.done("check \"it's a flag-torn.obj\"");
     // What was torn is played on, and keeps its record: it is mended to what was torn first.
-    played.take(&torn);
+    played.take("it's a flag-torn.obj");
     played.until("pieces", |pieces| pieces >= 2.0);
     played.saved("save", "it's a flag-torn-torn.obj");
-    let words = ["it's a flag-torn-torn.obj", "whole.obj"].map(|name| played.folder.name(name));
-    let words = ["tearmesh", "mend", &words[0], "-o", &words[1]].map(str::to_owned);
-    let (exit, said) = typed(words);
-    assert_eq!(exit, Exit::Done, "{said}");
-    assert!(
-        said.contains("-> 1 piece") && said.contains("-> 1089"),
-        "{said}"
-    );
+    let mend = "mend \"it's a flag-torn-torn.obj\" -o whole.obj";
+    let said = played.folder.done(mend);
+    let is_whole = said.contains("-> 1 piece") && said.contains("-> 1089");
+    assert!(is_whole, "{said}");
     // One vertex more than there may be.
     let mut many = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_owned();
     many.push_str(&"v 0 0 1\n".repeat(19_998));
-    fs::write(folder.path("many.obj"), many).expect("a file");
-    played.take(&folder.path("many.obj"));
+    played.folder.write("many.obj", many);
+    played.take("many.obj");
     let said = played.chrome.text("say");
     assert!(said.contains("20001 vertices"), "{said}");
     played.chrome.was_quiet();
@@ -403,7 +347,7 @@ fn a_file_is_played_and_a_bad_one_changes_nothing() {
 #[test]
 #[ignore = "needs chromium"]
 fn logs_give_the_same_bytes_natively_and_in_the_browser() {
-    let Some(mut played) = Played::open(&[]) else {
+    let Some(mut played) = Played::open("") else {
         return;
     };
     for (name, play) in LOGS {
@@ -414,23 +358,13 @@ fn logs_give_the_same_bytes_natively_and_in_the_browser() {
         let facts = player.facts();
         println!("{name}: {} tears, {} sewn", facts.tears, facts.sewn);
         let digest = format!("{:016x}", player.digest());
-        let path = played.folder.path(&format!("{name}.log"));
-        fs::write(&path, player.log()).expect("a written log");
-        played.take(&path);
-        let begun = Instant::now();
-        while !played
-            .chrome
-            .text("say")
-            .ends_with(&format!("digest {digest}."))
-        {
-            let said = played.chrome.text("say");
-            let took = begun.elapsed();
-            assert!(
-                took < Duration::from_secs(60),
-                "{name}: {said}, not {digest}"
-            );
-            std::thread::sleep(Duration::from_millis(50));
-        }
+        let file = format!("{name}.log");
+        played.folder.write(&file, player.log());
+        played.take(&file);
+        let end = format!("digest {digest}.");
+        played.wait(&format!("{name}, {digest}"), |played| {
+            played.chrome.text("say").ends_with(&end)
+        });
         let obj = played.saved("save", "sheet-32-torn.obj");
         assert!(obj == player.obj().expect("a file"), "{name}");
     }
@@ -452,6 +386,12 @@ fn ray(x: f64, y: f64) -> Ray {
     Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0)).expect("a ray")
 }
 
+/// A hand that grabs the sheet at a place.
+fn grab(player: &mut Player<'_>, x: f64, y: f64) -> usize {
+    let hand = player.grab(&ray(x, y)).expect("grabbed");
+    hand.expect("a hand")
+}
+
 /// Leads hands along straight lines, frame by frame.
 fn lead(player: &mut Player<'_>, hands: &[(usize, [Point; 2])], frames: u32) {
     for frame in 1..=frames {
@@ -466,10 +406,7 @@ fn lead(player: &mut Player<'_>, hands: &[(usize, [Point; 2])], frames: u32) {
 
 fn rip_and_heal(player: &mut Player<'_>) {
     player.advance(0.2, 10_000).expect("time");
-    let hand = player
-        .grab(&ray(0.5, 0.5))
-        .expect("grabbed")
-        .expect("a hand");
+    let hand = grab(player, 0.5, 0.5);
     let way = [Point::new(0.5, 0.5, 0.0), Point::new(0.5, -0.9, 0.3)];
     lead(player, &[(hand, way)], 100);
     player.release(hand).expect("released");
@@ -484,17 +421,10 @@ fn cut_flag_and_rip(player: &mut Player<'_>) {
     let splits = player.cut([ray(0.5, 2.0), ray(0.5, -1.0)], false);
     assert!(splits.expect("a cut") > 20);
     lead(player, &[], 12);
-    let hand = player
-        .grab(&ray(0.2, 0.5))
-        .expect("grabbed")
-        .expect("a hand");
-    let at = player.facts().grabbed_at;
-    let at = Point::from(at);
-    lead(
-        player,
-        &[(hand, [at, at + Vector::new(0.9, -0.6, 0.4)])],
-        40,
-    );
+    let hand = grab(player, 0.2, 0.5);
+    let at = Point::from(player.facts().grabbed_at);
+    let way = [at, at + Vector::new(0.9, -0.6, 0.4)];
+    lead(player, &[(hand, way)], 40);
     assert!(player.facts().tears > 10, "it rips");
 }
 
@@ -502,7 +432,7 @@ fn ten_hands(player: &mut Player<'_>) {
     let mut hands = Vec::new();
     for i in 0..10 {
         let (x, y) = (0.1 + 0.2 * f64::from(i % 5), 0.25 + 0.35 * f64::from(i / 5));
-        let hand = player.grab(&ray(x, y)).expect("grabbed").expect("a hand");
+        let hand = grab(player, x, y);
         let at = Point::from(player.facts().grabbed_at);
         let away = Vector::new(x - 0.5, y - 0.6, f64::from(i % 3) - 1.0);
         hands.push((hand, [at, at + away * 1.2]));
@@ -520,7 +450,7 @@ fn ten_hands(player: &mut Player<'_>) {
 #[test]
 #[ignore = "needs chromium"]
 fn frame_times_are_printed() {
-    let Some(mut played) = Played::open(&[]) else {
+    let Some(mut played) = Played::open("") else {
         return;
     };
     let page = fs::metadata(played.folder.path("play.html")).expect("a page");
@@ -528,21 +458,16 @@ fn frame_times_are_printed() {
     let module = played.chrome.value(module).as_u64().expect("a length");
     let version = played.chrome.call("Browser.getVersion", &json!({}));
     let browser = version["product"].as_str().unwrap_or_default();
-    println!(
-        "page {} kB, of which the module is {} kB",
-        page.len() / 1000,
-        module * 4 / 3000
-    );
+    let [page, module] = [page.len() / 1000, module * 4 / 3000];
+    println!("page {page} kB, of which the module is {module} kB");
     println!(
         "{browser}, headless, without a graphics card; {}",
         processor()
     );
-    for (cells, method) in [
-        ("32", "verlet"),
-        ("32", "xpbd"),
-        ("64", "verlet"),
-        ("64", "xpbd"),
-    ] {
+    for (cells, method) in ["32", "64"]
+        .into_iter()
+        .flat_map(|n| [(n, "verlet"), (n, "xpbd")])
+    {
         played.choose("method", method);
         played.choose("source", cells);
         played.chrome.value("fit.click()");

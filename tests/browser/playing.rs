@@ -3,8 +3,14 @@
 use serde_json::json;
 
 use crate::chrome::Chrome;
-use crate::folder::{Folder, done};
+use crate::harness::Folder;
 use crate::screen::is_seam;
+
+/// The size of the stage of an open page.
+fn size(chrome: &mut Chrome) -> [f64; 2] {
+    let stage = chrome.value("[stage.clientWidth, stage.clientHeight]");
+    [0, 1].map(|i| stage[i].as_f64().expect("a number"))
+}
 
 #[test]
 #[ignore = "needs chromium"]
@@ -13,24 +19,9 @@ fn a_simulation_is_played_and_can_be_turned() {
         return;
     };
     let folder = Folder::new();
-    folder.write("sheet.obj", "sheet.obj", |p| p);
-    let [mesh, torn, page] = ["sheet.obj", "torn.obj", "rip.html"].map(|name| folder.name(name));
-    done(&[
-        "tearmesh",
-        "tear",
-        &mesh,
-        "--scene",
-        "rip",
-        "--seconds",
-        "1.2",
-        "-o",
-        &torn,
-        "--view",
-        &page,
-    ]);
+    folder.done("tear sheet.obj --scene rip --seconds 1.2 -o torn.obj --view rip.html");
     chrome.open(&folder.path("rip.html"));
-    let stage = chrome.value("[stage.clientWidth, stage.clientHeight]");
-    let size = [0, 1].map(|i| stage[i].as_f64().expect("a number"));
+    let size = size(&mut chrome);
     // It opens at the first tear, which is marked on the slider, and nothing is torn before.
     let red = chrome.screen(size).places(is_seam).len();
     assert!(red > 40, "{red} red pixels at the first tear");
@@ -39,7 +30,7 @@ fn a_simulation_is_played_and_can_be_turned() {
     assert!(off.abs() < 0.01, "the mark is {off} % off");
     let marks = chrome.value("tears.childElementCount");
     assert!(marks.as_u64() > Some(1), "{marks} marks");
-    chrome.value("time.value -= 1; time.dispatchEvent(new Event('input'))");
+    chrome.set("time", "time.value - 1");
     let before = chrome.screen(size);
     assert!(before.places(is_seam).is_empty(), "it is whole");
     // A shadow is on the ground below, which is the background but darker.
@@ -47,7 +38,7 @@ fn a_simulation_is_played_and_can_be_turned() {
     let dark = before.places(is_shadow).len();
     println!("{dark} pixels of shadow");
     assert!(dark > 5000, "{dark} pixels of shadow");
-    chrome.value("time.value = 0; time.dispatchEvent(new Event('input'))");
+    chrome.set("time", "0");
     assert_eq!(chrome.text("clock"), "0.00 s");
     assert!(chrome.text("plots").contains("largest stretch"));
 
@@ -65,9 +56,7 @@ fn a_simulation_is_played_and_can_be_turned() {
     chrome.key(" ");
     chrome.key("ArrowLeft");
     assert_eq!(chrome.text("play"), "Play");
-    chrome.value(&format!(
-        "time.value = {reached}; time.dispatchEvent(new Event('input'))"
-    ));
+    chrome.set("time", &reached.to_string());
     assert_eq!(chrome.text("play"), "Play");
     chrome.value("new Promise(r => setTimeout(r, 100))");
     assert_eq!(chrome.value("time.value"), reached, "it is paused");
@@ -78,8 +67,7 @@ fn a_simulation_is_played_and_can_be_turned() {
         chrome.click(point);
     }
     assert!(chrome.text("hint").contains("go to torn.obj"));
-    let end = "time.value = time.max; time.dispatchEvent(new Event('input'))";
-    chrome.value(end);
+    chrome.set("time", "time.max");
     assert_eq!(chrome.text("clock"), "1.20 s");
     assert!(chrome.text("line").starts_with("tearmesh cut "));
     chrome.press("clear");
@@ -108,20 +96,10 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     };
     let folder = Folder::new();
     let name = "</script><script>alert(1)</script>\"'&.obj".replace('/', "\u{2215}");
-    folder.write("flag.obj", "flag.obj", |p| p);
-    let [mesh, torn, page] = ["flag.obj", &name, "flag.html"].map(|name| folder.name(name));
-    done(&[
-        "tearmesh",
-        "cut",
-        &mesh,
-        "--rays",
-        "0,2,5:0,0,-1",
-        "0,-0.4,5:0,0,-1",
-        "-o",
-        &torn,
-        "--view",
-        &page,
-    ]);
+    let quoted = shlex::try_quote(&name).expect("no zero");
+    folder.done(&format!(
+        "cut flag.obj --rays 0,2,5:0,0,-1 0,-0.4,5:0,0,-1 -o {quoted} --view flag.html"
+    ));
     for theme in ["light", "dark"] {
         let features = json!([{"name": "prefers-color-scheme", "value": theme}]);
         chrome.call("Emulation.setEmulatedMedia", &json!({"features": features}));
@@ -137,56 +115,43 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
     chrome.press("draw");
     chrome.drag([200.0, 300.0], [400.0, 350.0]);
     assert!(chrome.text("line").contains(" --rays "));
-    chrome.value("gap.value = 5; gap.dispatchEvent(new Event('input'))");
+    chrome.set("gap", "5");
     let line = chrome.text("line");
     assert!(line.contains(" --gap 5% "), "{line}");
     chrome.press("front");
     let line = chrome.text("line");
     assert!(line.contains(" --layers first "), "{line}");
     // Keys work after a click on a button or a box, but for a number that is typed.
-    let is_pressed = |id| format!("document.getElementById('{id}').ariaPressed");
-    chrome.key("e");
-    assert_eq!(chrome.value(&is_pressed("edges")), "true");
-    chrome.press("edges");
-    chrome.key("e");
-    assert_eq!(chrome.value(&is_pressed("edges")), "true");
-    chrome.press("gap");
-    chrome.key("e");
-    assert_eq!(chrome.value(&is_pressed("edges")), "true");
+    for id in ["front", "edges", "gap"] {
+        if id != "front" {
+            chrome.press(id);
+        }
+        chrome.key("e");
+        let is_pressed = chrome.value("document.getElementById('edges').ariaPressed");
+        assert_eq!(is_pressed, "true", "after {id}");
+    }
     chrome.press("theme");
     // As on a phone: two fingers spread, and two taps plan a cut.
     chrome.size(390, 844);
     chrome.drawn();
     let before = chrome.hidden_text("render");
-    for (kind, apart) in [("touchStart", 40), ("touchMove", 70), ("touchMove", 100)] {
-        let points =
-            json!([{"x": 195 - apart, "y": 250, "id": 1}, {"x": 195 + apart, "y": 260, "id": 2}]);
-        chrome.call(
-            "Input.dispatchTouchEvent",
-            &json!({"type": kind, "touchPoints": points}),
-        );
+    for (kind, apart) in [
+        ("touchStart", 40.0),
+        ("touchMove", 70.0),
+        ("touchMove", 100.0),
+    ] {
+        chrome.touch(kind, &[[195.0 - apart, 250.0], [195.0 + apart, 260.0]]);
     }
-    chrome.call(
-        "Input.dispatchTouchEvent",
-        &json!({"type": "touchEnd", "touchPoints": []}),
-    );
+    chrome.touch("touchEnd", &[]);
     chrome.drawn();
     assert_ne!(chrome.hidden_text("render"), before, "it came nearer");
     chrome.press("clear");
-    for [x, y] in [[150, 200], [230, 300]] {
-        let points = json!([{"x": x, "y": y}]);
-        chrome.call(
-            "Input.dispatchTouchEvent",
-            &json!({"type": "touchStart", "touchPoints": points}),
-        );
-        chrome.call(
-            "Input.dispatchTouchEvent",
-            &json!({"type": "touchEnd", "touchPoints": []}),
-        );
+    for point in [[150.0, 200.0], [230.0, 300.0]] {
+        chrome.touch("touchStart", &[point]);
+        chrome.touch("touchEnd", &[]);
     }
     assert!(chrome.text("line").contains(" --rays "));
-    let sticks_out = "document.documentElement.scrollWidth > innerWidth";
-    assert_eq!(chrome.value(sticks_out), json!(false));
+    assert!(!chrome.sticks_out());
     chrome.was_quiet();
 }
 
@@ -197,22 +162,14 @@ fn every_moment_is_in_the_frame() {
         return;
     };
     let folder = Folder::new();
-    folder.write("sheet.obj", "sheet.obj", |p| p);
-    let [mesh, end, page] = ["sheet.obj", "end.obj", "fall.html"].map(|name| folder.name(name));
-    let fall = ["tearmesh", "tear", &mesh, "--scene", "fall"];
-    let files = ["--seconds", "1", "-o", &end, "--view", &page];
-    done(&[&fall[..], &files].concat());
+    folder.done("tear sheet.obj --scene fall --seconds 1 -o end.obj --view fall.html");
     chrome.open(&folder.path("fall.html"));
-    let stage = chrome.value("[stage.clientWidth, stage.clientHeight]");
-    let size = [0, 1].map(|i| stage[i].as_f64().expect("a number"));
+    let size = size(&mut chrome);
     let is_cloth = |[r, _, b]: [u8; 3]| b > r.saturating_add(40);
-    let mut counts = Vec::new();
-    for moment in [0, 10, 20, 30] {
-        chrome.value(&format!(
-            "time.value = {moment}; time.dispatchEvent(new Event('input'))"
-        ));
-        counts.push(chrome.screen(size).places(is_cloth).len());
-    }
+    let counts = [0, 10, 20, 30].map(|moment| {
+        chrome.set("time", &moment.to_string());
+        chrome.screen(size).places(is_cloth).len()
+    });
     println!("{counts:?} pixels of cloth");
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
     assert!(counts[3] * 2 > counts[0], "all of it is seen: {counts:?}");
