@@ -1,8 +1,10 @@
 //! Whole pictures: golden ones, cameras that are found, and meshes that are strange.
 
 use proptest::prelude::*;
-use tearmesh::{CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
-use tearmesh_view::{Camera, CameraError, Picture, PictureSize, RenderOptions, fit, render};
+use tearmesh::{CutMethod, Edits, Mesh, Plane, Point, Positions, Ray, Scissor, Vector, shapes};
+use tearmesh_view::{
+    Camera, CameraError, Picture, PictureSize, RenderOptions, fit, render, write_drawn,
+};
 
 use crate::digest;
 use crate::meshes::{crumpled, soup};
@@ -69,6 +71,47 @@ fn a_png_has_the_pixels_of_its_picture() {
         (31, 17, png::ColorType::Rgb)
     );
     assert_eq!(pixels, picture.pixels());
+}
+
+/// Four threads hang out of each side of a torn edge that gapes, and each line of a finer figure is two.
+#[test]
+fn a_drawn_surface_is_written_with_its_fringe() {
+    let (mut mesh, mut positions) = shapes::grid(9, 9);
+    let plane = Plane::new(Point::new(0.43, 0.0, 0.0), Vector::x()).expect("a plane");
+    let (scissor, log) = (Scissor::by_plane(plane), &mut Edits::new());
+    let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, log);
+    assert!(cut.is_ok());
+    let components = mesh.components();
+    let mut points = positions.as_slice().to_vec();
+    for v in mesh.vertices() {
+        let corner = mesh.half_edge_of(v).expect("a face");
+        points[v.index()].y -= 0.5 * components.of(corner.face()) as f64;
+    }
+    let options = RenderOptions {
+        finer: 2,
+        fringe: true,
+        ..RenderOptions::default()
+    };
+    let mut file = Vec::new();
+    write_drawn(&mesh, &points[..], &options, &mut file).expect("bytes");
+    let text = String::from_utf8(file).expect("a text");
+    let (surface, fringe) = text.split_once("g fringe\n").expect("a group");
+    let count = |word: &str| {
+        surface
+            .lines()
+            .filter(|line| line.starts_with(word))
+            .count()
+    };
+    let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
+    assert_eq!(fringe.lines().count(), torn.count() * 4 * 2);
+    assert!(fringe.lines().all(|line| line.starts_with("l ")));
+    assert_eq!(count("f "), 4 * mesh.face_count());
+    assert_eq!(count("v "), count("vn "));
+    let numbers = text.split(|c: char| !c.is_ascii_digit() && c != '.');
+    let largest = numbers
+        .filter_map(|number| number.parse::<usize>().ok())
+        .max();
+    assert_eq!(largest, Some(count("v ")));
 }
 
 /// The dust of a tear may be anywhere: only large pieces decide what is seen.

@@ -48,7 +48,7 @@ function readStates(bytes, count) {
 }
 
 // Puts `places` into each moment: three numbers a vertex.
-function readPlaces(bytes, { moments, states }) {
+function readPlaces(bytes, { moments }) {
   const first = 3 * moments[0].vertices;
   const floats = new Float32Array(first), raw = new Uint8Array(floats.buffer);
   for (let i = 0; i < first; i++) {
@@ -59,36 +59,18 @@ function readPlaces(bytes, { moments, states }) {
     for (let v = 0; v < moments[0].vertices; v++) moments[0].places[3 * v + axis] = floats[axis * moments[0].vertices + v];
   }
   const planes = bytes.subarray(4 * first), total = planes.length / 3;
-  let at = 0, was = moments[0].places.map((x) => Math.round(x * STEPS)), neighbours;
+  let at = 0, was = moments[0].places.map((x) => Math.round(x * STEPS));
   for (let m = 1; m < moments.length; m++) {
-    const { vertices, state } = moments[m], before = was.length / 3;
-    if (m === 1 || state !== moments[m - 1].state) neighbours = neighboursIn(states[state].corners, vertices);
-    const now = new Float64Array(3 * vertices);
+    const { vertices } = moments[m], now = new Float64Array(3 * vertices);
     for (let axis = 0; axis < 3; axis++) {
-      for (let v = 0; v < vertices; v++, at++) {
-        const i = 3 * v + axis, beside = 3 * neighbours[v] + axis;
-        const start = (vertex) => (v < before ? was[vertex] : 0);
-        const off = unfolded(planes[at] + 256 * planes[total + at] + 65536 * planes[2 * total + at]);
-        now[i] = start(i) + off + (beside !== i ? now[beside] - start(beside) : 0);
+      for (let v = 0, moved = 0; v < vertices; v++, at++) {
+        moved += unfolded(planes[at] + 256 * planes[total + at] + 65536 * planes[2 * total + at]);
+        now[3 * v + axis] = (was[3 * v + axis] ?? 0) + moved;
       }
     }
     moments[m].places = now.map((x) => x / STEPS);
     was = now;
   }
-}
-
-// Of each vertex, a vertex with a smaller number that shares an edge with it, if it has one, or itself.
-function neighboursIn(corners, vertices) {
-  const neighbours = Uint32Array.from({ length: vertices }, (_, v) => v);
-  for (let f = 0; f < corners.length; f += 3) {
-    for (let i = 0; i < 3; i++) {
-      const v = corners[f + i];
-      for (const other of [corners[f + (i + 1) % 3], corners[f + (i + 2) % 3]]) {
-        if (other < v && neighbours[v] === v) neighbours[v] = other;
-      }
-    }
-  }
-  return neighbours;
 }
 
 // The box round some moments, but for crumbs: pieces that have come off since the first of them, and have less

@@ -3,7 +3,7 @@
 //! Those of the first moment are 32-bit floats, from 0 to 1 along the longest side of the box: all first
 //! bytes, then all second ones, and so on, since bytes of one kind are alike and pack well. Those of the
 //! moments after it are points of a lattice of 65,536 steps, and only how far each is off from where it would
-//! be if it had moved as a neighbour did is written. That is folded as in [`super::codec`], and of all moments
+//! be if it had moved as the one before it did is written: in a film, vertices of a mesh lie nearly in order. That is folded as in [`super::codec`], and of all moments
 //! the lowest bytes come first, then the middle and the highest.
 
 use tearmesh::Point;
@@ -66,8 +66,7 @@ pub(super) fn write<'m>(
             continue;
         }
         let now: Vec<[i32; 3]> = parts.into_iter().map(steps).collect();
-        let neighbours = neighbours(corners, points.len());
-        left.extend((0..3).flat_map(|axis| unexpected(axis, &was, &now, &neighbours)));
+        left.extend((0..3).flat_map(|axis| unexpected(axis, &was, &now)));
         was = now;
     }
     for shift in [0, 8, 16] {
@@ -76,17 +75,16 @@ pub(super) fn write<'m>(
     bytes
 }
 
-/// How far each vertex is along an axis from where it would be if it had moved as its neighbour did, folded.
-fn unexpected(axis: usize, was: &[[i32; 3]], now: &[[i32; 3]], neighbours: &[u32]) -> Vec<u32> {
-    let pairs = neighbours.iter().zip(0..);
-    let off = pairs.map(|(&beside, v): (&u32, usize)| {
-        // What is born now is hardly far from its neighbour.
-        let start = |u: usize| if v < was.len() { was[u][axis] } else { 0 };
-        let moved = |u: usize| now[u][axis] - start(u);
-        let beside = beside as usize;
-        moved(v) - if beside == v { 0 } else { moved(beside) }
+/// How far each vertex moved along an axis, less how far the one before it did, folded.
+fn unexpected(axis: usize, was: &[[i32; 3]], now: &[[i32; 3]]) -> Vec<u32> {
+    // What is born now comes from the corner of the box.
+    let was = was.iter().map(|was| was[axis]).chain(std::iter::repeat(0));
+    let mut before = 0;
+    let off = now.iter().zip(was).map(|(now, was)| {
+        let moved = now[axis] - was;
+        folded(i64::from(moved - std::mem::replace(&mut before, moved))) as u32
     });
-    off.map(|off| folded(i64::from(off)) as u32).collect()
+    off.collect()
 }
 
 /// Numbers from 0 to 1 as 32-bit floats: their first bytes, each axis by itself, and so on.
@@ -104,21 +102,4 @@ fn shown(corners: &[u32], vertices: usize) -> Vec<bool> {
         shown[v as usize] = true;
     }
     shown
-}
-
-/// Of each vertex, a vertex with a smaller number that shares an edge with it: the first that the faces
-/// name. None has itself.
-fn neighbours(corners: &[u32], vertices: usize) -> Vec<u32> {
-    let mut neighbours: Vec<u32> = (0..vertices as u32).collect();
-    for face in corners.as_chunks::<3>().0 {
-        for i in 0..3 {
-            for other in [face[(i + 1) % 3], face[(i + 2) % 3]] {
-                let v = face[i];
-                if other < v && neighbours[v as usize] == v {
-                    neighbours[v as usize] = other;
-                }
-            }
-        }
-    }
-    neighbours
 }
