@@ -338,18 +338,18 @@ pub(crate) fn script(own: &[&str]) -> String {
 pub(crate) const FRAME: &str = include_str!("page/page.html");
 pub(crate) const STYLE: &str = include_str!("page/page.css");
 /// What every page begins its script with, file by file: each uses those before it.
-const SHARED_SCRIPTS: [&str; 8] = [
+const SHARED_SCRIPTS: [&str; 7] = [
     include_str!("page/vectors.js"),
     include_str!("page/packed.js"),
     include_str!("page/camera.js"),
     include_str!("page/cutter.js"),
-    include_str!("page/shade.js"),
     include_str!("page/finer.js"),
     include_str!("page/scene.js"),
     include_str!("page/overlay.js"),
 ];
-const SCRIPTS: [&str; 3] = [
+const SCRIPTS: [&str; 4] = [
     include_str!("page/data.js"),
+    include_str!("page/shade.js"),
     include_str!("page/plots.js"),
     include_str!("page/page.js"),
 ];

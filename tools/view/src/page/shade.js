@@ -10,29 +10,6 @@ const BLUR = 2, BLURS = 3;
 // From how many faces on fewer directions have to do.
 const MANY_FACES = 1 << 17;
 
-// The unit normal of each vertex: the mean of those of its faces, by area.
-function vertexNormals(places, corners) {
-  const normals = new Float64Array(places.length);
-  for (let f = 0; f < corners.length; f += 3) {
-    const i = 3 * corners[f], j = 3 * corners[f + 1], k = 3 * corners[f + 2];
-    const ux = places[j] - places[i], uy = places[j + 1] - places[i + 1], uz = places[j + 2] - places[i + 2];
-    const vx = places[k] - places[i], vy = places[k + 1] - places[i + 1], vz = places[k + 2] - places[i + 2];
-    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    for (let corner = 0, at = i; corner < 3; corner++, at = corner === 1 ? j : k) {
-      normals[at] += x;
-      normals[at + 1] += y;
-      normals[at + 2] += z;
-    }
-  }
-  for (let at = 0; at < normals.length; at += 3) {
-    const x = normals[at], y = normals[at + 1], z = normals[at + 2], scale = 1 / (Math.sqrt(x * x + y * y + z * z) || 1);
-    normals[at] = x * scale;
-    normals[at + 1] = y * scale;
-    normals[at + 2] = z * scale;
-  }
-  return normals;
-}
-
 // Directions all around, and the part of the sky of each: the points of an octahedron whose edges are divided in n.
 function directionsAround(n) {
   const all = [], range = Array.from({ length: 2 * n + 1 }, (_, i) => i - n);
