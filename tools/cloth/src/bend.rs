@@ -67,7 +67,8 @@ impl Buckling {
         }
         let u = inverse_sinc_squared(buckles_below);
         let gap = 1.0 - buckles_below;
-        let number = 4.0 / (series(u).p * gap);
+        let [_, p, _] = series(u);
+        let number = 4.0 / (p * gap);
         let pi = std::f64::consts::PI;
         let buckles_once = number > 4.0 * (pi * pi) && number.is_finite();
         buckles_once.then_some(Buckling {
@@ -103,7 +104,7 @@ impl Buckling {
         } else {
             let k = c * (l * l * l) / self.number;
             let u = inverse_sinc_squared(distance / l);
-            let Series { p, r, .. } = series(u);
+            let [_, p, r] = series(u);
             let energy = 2.0 * k * u / l + self.shift * (c * (l * l));
             let slope = 4.0 * k / (l * l * l) * (r / (p * p * p));
             [energy, -4.0 * k / (l * l * p), slope]
@@ -122,16 +123,6 @@ pub(crate) struct Axial {
     pub(crate) energy: f64,
     pub(crate) force: f64,
     pub(crate) slope: f64,
-}
-
-/// Functions of u = t², for t in 0 … π.
-struct Series {
-    /// sin t / t.
-    sinc: f64,
-    /// (sinc t − cos t) / t², which is −2 times the derivative of sinc by u.
-    p: f64,
-    /// (3 p − sinc) / t².
-    r: f64,
 }
 
 /// The terms of the power series; that of u^k has the divisor (2k + 1)! at least, so that the
@@ -161,19 +152,18 @@ const fn coefficients(first: usize) -> [f64; TERMS] {
     list
 }
 
-const SINC: [f64; TERMS] = coefficients(1);
-const P: [f64; TERMS] = coefficients(3);
-const R: [f64; TERMS] = coefficients(5);
+const SERIES: [[f64; TERMS]; 3] = [coefficients(1), coefficients(3), coefficients(5)];
 
-/// By Horner's rule.
-fn series(u: f64) -> Series {
-    let (mut sinc, mut p, mut r) = (0.0, 0.0, 0.0);
+/// Functions of u = t², for t in 0 … π, by Horner's rule: sin t / t; p = (sinc t − cos t) / t², which is −2
+/// times the derivative of sinc by u; and r = (3 p − sinc) / t².
+fn series(u: f64) -> [f64; 3] {
+    let [mut sinc, mut p, mut r] = [0.0; 3];
     for k in (0..TERMS).rev() {
-        sinc = SINC[k] - u * sinc;
-        p = P[k] - u * p;
-        r = R[k] - u * r;
+        sinc = SERIES[0][k] - u * sinc;
+        p = SERIES[1][k] - u * p;
+        r = SERIES[2][k] - u * r;
     }
-    Series { sinc, p, r }
+    [sinc, p, r]
 }
 
 /// t² for which sin t / t is `x`, x in 0 … 1.
@@ -183,7 +173,7 @@ fn inverse_sinc_squared(x: f64) -> f64 {
     let mut u = y * (6.0 + y * (1.8 + y * (144.0 / 175.0)));
     // From the worst start, x = 0, five steps reach the last bit; rounding ends the climb.
     for _ in 0..8 {
-        let Series { sinc, p, .. } = series(u);
+        let [sinc, p, _] = series(u);
         let next = u + 2.0 * (sinc - x) / p;
         if next <= u {
             break;
@@ -201,7 +191,7 @@ mod tests {
     fn the_series_agree_with_the_system() {
         for i in 1..=1000 {
             let t = std::f64::consts::PI * f64::from(i) / 1000.0;
-            let Series { sinc, p, r } = series(t * t);
+            let [sinc, p, r] = series(t * t);
             let truth = t.sin() / t;
             assert!((sinc - truth).abs() < 4e-16, "sinc {t}: {sinc} {truth}");
             let truth = (truth - t.cos()) / (t * t);
@@ -211,8 +201,7 @@ mod tests {
             let truth = (3.0 * truth - t.sin() / t) / (t * t);
             assert!((r - truth).abs() < 4.0 * rounding / (t * t), "r {t}: {r}");
         }
-        let Series { sinc, p, r } = series(0.0);
-        assert_eq!((sinc, p, r), (1.0, 1.0 / 3.0, 1.0 / 15.0));
+        assert_eq!(series(0.0), [1.0, 1.0 / 3.0, 1.0 / 15.0]);
     }
 
     #[test]
