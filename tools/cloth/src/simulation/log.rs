@@ -94,91 +94,69 @@ impl FromStr for InputLog {
     type Err = LogError;
 
     fn from_str(text: &str) -> Result<InputLog, LogError> {
-        let (mut lines, mut number) = (text.lines(), 0);
-        let mut next = || {
-            number += 1;
+        let mut lines = text.lines();
+        let digest = lines.next().and_then(|line| line.strip_prefix(HEAD));
+        let digest = digest.ok_or(error(1, 1, HEAD))?;
+        let mut words = words_of(digest, HEAD.len() + 1);
+        let mut log = InputLog::new(number(1, words.next().unwrap_or_default())?);
+        at_end(1, words)?;
+        for line in 2.. {
             let text = lines.next().unwrap_or_default();
-            Line {
-                number,
-                text,
-                read: 0,
-            }
-        };
-        let mut line = next();
-        if !line.text.starts_with(HEAD) {
-            return Err(line.error(HEAD));
-        }
-        line.read = HEAD.len();
-        let mut log = InputLog::new(line.number()?);
-        line.end()?;
-        loop {
-            let mut line = next();
-            let ascends = |step: &u64| *step >= log.steps;
-            let step = |word: &str| word.parse().ok().filter(ascends);
-            log.steps = line.word("a number of steps that does not descend", step)?;
-            let is = |word: &str| VERBS.into_iter().chain(["end"]).find(|verb| *verb == word);
-            let verb = line.word("a verb", is)?;
-            if verb == "end" {
-                line.end()?;
+            let mut words = words_of(text, 1);
+            let mut next = || words.next().unwrap_or((text.len() + 1, ""));
+            let (column, word) = next();
+            let step = word.parse().ok().filter(|step| *step >= log.steps);
+            let expected = "a number of steps that does not descend";
+            log.steps = step.ok_or(error(line, column, expected))?;
+            let (column, word) = next();
+            if word == "end" {
+                at_end(line, words)?;
                 break;
             }
-            let mut words = Vec::new();
-            while line.end().is_err() {
-                words.push(line.number()?);
-            }
-            log.note(verb, words);
+            let verb = VERBS.into_iter().find(|verb| *verb == word);
+            let verb = verb.ok_or(error(line, column, "a verb"))?;
+            let numbers = words.map(|word| number(line, word));
+            log.note(verb, numbers.collect::<Result<_, _>>()?);
         }
-        match text.lines().nth(log.records.len() + 2) {
+        match lines.next() {
             None => Ok(log),
-            Some(_) => Err(next().error("the end of the log")),
+            Some(_) => Err(error(log.records.len() + 3, 1, "the end of the log")),
         }
     }
 }
 
-/// A line that is read from left to right.
-struct Line<'t> {
-    number: usize,
-    text: &'t str,
-    /// Where the next word begins: after a space, or one beyond the end.
-    read: usize,
+fn error(line: usize, column: usize, expected: &'static str) -> LogError {
+    LogError {
+        line,
+        column,
+        expected,
+    }
 }
 
-impl Line<'_> {
-    /// Reads a word, and the space after it.
-    fn word<T>(
-        &mut self,
-        expected: &'static str,
-        read: impl Fn(&str) -> Option<T>,
-    ) -> Result<T, LogError> {
-        let rest = self.text.get(self.read..).unwrap_or_default();
-        let word = rest.split(' ').next().unwrap_or_default();
-        let value = read(word).ok_or(self.error(expected))?;
-        self.read += word.len() + 1;
-        Ok(value)
-    }
+/// The words of a text that begins at a column, each with its own.
+fn words_of(text: &str, column: usize) -> impl Iterator<Item = (usize, &str)> {
+    text.split(' ').scan(column, |next, word| {
+        let column = *next;
+        *next += word.len() + 1;
+        Some((column, word))
+    })
+}
 
-    fn number(&mut self) -> Result<u64, LogError> {
-        let is_digits = |word: &&str| word.bytes().all(|byte| byte.is_ascii_hexdigit());
-        let hex = |word: &str| u64::from_str_radix(Some(word).filter(is_digits)?, 16).ok();
-        self.word("a number of up to 16 hexadecimal digits", hex)
-    }
+fn number(line: usize, (column, word): (usize, &str)) -> Result<u64, LogError> {
+    let is_digits = word.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let value = u64::from_str_radix(word, 16).ok().filter(|_| is_digits);
+    let expected = "a number of up to 16 hexadecimal digits";
+    value.ok_or(error(line, column, expected))
+}
 
-    /// Refuses a line with further words.
-    fn end(&self) -> Result<(), LogError> {
-        let is_over = self.read > self.text.len();
-        let error = LogError {
-            column: self.read,
-            ..self.error("the end of the line")
-        };
-        is_over.then_some(()).ok_or(error)
-    }
-
-    fn error(&self, expected: &'static str) -> LogError {
-        LogError {
-            line: self.number,
-            column: self.read.min(self.text.len()) + 1,
-            expected,
-        }
+/// Refuses a line with further words.
+fn at_end<'t>(
+    line: usize,
+    mut words: impl Iterator<Item = (usize, &'t str)>,
+) -> Result<(), LogError> {
+    match words.next() {
+        None => Ok(()),
+        Some((column, _)) => Err(error(line, column - 1, "the end of the line")),
     }
 }
 
