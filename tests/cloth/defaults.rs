@@ -11,14 +11,14 @@ use tearmesh_cloth::{Loads, Solver, System, Verlet, Xpbd, recommended_step_s, st
 
 use self::sheets::Sheet;
 use crate::parts::scenes::{play, top};
-use crate::parts::{ORDERS, Order, fastest, implicit, mechanical_j, near, pulled, run, shake};
+use crate::parts::{ORDERS, Order, fastest, implicit, mechanical_j, near, pulled, run_with, shake};
 use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 
 /// Advances until nothing moves faster than 1e-7 m/s, or for a number of seconds.
 fn settle(system: &mut System, solver: &mut dyn Solver, dt_s: f64, seconds: f64) {
     for _ in 0..(seconds / dt_s / 50.0) as usize {
-        run(system, &mut *solver, dt_s, 50);
+        run_with(system, &mut *solver, dt_s, 50);
         if fastest(system) < 1e-7 {
             return;
         }
@@ -115,7 +115,7 @@ fn a_crushed_sheet_makes_no_energy_at_any_step() {
                 let began = mechanical_j(&system);
                 let mut solver = Verlet::new();
                 for _ in 0..(0.3 / dt_s) as usize {
-                    run(&mut system, &mut solver, dt_s, 1);
+                    run_with(&mut system, &mut solver, dt_s, 1);
                     let part = mechanical_j(&system) / began;
                     assert!(part <= 1.02, "{} {noise} {dt_s} {part}", sheet.name);
                 }

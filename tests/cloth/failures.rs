@@ -6,9 +6,9 @@ use tearmesh_cloth::{
     Xpbd, frequency_bound,
 };
 
-use crate::parts::nets::{chain, framed, row};
+use crate::parts::nets::{chain, framed, link, row};
 use crate::parts::vibration::largest_frequency;
-use crate::parts::{blown, gravity, near, on_a_line, residual_n, run, shake};
+use crate::parts::{blown, gravity, near, on_a_line, residual_n, run, run_with, shake};
 use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 
@@ -32,9 +32,9 @@ fn f1_growth_beyond_the_limit_is_of_theory_and_refused() {
     assert_eq!(system.clone().step(&mut verlet, dt), Ok(2));
 
     system.when_unstable(Unstable::Allow);
-    run(&mut system, &mut verlet, dt, 60);
+    run_with(&mut system, &mut verlet, dt, 60);
     let before = system.positions()[1].x - 1.0;
-    run(&mut system, &mut verlet, dt, 1);
+    run_with(&mut system, &mut verlet, dt, 1);
     near(-(system.positions()[1].x - 1.0) / before, growth, 1e-4);
     let error = (0..1000).find_map(|_| {
         let good = system.positions().to_vec();
@@ -59,14 +59,14 @@ fn f4_the_bound_holds_is_near_and_names_its_spring() {
             assert!(omega < bound && omega > 0.5 * bound);
             shake(&mut net, 0.1 * seed as f64, 0.0, &mut Random(seed));
         }
-        let id = net.stretches().between(24, 25).expect("a spring");
+        let id = link(&net, 24, 25).expect("a spring");
         let spring = net.cut(id);
         let stiffer = net.stretch(spring.ends, spring.rest_length_m, 9.0 * stiffness);
         let id = stiffer.expect("a spring");
         let stiffer = frequency_bound(&mut net);
         assert!(stiffer.omega_rad_per_s > largest_frequency(&net));
         let [a, b] = stiffer.ends.expect("a spring");
-        assert_eq!(net.stretches().between(a, b), Some(id));
+        assert_eq!(link(&net, a, b), Some(id));
     }
 }
 

@@ -13,7 +13,7 @@ use crate::parts::cloths::cloth;
 use crate::parts::nets::chain;
 use crate::parts::scenes::{methods, play, staged, swaying};
 use crate::parts::woven::weave;
-use crate::parts::{gravity_along_y, implicit, onto, plane, run, solved, state};
+use crate::parts::{gravity_along_y, implicit, onto, plane, run, run_with, solved, state};
 use crate::rk4::Rk4;
 
 /// A quarter of a second of hanging, with no more than is added.
@@ -135,7 +135,7 @@ fn each_method_counts_what_it_evaluates() {
     assert!(refused.to_string().contains("5 iterations"), "{refused}");
     assert_eq!(chain.counters().matrix_products, 6);
     solver.settings = settings;
-    run(&mut chain, &mut solver, 0.02, 1);
+    run_with(&mut chain, &mut solver, 0.02, 1);
     let iterations = solved(&solver, &chain).solver_iterations;
     assert_eq!(chain.counters().matrix_products, 6 + iterations + 1);
     assert_eq!(chain.counters().force_evaluations, 11 + 40 + 10 + 2);

@@ -80,9 +80,18 @@ pub(crate) fn pulled(gravity_m_per_s2: Vector, drag_per_s: f64) -> Loads {
 ///
 /// If a step fails.
 pub(crate) fn run(system: &mut System, mut solver: impl Solver, dt_s: f64, steps: usize) {
+    run_with(system, &mut solver, dt_s, steps);
+}
+
+/// Takes them by a solver that goes on to be used.
+///
+/// # Panics
+///
+/// If a step fails.
+pub(crate) fn run_with(system: &mut System, solver: &mut dyn Solver, dt_s: f64, steps: usize) {
     system.when_unstable(Unstable::Allow);
     for _ in 0..steps {
-        system.step(&mut solver, dt_s).expect("a stable step");
+        system.step(solver, dt_s).expect("a stable step");
     }
 }
 

@@ -8,7 +8,7 @@ use tearmesh_cloth::{Implicit, StepError, System, energy};
 
 use crate::parts::nets::row;
 use crate::parts::{
-    implicit, implicit_to, longest, mechanical_j, on_a_line, particles, run, solved,
+    implicit, implicit_to, longest, mechanical_j, on_a_line, particles, run_with, solved,
 };
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
@@ -134,7 +134,7 @@ fn pushed_chains_have_at_most_the_energy_they_were_given() {
             let mut chain = pushed.clone();
             let mut solver = implicit_to(method, 10.0);
             for _ in 0..300 {
-                run(&mut chain, &mut solver, times * 2.0 / omega, 1);
+                run_with(&mut chain, &mut solver, times * 2.0 / omega, 1);
                 let part = mechanical_j(&chain) / given_j;
                 assert!(part < 1.0, "{links} links, {seed}, {method:?}, {times}");
             }

@@ -1,7 +1,7 @@
 //! Systems of springs alone, and what is known of them by statics.
 
 use tearmesh::{Point, Vector, VertexId, shapes};
-use tearmesh_cloth::{Loads, System};
+use tearmesh_cloth::{ConstraintId, Loads, System};
 
 use super::{G, gravity};
 
@@ -15,6 +15,12 @@ pub(crate) fn row(springs: usize, mass: f64, stiffness: f64, rest: f64, apart: V
     }
     row.hold(0);
     row
+}
+
+/// The stretch constraint between two particles.
+pub(crate) fn link(system: &System, a: usize, b: usize) -> Option<ConstraintId> {
+    let (mut ids, all) = (system.stretches().iter(), system.stretches());
+    ids.find(|&id| [a, b].iter().all(|end| all.get(id).ends.contains(end)))
 }
 
 /// R2: ten links of 0.1 m and 50 N/m between particles of 10 g, hanging by the first, with this drag

@@ -3,7 +3,7 @@
 use tearmesh::Vector;
 
 use super::{Links, METHODS};
-use crate::parts::{method, near, order, run};
+use crate::parts::{method, near, order, run_with};
 
 /// The relative error in x and v/ω after 0.25 s.
 fn error(links: Links, name: &str, dt: f64) -> f64 {
@@ -11,7 +11,7 @@ fn error(links: Links, name: &str, dt: f64) -> f64 {
     let mut system = links.row(1, 0.01, 40.0, 1.0, Vector::x());
     links.change(&mut system, 1, |p, _| p.x = 1.1);
     let steps = (0.25 / dt).round() as usize;
-    run(&mut system, &mut *method(name, 1), dt, steps);
+    run_with(&mut system, &mut *method(name, 1), dt, steps);
     let x = links.point(&system, 1).x - 1.0 - 0.1 * (omega * 0.25).cos();
     let v = system.velocities()[links.at(1).start].x / omega + 0.1 * (omega * 0.25).sin();
     (x * x + v * v).sqrt() / 0.1

@@ -9,7 +9,7 @@ use super::{Links, METHODS, theory};
 use crate::parts::nets::{framed, relaxed, row};
 use crate::parts::vibration::largest_frequency;
 use crate::parts::woven::{self, moduli, weave};
-use crate::parts::{gravity, is_implicit, mechanical_j, method, near, run};
+use crate::parts::{gravity, is_implicit, mechanical_j, method, near, run_with};
 
 /// An error, and the largest that it may be; `None` where the answer is none of the method's.
 type Cell = Option<(f64, f64)>;
@@ -20,7 +20,7 @@ type Row = (&'static str, fn(Links, &str) -> Cell);
 /// Takes steps by a method until so many seconds have passed.
 fn go(system: &mut System, name: &str, sweeps: u32, dt_s: f64, seconds: f64) {
     let steps = (seconds / dt_s).round() as usize;
-    run(system, &mut *method(name, sweeps), dt_s, steps);
+    run_with(system, &mut *method(name, sweeps), dt_s, steps);
 }
 
 fn projects(name: &str) -> bool {
@@ -53,7 +53,7 @@ fn r1(links: Links, name: &str) -> Cell {
     links.change(&mut system, 1, |p, _| p.x = 1.1);
     let z = 4000.0_f64.sqrt() * 0.01;
     let error = oscillation(name, z, 60, |solver| {
-        run(&mut system, solver, 0.01, 1);
+        run_with(&mut system, solver, 0.01, 1);
         (links.point(&system, 1).x - 1.0) / 0.1
     })?;
     Some((error, 1e-9))
@@ -89,7 +89,7 @@ fn mode(links: Links, name: &str, j: f64, across: bool) -> Cell {
     let of_mode = |k: f64, j: f64| 2.0 * (k / 0.02_f64).sqrt() * (j * PI / 64.0).sin();
     let (omega, dt) = (of_mode(stiffness, j), 0.9 * 2.0 / of_mode(1000.0, 31.0));
     let error = oscillation(name, omega * dt, 60, |solver| {
-        run(&mut chain, solver, dt, 1);
+        run_with(&mut chain, solver, dt, 1);
         let p = links.point(&chain, 7).coords - Vector::x() * (7.0 * pitch);
         p.dot(&direction) / (amplitude * shape(7))
     })?;
@@ -111,7 +111,7 @@ fn period(links: Links, name: &str, stiffness: f64, dt: f64, angle: f64) -> f64 
     let mut crossings = Vec::new();
     let mut last = links.point(&system, 1).x;
     while crossings.len() < 3 {
-        run(&mut system, &mut *solver, dt, 1);
+        run_with(&mut system, &mut *solver, dt, 1);
         let now = links.point(&system, 1).x;
         if (last < 0.0) != (now < 0.0) {
             crossings.push(system.elapsed_s() - dt * now / (now - last));
@@ -155,7 +155,7 @@ fn r6b(links: Links, name: &str) -> Cell {
         return None;
     }
     let mut net = sagging(links, 1.0, 1.5 / 16.0);
-    run(&mut net, &mut *method(name, 300), 1.0 / 960.0, 9600);
+    run_with(&mut net, &mut *method(name, 300), 1.0 / 960.0, 9600);
     let [sag, _] = theory::net(16, |_| 1.5 / 16.0);
     Some(((-net.positions()[8].z - sag).abs(), 2e-6))
 }
@@ -193,7 +193,7 @@ fn r9(links: Links, name: &str) -> Cell {
     let mut sheet = links.row(4, 0.1, 20.0, 0.25, Vector::x() * 0.25);
     links.at(0).for_each(|particle| sheet.release(particle));
     sheet.set_loads(gravity(0.0)).expect("loads");
-    run(&mut sheet, &mut *method(name, 3), 1.0 / 60.0, 60);
+    run_with(&mut sheet, &mut *method(name, 3), 1.0 / 60.0, 60);
     let fallen = theory::fall(name, 1.0 / 60.0, 60);
     let strain = energy::elastic_j(&sheet).sqrt();
     let off = sheet.positions().iter().map(|p| (p.z + fallen).abs());

@@ -61,24 +61,6 @@ pub trait Solver: fmt::Debug {
     }
 }
 
-impl<S: Solver + ?Sized> Solver for &mut S {
-    fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
-        (**self).advance(system, dt_s)
-    }
-
-    fn abilities(&self) -> Abilities {
-        (**self).abilities()
-    }
-
-    fn check(&self) -> Result<(), SettingError> {
-        (**self).check()
-    }
-
-    fn quality(&self, system: &System) -> Quality {
-        (**self).quality(system)
-    }
-}
-
 /// The forces that a method supports, and its stability limits. By default a method supports
 /// springs only, and is stable at any step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -144,7 +126,7 @@ pub enum Quality {
     Residual(f64),
     /// For an implicit method: what its linear solver did.
     Implicit(implicit::Stats),
-    /// The method does not say, as Provot's model without its limiter.
+    /// The method does not say.
     Unknown,
 }
 
