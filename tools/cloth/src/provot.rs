@@ -62,9 +62,6 @@ impl Provot {
 
     fn shorten(&mut self, system: &mut System, dt_s: f64) {
         let limiter = self.limiter;
-        if limiter.stretch_ratio_max == f64::INFINITY {
-            return;
-        }
         let (model, scratch) = (&mut system.model, &mut system.scratch);
         let (positions, counters) = (&mut system.positions, &mut system.counters);
         scratch.is_fresh = false;
@@ -125,9 +122,6 @@ impl Solver for Provot {
     }
 
     fn quality(&self, _system: &System) -> Quality {
-        if self.limiter.stretch_ratio_max == f64::INFINITY {
-            return Quality::Unknown;
-        }
         Quality::Limiter(self.stats)
     }
 
