@@ -2,8 +2,7 @@
 
 use tearmesh::{Masses, Point, Vector, shapes};
 use tearmesh_cloth::{
-    Cloth, Fabric, Pbd, Solver, StepError, SystemError, Unstable, Weave, Xpbd, energy,
-    frequency_bound,
+    Cloth, Fabric, Pbd, Solver, StepError, Unstable, Weave, Xpbd, energy, frequency_bound,
 };
 
 use crate::parts::cloths::{cloth, deform};
@@ -123,10 +122,7 @@ fn what_cannot_be_woven_or_stepped_is_refused() {
         ([0, 1, 2], [[0.0; 2]; 3], [1.0; 3]),
         ([0, 1, 2], places, [-1.0, 1.0, 1.0]),
     ] {
-        let error = system
-            .triangle(corners, places, stiffness)
-            .expect_err("none");
-        assert_eq!(error, SystemError::Triangle { corners });
+        assert_eq!(system.triangle(corners, places, stiffness), None);
     }
-    assert_eq!(system.triangle([0, 1, 2], places, [1.0; 3]), Ok(0));
+    assert_eq!(system.triangle([0, 1, 2], places, [1.0; 3]), Some(0));
 }

@@ -9,6 +9,7 @@
 //! All data of the constraints is stored here in columns, including what a step leaves behind in
 //! them. It stays with its constraint when constraints are added or removed, or get another end.
 
+use crate::bend::Buckling;
 use crate::damping;
 use crate::incidence::{Incidence, room_for};
 
@@ -45,6 +46,8 @@ const NONE: u32 = u32::MAX;
 pub struct Constraints {
     /// In the order of every sweep.
     pub(crate) colours: Vec<Colour>,
+    /// The law by which all of them act; `None` where they are springs.
+    pub(crate) law: Option<Buckling>,
     /// By id: the colour and the index in it; [`NONE`] for a free id.
     slots: Vec<[u32; 2]>,
     free: Vec<u32>,
@@ -87,8 +90,8 @@ impl Constraints {
     pub(crate) fn reserve(&mut self, particles: usize, constraints: usize) {
         let valences = (0..=self.lists.last_particle()).map(|particle| self.of(particle).count());
         let colours = 2 * valences.max().unwrap_or(0);
-        self.colours
-            .resize_with(colours.max(self.colours.len()), Colour::default);
+        let colours = colours.max(self.colours.len());
+        self.colours.resize_with(colours, Colour::default);
         room_for(&mut self.taken, self.colours.len() + 1);
         for (k, colour) in self.colours.iter_mut().enumerate() {
             colour.reserve((particles / 2).min(2 * constraints / (k + 2)));
@@ -128,9 +131,13 @@ impl Constraints {
 
     /// Returns the ids of all constraints in colour order, which is the order of every sweep.
     pub fn iter(&self) -> impl Iterator<Item = ConstraintId> + '_ {
-        self.colours
-            .iter()
-            .flat_map(|colour| colour.ids.iter().map(|&id| ConstraintId(id)))
+        let ids = self.colours.iter().flat_map(|colour| &colour.ids);
+        ids.map(|&id| ConstraintId(id))
+    }
+
+    /// The ends, the rest length and the stiffness of each, in that order.
+    pub(crate) fn springs(&self) -> impl Iterator<Item = ([usize; 2], f64, f64)> + '_ {
+        self.colours.iter().flat_map(Colour::springs)
     }
 
     /// Returns the constraints that act on a particle.
@@ -141,13 +148,6 @@ impl Constraints {
     pub(crate) fn of(&self, particle: usize) -> impl Iterator<Item = ConstraintId> + '_ {
         let ids = self.lists.of(particle);
         ids.map(|(id, _)| ConstraintId(id as u32))
-    }
-
-    /// Returns the constraint between two particles; `None` if there is none. Walks the list of
-    /// constraints of the first particle.
-    #[must_use]
-    pub fn between(&self, a: usize, b: usize) -> Option<ConstraintId> {
-        self.of(a).find(|&id| self.get(id).ends.contains(&b))
     }
 
     pub(crate) fn memory(&self, id: ConstraintId) -> Memory {
@@ -186,10 +186,8 @@ impl Constraints {
     pub(crate) fn repoint(&mut self, id: ConstraintId, from: usize, to: usize) {
         if self.get(id).ends.contains(&from) {
             let (mut constraint, memory) = self.detach(id);
-            let moved = constraint
-                .ends
-                .map(|end| if end == from { to } else { end });
-            constraint.ends = moved;
+            let moved = |end| if end == from { to } else { end };
+            constraint.ends = constraint.ends.map(moved);
             self.attach(id.0, constraint, memory);
         }
     }

@@ -2,6 +2,7 @@
 
 use tearmesh::geometry::dot;
 
+use crate::pair;
 use crate::system::{Recorded, System};
 
 /// Returns the elastic energy of all constraints and triangles, in joules.
@@ -30,10 +31,8 @@ pub(crate) fn stored_j(system: &System) -> f64 {
 /// Returns the kinetic energy of the particles that are not held, in joules.
 #[must_use]
 pub fn kinetic_j(system: &System) -> f64 {
-    let particles = 0..system.positions.len();
-    particles
-        .map(|particle| kinetic_at_j(system, particle))
-        .sum()
+    let all = 0..system.positions.len();
+    all.map(|particle| kinetic_at_j(system, particle)).sum()
 }
 
 /// The potential of gravity of all particles, in joules: zero at the origin.
@@ -57,7 +56,8 @@ fn kinetic_at_j(system: &System, particle: usize) -> f64 {
 /// The energy that a particle has a part in, in joules: what it is joined by, its motion, and its weight.
 pub(crate) fn at_j(system: &System, particle: usize) -> f64 {
     let (model, x) = (&system.model, &system.positions);
-    let [stretch, bend] = model.families().map(|pairs| pairs.energy_at(x, particle));
+    let families = [&model.stretch, &model.bend];
+    let [stretch, bend] = families.map(|family| pair::energy_at(family, x, particle));
     let elastic_j = stretch + bend + model.triangles.energy_at(x, particle);
     let weight = model.gravity() * model.masses[particle];
     elastic_j + kinetic_at_j(system, particle) - dot(weight, x[particle].coords)

@@ -7,7 +7,7 @@ use tearmesh::{
     VertexId, VertexOp,
 };
 
-use crate::constraint::{Constraint, ConstraintId};
+use crate::constraint::Constraint;
 use crate::fabric::{Stretch, Unbend};
 use crate::sheet::{Cloth, NO_BEND, Piece, weight};
 use crate::system::System;
@@ -138,12 +138,10 @@ impl Cloth {
         }
         // The edges of all faces there, those across from it too.
         for id in ids.iter().map(|id| id.index()) {
-            for h in self.stretch_of.edges[id]
-                .map(|h| [h, h.next(), h.prev()])
-                .as_flattened()
-            {
-                self.measure_membrane(self.stretch(*h));
-                self.measure_bend(*h);
+            let around = self.stretch_of.edges[id].map(|h| [h, h.next(), h.prev()]);
+            for &h in around.as_flattened() {
+                self.measure_membrane(self.stretch(h));
+                self.measure_bend(h);
             }
         }
         self.scratch.ids = ids;
@@ -172,15 +170,13 @@ impl Cloth {
             }
         }
         // First what goes, then what comes: an id may be given again.
-        let (stretch, bend) = (|piece: &Piece| piece.stretch, |piece: &Piece| piece.bend);
         let model = &mut self.system.model;
-        for (family, id_of) in [
-            (&mut model.stretch, stretch as fn(&Piece) -> ConstraintId),
-            (&mut model.bend, bend),
-        ] {
-            let divided = room.pieces.iter().filter(|piece| piece.divided).map(id_of);
+        let families = [&mut model.stretch, &mut model.bend].into_iter();
+        for (i, family) in families.enumerate() {
+            let divided = room.pieces.iter().filter(|piece| piece.divided);
+            let ids = divided.map(|piece| piece.ids[i]);
             room.ids.clear();
-            room.ids.extend(divided.filter(|id| *id != NO_BEND));
+            room.ids.extend(ids.filter(|id| *id != NO_BEND));
             room.ids.sort_unstable();
             room.ids.dedup();
             for &id in &room.ids {
@@ -198,8 +194,8 @@ impl Cloth {
             for h in child.face.half_edges() {
                 self.measure_membrane(self.stretch(h));
             }
+            self.weave_face(child.face);
         }
-        self.insert_triangles(insert);
         self.system.touched();
         self.scratch = room;
     }
@@ -220,7 +216,7 @@ impl Cloth {
 
     /// An edge that was there stays; what is across it may be another vertex.
     fn keep(&mut self, edge: &[Piece]) {
-        let (id, bend) = (edge[0].stretch, edge[0].bend);
+        let [id, bend] = edge[0].ids;
         let renamed = self.stretch_of.edges[id.index()].map(|h| {
             let mut pieces = edge.iter();
             let piece = pieces.find(|piece| piece.half_edge_before == h);
@@ -273,9 +269,8 @@ impl Cloth {
         let [a, b, apex] = [0, 1, 2].map(|i| child.vertices[(corner + i) % 3].index());
         let sources = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
         let parent = child.parent.half_edges();
-        let on = parent
-            .into_iter()
-            .find(|&h| sources.into_iter().all(|source| lies_on(source, h)));
+        let is_on = |&h: &HalfEdgeId| sources.into_iter().all(|source| lies_on(source, h));
+        let on = parent.into_iter().find(is_on);
         let is_corner = |source: &Mix<HalfEdgeId>| matches!(source, Mix::Copy(_));
         let by_length = |h: HalfEdgeId| {
             let constraint = self.system.model.stretch.get(self.stretch(h));
@@ -295,11 +290,7 @@ impl Cloth {
             apex_before: self.system.model.faces[h.prev().index()] as usize,
             is_kept,
             divided: on.is_some() && !is_kept,
-            stretch: self.stretch(h),
-            bend: match on {
-                Some(h) => self.bend_of.get(h),
-                None => NO_BEND,
-            },
+            ids: [self.stretch(h), on.map_or(NO_BEND, |h| self.bend_of.get(h))],
             stiffness_by_length,
             length: self.system.model.stretch.get(self.stretch(h)).rest_length_m,
         }

@@ -14,6 +14,7 @@ use tearmesh::geometry::Vector;
 
 use crate::constraint::ConstraintId;
 use crate::motion;
+use crate::pair;
 use crate::system::System;
 
 /// Returns the force in a stretch constraint as the method of the last step exerted it, in newtons.
@@ -26,10 +27,9 @@ use crate::system::System;
 /// If there is no such constraint.
 #[must_use]
 pub fn force_n(system: &System, id: ConstraintId) -> f64 {
-    let [stretch, _] = system.model.families();
-    let (one, memory) = (stretch.constraints.get(id), stretch.constraints.memory(id));
-    let by_length = stretch.axial_of(&one, &system.positions).force;
-    let model = &system.model;
+    let (model, stretch) = (&system.model, &system.model.stretch);
+    let (one, memory) = (stretch.get(id), stretch.memory(id));
+    let by_length = pair::axial_of(stretch, &one, &system.positions).force;
     model.exerted_n(one.ends, by_length, memory.multiplier)
 }
 
@@ -63,9 +63,16 @@ pub fn force_n(system: &System, id: ConstraintId) -> f64 {
 /// ```
 #[must_use]
 pub fn reaction_n(system: &System, particle: usize) -> Vector {
-    let drag = system.velocities[particle] * system.model.drag_per_s();
-    let drag_n = drag * system.model.masses[particle];
-    -(inner_n(system, particle) + wind_n(system, particle) - drag_n)
+    let (model, x, v) = (&system.model, &system.positions, &system.velocities);
+    let drag_n = v[particle] * model.drag_per_s() * model.masses[particle];
+    let mut wind_n = Vector::zeros();
+    if let Some(wind) = model.loads.wind {
+        let faces = model.faces.as_chunks::<3>().0.iter();
+        for face in faces.filter(|face| face.contains(&(particle as u32))) {
+            wind_n += wind.force_at_corners(*face, x, v);
+        }
+    }
+    -(inner_n(system, particle) + wind_n - drag_n)
 }
 
 /// Computes the accelerations of all particles, in m/s², without drag; those of held particles are
@@ -83,23 +90,17 @@ pub(crate) fn inner_n(system: &System, particle: usize) -> Vector {
     let mut sum = model.gravity() * model.masses[particle];
     let exerted = |ends, by_length, multiplier| model.exerted_n(ends, by_length, multiplier);
     let velocities = model.is_damped.then_some(&system.velocities[..]);
-    for pairs in model.families() {
-        pairs.add_force_at(&system.positions, velocities, particle, exerted, &mut sum);
+    for family in [&model.stretch, &model.bend] {
+        pair::add_force_at(
+            family,
+            &system.positions,
+            velocities,
+            particle,
+            exerted,
+            &mut sum,
+        );
     }
     let triangles = &model.triangles;
     triangles.add_force_at(&system.positions, velocities, particle, &mut sum);
-    sum
-}
-
-fn wind_n(system: &System, particle: usize) -> Vector {
-    let model = &system.model;
-    let mut sum = Vector::zeros();
-    if let Some(wind) = model.loads.wind {
-        for face in model.faces.as_chunks::<3>().0 {
-            if face.iter().any(|&v| v as usize == particle) {
-                sum += wind.force_at_corners(*face, &system.positions, &system.velocities);
-            }
-        }
-    }
     sum
 }

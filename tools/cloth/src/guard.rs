@@ -50,6 +50,7 @@ use tearmesh::geometry::Point;
 use crate::damping;
 use crate::incidence::room_for;
 use crate::mass_scaling::MassScaling;
+use crate::pair;
 use crate::system::counters::Counters;
 use crate::system::model::Model;
 
@@ -95,9 +96,9 @@ pub(crate) struct Guard {
     /// The sums of the stiffness and of the damping at each particle.
     sums: Vec<f64>,
     dampers: Vec<f64>,
-    frequency: Frequency,
-    /// `None` where it is not known.
-    suited_s: Option<f64>,
+    pub(crate) frequency: Frequency,
+    /// `None` where it is not known, and without springs.
+    pub(crate) suited_s: Option<f64>,
     /// The step, and the wind's part of the limit, that particles were weighed for.
     weighed: Option<[f64; 2]>,
     /// Whether that step is stable.
@@ -124,13 +125,7 @@ impl Guard {
         room_for(&mut self.product, particles);
     }
 
-    /// The system is another one.
-    pub(crate) fn forget(&mut self) {
-        self.is_known = false;
-        self.suited_s = None;
-    }
-
-    /// Takes in how far triangles are stretched now.
+    /// Takes in how far triangles are stretched now, and brings the frequency and the suited step up to date.
     pub(crate) fn reach_out(&mut self, model: &Model, x: &[Point]) {
         let growth = model.triangles.shear_growth(x);
         // A state that is not finite is for the step to find.
@@ -138,18 +133,7 @@ impl Guard {
             self.reach = 2.0 * growth;
             self.is_known = false;
         }
-    }
-
-    /// The step that suits a model, in seconds; infinite without springs.
-    pub(crate) fn suited_s(&mut self, model: &Model) -> f64 {
         self.look(model);
-        self.suited_s.unwrap_or(f64::INFINITY)
-    }
-
-    /// The bound of the frequencies of a model.
-    pub(crate) fn frequency(&mut self, model: &Model) -> Frequency {
-        self.look(model);
-        self.frequency
     }
 
     /// Sums up stiffness anew where it has changed.
@@ -217,15 +201,14 @@ impl Guard {
         let masses = [&model.masses[..], &model.inverse_masses[..]];
         let reach = self.reach.max(REACH);
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
-            let [stretch, bend] = model.families();
-            stretch.springs_at(particle, damper, &mut *visit);
-            bend.springs_at(particle, damper, &mut *visit);
+            pair::springs_at(&model.stretch, particle, damper, &mut *visit);
+            pair::springs_at(&model.bend, particle, damper, &mut *visit);
             model.triangles.springs_at(particle, reach, damper, visit);
         };
         let share = SHARE * (1.0 - air);
         self.carry.weigh(masses, stiffness, neighbours, share, dt_s);
         self.weighed = Some([dt_s, air]);
-        self.is_sound = self.carry.is_proven();
+        self.is_sound = self.carry.is_proven;
         had + self.carry.len() > 0
     }
 

@@ -63,7 +63,6 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 pub use self::settings::{Method, Settings, Stats, StepError};
 use crate::blow_up::{first, is_beyond};
-use crate::constraint::Colour;
 use crate::matrix::{Hessian, Pcg, Solution, Weights};
 use crate::solver::{Abilities, Failure, Quality, Solver};
 use crate::system::{Model, SettingError, System};
@@ -176,7 +175,7 @@ impl Implicit {
         let known = known.and_then(|history| history.ratio(&system.positions, dt_s));
         self.blow(system, known);
         let (count, model) = (system.positions.len(), &system.model);
-        self.hessian.follow(count, &|visit| model.each_pair(visit));
+        self.hessian.follow(count, model.pairs());
         let stage = self.begin(system, known, dt_s);
         let solution = self.solve(system, stage);
         let velocity = |acceleration: f64| acceleration * stage.h / stage.dragged;
@@ -488,9 +487,9 @@ fn refill<T>(list: &mut Vec<T>, items: impl Iterator<Item = T>) {
 /// Whether an edge, or a triangle along warp or weft, ends longer than a linearised step knows of, by more than
 /// a part of its rest length.
 fn overstretches(model: &Model, x: &[Point], reached: &[Point]) -> bool {
-    let springs = model.stretch.colours.iter().flat_map(Colour::springs);
+    let springs = model.stretch.springs();
     let edges = springs.map(|([a, b], rest, _)| (x[b] - x[a], reached[b] - reached[a], rest));
-    let triangles = model.triangles.as_slice().iter().flat_map(|triangle| {
+    let triangles = model.triangles.list.iter().flat_map(|triangle| {
         let [before, after] = [x, reached].map(|points| triangle.derivatives_at(points));
         [0, 1].map(|c| (before[c], after[c], 1.0))
     });

@@ -36,20 +36,14 @@ use crate::incidence::room_for;
 pub(crate) struct MassScaling {
     /// 1/D: zero for particles that are held.
     inverse: Vec<f64>,
-    stars: Vec<OneRing>,
+    /// The particles that are carried by their neighbours, and where the legs of each end.
+    stars: Vec<(u32, usize)>,
     /// The neighbours of all stars, with their β.
     legs: Vec<(u32, f64)>,
     is_carried: Vec<bool>,
-    is_proven: bool,
+    /// Whether no two that are carried are neighbours, so that stability is proven.
+    pub(crate) is_proven: bool,
     light: Vec<(f64, u32)>,
-}
-
-/// A particle that is carried by its neighbours.
-#[derive(Clone, Copy, Debug)]
-struct OneRing {
-    particle: u32,
-    /// Where its legs end.
-    legs: u32,
 }
 
 impl MassScaling {
@@ -134,10 +128,7 @@ impl MassScaling {
         }
         self.inverse[particle] = need;
         self.is_carried[particle] = true;
-        self.stars.push(OneRing {
-            particle: particle as u32,
-            legs: self.legs.len() as u32,
-        });
+        self.stars.push((particle as u32, self.legs.len()));
     }
 
     /// How many particles are carried.
@@ -147,14 +138,9 @@ impl MassScaling {
 
     /// The largest mass of one of them in a step, as a multiple of its own; 1 if there is none.
     pub(crate) fn mass_ratio_max(&self, masses: &[f64]) -> f64 {
-        let carried = self.stars.iter().map(|star| star.particle as usize);
+        let carried = self.stars.iter().map(|&(particle, _)| particle as usize);
         let ratios = carried.map(|particle| 1.0 / (self.inverse[particle] * masses[particle]));
         ratios.fold(1.0, f64::max)
-    }
-
-    /// Whether no two of them are neighbours, so that stability is proven.
-    pub(crate) fn is_proven(&self) -> bool {
-        self.is_proven
     }
 
     /// Makes accelerations of forces: M′⁻¹ f. Only where something is carried.
@@ -163,23 +149,23 @@ impl MassScaling {
         T: Copy + AddAssign + Mul<f64, Output = T>,
     {
         let mut first = 0;
-        for star in &self.stars {
-            let force = forces[star.particle as usize];
-            for &(other, share) in &self.legs[first..star.legs as usize] {
+        for &(particle, end) in &self.stars {
+            let force = forces[particle as usize];
+            for &(other, share) in &self.legs[first..end] {
                 forces[other as usize] += force * share;
             }
-            first = star.legs as usize;
+            first = end;
         }
         for (force, &inverse) in forces.iter_mut().zip(&self.inverse) {
             *force = *force * inverse;
         }
-        for (i, star) in self.stars.iter().enumerate().rev() {
-            let first = i.checked_sub(1).map_or(0, |i| self.stars[i].legs as usize);
-            let mut own = forces[star.particle as usize];
-            for &(other, share) in &self.legs[first..star.legs as usize] {
+        for (i, &(particle, end)) in self.stars.iter().enumerate().rev() {
+            let first = i.checked_sub(1).map_or(0, |i| self.stars[i].1);
+            let mut own = forces[particle as usize];
+            for &(other, share) in &self.legs[first..end] {
                 own += forces[other as usize] * share;
             }
-            forces[star.particle as usize] = own;
+            forces[particle as usize] = own;
         }
     }
 }
@@ -291,7 +277,7 @@ mod tests {
             }
             // Nothing is carried that is heavy enough.
             let carry = free(&masses, &springs, 0.001);
-            assert_eq!((carry.len(), carry.is_proven()), (0, true));
+            assert_eq!((carry.len(), carry.is_proven), (0, true));
         }
     }
 }

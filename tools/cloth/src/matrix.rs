@@ -10,95 +10,45 @@
 //!
 //! Why not compressed rows? Symmetry halves the blocks, and a product reads each of them once.
 
-use std::array::from_fn;
-
 use tearmesh::DisjointSets;
 use tearmesh::geometry::{Vector, dot};
+use tearmesh::nalgebra::Matrix3;
 
-/// A 3 × 3 matrix: three rows of three numbers.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Block(pub(crate) [[f64; 3]; 3]);
+/// A 3 × 3 matrix. Products with vectors are those of this file, which sum in one order on every machine.
+pub(crate) type Block = Matrix3<f64>;
 
-impl Block {
-    /// The matrix of zeros.
-    pub(crate) const ZERO: Block = Block([[0.0; 3]; 3]);
-
-    /// Returns the identity matrix, scaled by `s`.
-    #[inline]
-    pub(crate) fn identity_times(s: f64) -> Block {
-        Block([[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]])
-    }
-
-    /// Returns the outer product a bᵀ.
-    #[inline]
-    pub(crate) fn outer(a: Vector, b: Vector) -> Block {
-        let row = |s: f64| [s * b.x, s * b.y, s * b.z];
-        Block([row(a.x), row(a.y), row(a.z)])
-    }
-
-    /// Returns the transpose of this matrix.
-    #[inline]
-    pub(crate) fn transposed(&self) -> Block {
-        Block(from_fn(|row| from_fn(|column| self.0[column][row])))
-    }
-
-    /// Returns the sum of this matrix and `s` times another.
-    #[inline]
-    pub(crate) fn plus(&self, s: f64, other: &Block) -> Block {
-        let [a, b] = [&self.0, &other.0];
-        Block(from_fn(|i| from_fn(|j| a[i][j] + s * b[i][j])))
-    }
-
-    /// Returns the sum of the diagonal.
-    pub(crate) fn trace(&self) -> f64 {
-        self.0[0][0] + self.0[1][1] + self.0[2][2]
-    }
-
-    /// Returns the product of this matrix with a vector.
-    #[inline]
-    pub(crate) fn times(&self, v: Vector) -> Vector {
-        let row = |r: &[f64; 3]| r[0] * v.x + r[1] * v.y + r[2] * v.z;
-        Vector::new(row(&self.0[0]), row(&self.0[1]), row(&self.0[2]))
-    }
-
-    /// Returns the product of the transpose of this matrix with a vector.
-    #[inline]
-    pub(crate) fn transposed_times(&self, v: Vector) -> Vector {
-        let m = &self.0;
-        let column = |c: usize| m[0][c] * v.x + m[1][c] * v.y + m[2][c] * v.z;
-        Vector::new(column(0), column(1), column(2))
-    }
-
-    /// Returns the inverse of a symmetric positive definite block, computed by Cholesky
-    /// factorisation; `None` if a pivot is not positive, which shows that the block is not positive
-    /// definite.
-    pub(crate) fn inverse_if_definite(&self) -> Option<Block> {
-        let m = &self.0;
-        let d0 = m[0][0];
-        let l10 = m[1][0] / d0;
-        let l20 = m[2][0] / d0;
-        let d1 = m[1][1] - l10 * m[1][0];
-        let t21 = m[2][1] - l20 * m[1][0];
-        let l21 = t21 / d1;
-        let d2 = m[2][2] - l20 * m[2][0] - l21 * t21;
-        // Written so that a NaN is refused too.
-        if !(d0 > 0.0 && d1 > 0.0 && d2 > 0.0) {
-            return None;
-        }
-        // The rows of L⁻¹, L with ones on its diagonal; the inverse is L⁻ᵀ D⁻¹ L⁻¹.
-        let r1 = Vector::new(-l10, 1.0, 0.0);
-        let r2 = Vector::new(l10 * l21 - l20, -l21, 1.0);
-        let mut inverse = Block::ZERO;
-        inverse.0[0][0] = 1.0 / d0;
-        let inverse = inverse.plus(1.0 / d1, &Block::outer(r1, r1));
-        Some(inverse.plus(1.0 / d2, &Block::outer(r2, r2)))
-    }
+/// The outer product a bᵀ.
+#[inline]
+pub(crate) fn outer(a: Vector, b: Vector) -> Block {
+    Block::from_fn(|row, column| a[row] * b[column])
 }
 
-const NO_SLOT: u32 = u32::MAX;
+/// The product of a block with a vector.
+#[inline]
+fn times(m: &Block, v: Vector) -> Vector {
+    Vector::from_fn(|row, _| m[(row, 0)] * v.x + m[(row, 1)] * v.y + m[(row, 2)] * v.z)
+}
 
-/// Visits the pairs of all constraints: kind, number and particles.
-pub(crate) type EachPair<'a> = &'a dyn Fn(&mut dyn FnMut(usize, usize, [u32; 2]));
+/// The inverse of a symmetric positive definite block by Cholesky factorisation; `None` if a pivot is
+/// not positive, which shows that the block is not positive definite.
+fn inverse_if_definite(m: &Block) -> Option<Block> {
+    let d0 = m.m11;
+    let l10 = m.m21 / d0;
+    let l20 = m.m31 / d0;
+    let d1 = m.m22 - l10 * m.m21;
+    let t21 = m.m32 - l20 * m.m21;
+    let l21 = t21 / d1;
+    let d2 = m.m33 - l20 * m.m31 - l21 * t21;
+    // Written so that a NaN is refused too.
+    if !(d0 > 0.0 && d1 > 0.0 && d2 > 0.0) {
+        return None;
+    }
+    // The rows of L⁻¹, L with ones on its diagonal; the inverse is L⁻ᵀ D⁻¹ L⁻¹.
+    let r1 = Vector::new(-l10, 1.0, 0.0);
+    let r2 = Vector::new(l10 * l21 - l20, -l21, 1.0);
+    let first = Block::from_diagonal(&Vector::new(1.0 / d0, 0.0, 0.0));
+    Some(first + outer(r1, r1) * (1.0 / d1) + outer(r2, r2) * (1.0 / d2))
+}
 
 /// The symmetric matrix of second derivatives of an energy, in 3 × 3 blocks by particle.
 #[derive(Clone, Debug, Default)]
@@ -109,10 +59,8 @@ pub(crate) struct Hessian {
     pairs: Vec<[u32; 2]>,
     /// For each particle, the lowest among those that constraints connect with it, itself included.
     pub(crate) pieces: Vec<u32>,
-    /// By kind of constraint and by the number of a constraint's pair; [`NO_SLOT`] without a pair.
-    slots: [Vec<u32>; 3],
-    /// How many pairs the constraints have, where those of several coincide counted for each.
-    count: usize,
+    /// The pairs of all constraints as they were visited.
+    visited: Vec<[u32; 2]>,
     sets: DisjointSets,
 }
 
@@ -120,23 +68,21 @@ impl Hessian {
     /// Sets the matrix to zero. Keeps the allocated memory.
     pub(crate) fn clear(&mut self) {
         self.diagonal.clear();
-        self.diagonal.resize(self.pieces.len(), Block::ZERO);
+        self.diagonal.resize(self.pieces.len(), Block::zeros());
         self.off.clear();
-        self.off.resize(self.pairs.len(), Block::ZERO);
+        self.off.resize(self.pairs.len(), Block::zeros());
     }
 
-    /// Adds a block at row `i`, column `j`, of the pair with this kind and number. If both are equal, it is added
-    /// to the diagonal, and the pair is ignored.
+    /// Adds a block at row `i`, column `j`: a place on the diagonal, or of a pair.
     #[inline]
-    pub(crate) fn add(&mut self, (kind, number): (usize, usize), [i, j]: [u32; 2], block: &Block) {
-        let sum = match i == j {
-            true => &mut self.diagonal[i as usize],
-            false => &mut self.off[self.slots[kind][number] as usize],
-        };
-        *sum = match i <= j {
-            true => sum.plus(1.0, block),
-            false => sum.plus(1.0, &block.transposed()),
-        };
+    pub(crate) fn add(&mut self, [i, j]: [u32; 2], block: &Block) {
+        if i == j {
+            self.diagonal[i as usize] += block;
+            return;
+        }
+        let slot = self.pairs.binary_search(&sorted([i, j]));
+        let sum = &mut self.off[slot.expect("each pair has a slot")];
+        *sum += if i < j { *block } else { block.transpose() };
     }
 
     /// Returns the sum of the diagonal, which is no less than the largest eigenvalue unless one is negative.
@@ -149,42 +95,32 @@ impl Hessian {
         assert!(x.len() == self.diagonal.len(), "one vector a particle");
         assert!(self.pairs.len() == self.off.len(), "one block a slot");
         out.clear();
-        out.extend(self.diagonal.iter().zip(x).map(|(b, &x)| b.times(x)));
+        out.extend(self.diagonal.iter().zip(x).map(|(b, &x)| times(b, x)));
         for (block, &[i, j]) in self.off.iter().zip(&self.pairs) {
             let (i, j) = (i as usize, j as usize);
             let (xi, xj) = (x[i], x[j]);
-            out[i] += block.times(xj);
-            out[j] += block.transposed_times(xi);
+            out[i] += times(block, xj);
+            out[j] += times(&block.transpose(), xi);
         }
     }
 
     /// Takes the pairs of the present constraints. Costs a comparison for each, and O(n log n) if
     /// one has come, gone or got other ends.
-    pub(crate) fn follow(&mut self, particles: usize, each_pair: EachPair<'_>) {
-        let (mut count, mut is_same) = (0, self.pieces.len() == particles);
-        each_pair(&mut |kind, number, ends| {
-            count += 1;
-            let slot = self.slots[kind].get(number);
-            let pair = slot.and_then(|&slot| self.pairs.get(slot as usize));
-            is_same &= pair == Some(&sorted(ends));
-        });
-        if is_same && count == self.count {
+    pub(crate) fn follow(
+        &mut self,
+        particles: usize,
+        visited: impl Iterator<Item = [u32; 2]> + Clone,
+    ) {
+        let before = self.visited.iter().copied();
+        if self.pieces.len() == particles && visited.clone().eq(before) {
             return;
         }
-        self.count = count;
+        self.visited.clear();
+        self.visited.extend(visited);
         self.pairs.clear();
-        each_pair(&mut |_, _, ends| self.pairs.push(sorted(ends)));
+        self.pairs.extend(self.visited.iter().copied().map(sorted));
         self.pairs.sort_unstable();
         self.pairs.dedup();
-        self.slots.iter_mut().for_each(|slots| slots.fill(NO_SLOT));
-        each_pair(&mut |kind, number, ends| {
-            let slot = self.pairs.binary_search(&sorted(ends));
-            let slots = &mut self.slots[kind];
-            if slots.len() <= number {
-                slots.resize(number + 1, NO_SLOT);
-            }
-            slots[number] = slot.expect("each pair has a slot") as u32;
-        });
         self.sets.reset(particles as u32);
         self.pairs.iter().for_each(|&[i, j]| self.sets.join(i, j));
         let particles = 0..particles as u32;
@@ -289,10 +225,8 @@ impl Pcg {
         let start = weights.rms(|i| self.b[i]);
         // The forces that the rounding of coordinates alone makes: below them there is nothing to
         // solve, nor below the rounding of the right-hand side.
-        let rounding = weights.rms(|i| {
-            let [[a, _, _], [_, b, _], [_, _, c]] = hessian.diagonal[i].0;
-            Vector::x() * ((a + b + c) * (f64::EPSILON * size(i)))
-        });
+        let rounding =
+            weights.rms(|i| Vector::x() * (hessian.diagonal[i].trace() * (f64::EPSILON * size(i))));
         let mut solution = Solution {
             is_indefinite: !self.precondition_by(hessian, weights, inertia),
             residual: start,
@@ -340,7 +274,7 @@ impl Pcg {
         for i in 0..weights.masses.len() {
             self.delta[i] += self.direction[i] * step;
             self.b[i] -= self.product[i] * step;
-            let z = self.inverses[i].times(self.b[i]);
+            let z = times(&self.inverses[i], self.b[i]);
             rz += dot(self.b[i], z);
             self.preconditioned[i] = z;
         }
@@ -351,11 +285,11 @@ impl Pcg {
     fn precondition_by(&mut self, hessian: &Hessian, weights: Weights<'_>, inertia: f64) -> bool {
         self.inverses.clear();
         for (i, block) in hessian.diagonal.iter().enumerate() {
-            let mass = Block::identity_times(inertia * weights.masses[i]);
+            let mass = Block::from_diagonal_element(inertia * weights.masses[i]);
             let inverse = if weights.is_free(i) {
-                block.plus(1.0, &mass).inverse_if_definite()
+                inverse_if_definite(&(block + mass))
             } else {
-                Some(Block::ZERO)
+                Some(Block::zeros())
             };
             let Some(inverse) = inverse else {
                 return false;
@@ -372,18 +306,15 @@ mod tests {
 
     #[test]
     fn an_inverse_times_its_block_is_the_identity() {
-        let block = Block([[4.0, 1.0, -2.0], [1.0, 3.0, 0.5], [-2.0, 0.5, 5.0]]);
-        let inverse = block.inverse_if_definite().expect("it is definite");
+        let block = Block::new(4.0, 1.0, -2.0, 1.0, 3.0, 0.5, -2.0, 0.5, 5.0);
+        let inverse = inverse_if_definite(&block).expect("it is definite");
         for axis in [Vector::x(), Vector::y(), Vector::z()] {
-            let apart = block.times(inverse.times(axis)) - axis;
+            let apart = times(&block, times(&inverse, axis)) - axis;
             assert!(apart.norm() < 2e-15, "{apart}");
         }
-        assert_eq!(
-            block
-                .plus(-5.0, &Block::identity_times(1.0))
-                .inverse_if_definite(),
-            None
-        );
-        assert_eq!(Block::identity_times(f64::NAN).inverse_if_definite(), None);
+        let shifted = block - Block::from_diagonal_element(5.0);
+        assert_eq!(inverse_if_definite(&shifted), None);
+        let broken = Block::from_diagonal_element(f64::NAN);
+        assert_eq!(inverse_if_definite(&broken), None);
     }
 }

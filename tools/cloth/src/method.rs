@@ -111,8 +111,7 @@ impl Method {
             Method::Provot(_) => (1.0, OF_SPRINGS),
             Method::Implicit(_) | Method::Pbd(_) | Method::Xpbd(_) => (1.0, OF_WIND),
         };
-        let stable_s = whole_step_s(system, &*self.solver(), springs_part);
-        let stable_s = stable_s.map_or(LONGEST_S, |stable_s| part * stable_s);
+        let stable_s = part * whole_step_s(system, &*self.solver(), springs_part);
         let limit_s = match self {
             Method::Implicit(_) => Some(FRAME_S / 4.0),
             _ => self.wanted_step_s(system, speed_m_per_s),
@@ -134,7 +133,7 @@ impl Method {
         if stretches.is_empty() {
             return None;
         }
-        let lengths = stretches.iter().map(|id| stretches.get(id).rest_length_m);
+        let lengths = stretches.springs().map(|(_, rest, _)| rest);
         let edge_m = lengths.sum::<f64>() / stretches.len() as f64;
         Some(sweeps * edge_m / speed_m_per_s)
     }
@@ -148,12 +147,10 @@ impl Method {
             return None;
         };
         let drag_per_s = system.model.drag_per_s();
-        let stretches = system.stretches();
         let (mut sum, mut count) = (0.0, 0.0);
-        for id in stretches.iter() {
-            let spring = stretches.get(id);
-            let [a, b] = spring.ends.map(|end| system.inverse_masses()[end]);
-            let rate = spring.stiffness_n_per_m * (a + b);
+        for (ends, _, stiffness) in system.stretches().springs() {
+            let [a, b] = ends.map(|end| system.inverse_masses()[end]);
+            let rate = stiffness * (a + b);
             if rate > 0.0 {
                 (sum, count) = (sum + rate, count + 1.0);
             }

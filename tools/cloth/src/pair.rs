@@ -8,17 +8,9 @@
 use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::bend::{Axial, Buckling};
-use crate::constraint::{Colour, Constraint, Constraints};
+use crate::constraint::{Constraint, Constraints};
 use crate::crush::Crush;
-use crate::matrix::{Block, Hessian};
-
-/// All constraints of a family, with the law by which they act.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pairs<'a> {
-    pub(crate) constraints: &'a Constraints,
-    /// `None` where they are springs.
-    pub(crate) buckling: Option<Buckling>,
-}
+use crate::matrix::{Block, Hessian, outer};
 
 /// What a pass over forces finds.
 #[derive(Clone, Copy, Debug)]
@@ -30,224 +22,204 @@ pub(crate) struct Pull {
     pub(crate) damped_w: f64,
 }
 
-impl Pairs<'_> {
-    /// Energy, force and slope of one with the ends so far apart.
-    #[inline]
-    fn axial(self, rest: f64, stiffness: f64, length: f64) -> Axial {
-        if let Some(law) = self.buckling {
-            return law.axial(rest, stiffness, length);
-        }
-        let force = stiffness * (length - rest);
-        Axial {
-            energy: 0.5 * (force * (length - rest)),
-            force,
-            slope: stiffness,
-        }
+/// Energy, force and slope of one with the ends so far apart.
+#[inline]
+fn axial(family: &Constraints, rest: f64, stiffness: f64, length: f64) -> Axial {
+    if let Some(law) = family.law {
+        return law.axial(rest, stiffness, length);
     }
-
-    /// That of one constraint, whether it is one of them or was.
-    pub(crate) fn axial_of(self, one: &Constraint, x: &[Point]) -> Axial {
-        self.axial(one.rest_length_m, one.stiffness_n_per_m, span(x, one.ends))
+    let force = stiffness * (length - rest);
+    Axial {
+        energy: 0.5 * (force * (length - rest)),
+        force,
+        slope: stiffness,
     }
+}
 
-    /// The derivative of the force along the line, and that of the force across it for a turn, force over
-    /// length, in newtons per metre.
-    fn stiffness(self, rest: f64, stiffness: f64, length: f64) -> [f64; 2] {
-        let axial = self.axial(rest, stiffness, length);
-        let across = match self.buckling {
-            None => stiffness * ((length - rest) / length),
-            Some(_) => axial.force / length,
-        };
-        [axial.slope, across]
-    }
+/// That of one constraint, whether it is one of them or was.
+pub(crate) fn axial_of(family: &Constraints, one: &Constraint, x: &[Point]) -> Axial {
+    let (rest, stiffness) = (one.rest_length_m, one.stiffness_n_per_m);
+    axial(family, rest, stiffness, span(x, one.ends))
+}
 
-    /// The largest stiffness at any length of one of this stiffness.
-    fn stiffest(self, stiffness: f64) -> f64 {
-        stiffness * self.buckling.map_or(1.0, Buckling::stiffest)
-    }
+/// The largest stiffness at any length of one of this stiffness.
+fn stiffest(family: &Constraints, stiffness: f64) -> f64 {
+    stiffness * family.law.map_or(1.0, Buckling::stiffest)
+}
 
-    /// The elastic energy in joules, added to a sum one colour after the other.
-    pub(crate) fn energy(self, x: &[Point], sum: f64) -> f64 {
-        let colours = self.constraints.colours.iter();
-        colours.fold(sum, |sum, colour| {
-            let energies = colour
-                .springs()
-                .map(|(ends, rest, stiffness)| self.axial(rest, stiffness, span(x, ends)).energy);
-            sum + energies.fold(0.0, |sum, energy_j| sum + energy_j)
-        })
-    }
+/// The elastic energy in joules, added to a sum one colour after the other.
+pub(crate) fn energy(family: &Constraints, x: &[Point], sum: f64) -> f64 {
+    let colours = family.colours.iter();
+    colours.fold(sum, |sum, colour| {
+        let energies = colour
+            .springs()
+            .map(|(ends, rest, stiffness)| axial(family, rest, stiffness, span(x, ends)).energy);
+        sum + energies.fold(0.0, |sum, energy_j| sum + energy_j)
+    })
+}
 
-    /// The elastic energy of the constraints of a particle.
-    pub(crate) fn energy_at(self, x: &[Point], particle: usize) -> f64 {
-        let ids = self.constraints.of(particle);
-        ids.map(|id| self.axial_of(&self.constraints.get(id), x).energy)
-            .sum()
-    }
+/// The elastic energy of the constraints of a particle.
+pub(crate) fn energy_at(family: &Constraints, x: &[Point], particle: usize) -> f64 {
+    let ids = family.of(particle);
+    ids.map(|id| axial_of(family, &family.get(id), x).energy)
+        .sum()
+}
 
-    /// Adds the forces, in newtons, to those of the particles. In a guarded step springs are damped, and
-    /// where they are crushed by the guard too: a fold is where it is meant to be short.
-    pub(crate) fn add_forces(
-        self,
-        x: &[Point],
-        ratio_max: f64,
-        crush: Option<Crush<'_>>,
-        forces: &mut [Vector],
-    ) -> Pull {
-        let spring = |rest, stiffness: f64, length| Some(stiffness * (length - rest));
-        match self.buckling {
-            None => self.add_forces_by(spring, x, ratio_max, crush, forces),
-            Some(law) => {
-                let arc = |rest, stiffness, length| {
-                    (stiffness > 0.0).then(|| law.axial(rest, stiffness, length).force)
-                };
-                self.add_forces_by(arc, x, ratio_max, None, forces)
-            }
+/// Adds the forces, in newtons, to those of the particles. In a guarded step springs are damped, and
+/// where they are crushed by the guard too: a fold is where it is meant to be short.
+pub(crate) fn add_forces(
+    family: &Constraints,
+    x: &[Point],
+    ratio_max: f64,
+    crush: Option<Crush<'_>>,
+    forces: &mut [Vector],
+) -> Pull {
+    let spring = |rest, stiffness: f64, length| Some(stiffness * (length - rest));
+    match family.law {
+        None => add_forces_by(family, spring, x, ratio_max, crush, forces),
+        Some(law) => {
+            let arc = |rest, stiffness, length| {
+                (stiffness > 0.0).then(|| law.axial(rest, stiffness, length).force)
+            };
+            add_forces_by(family, arc, x, ratio_max, None, forces)
         }
     }
+}
 
-    /// [`Pairs::add_forces`] by one law, which the loop has inlined: the pull by rest length, stiffness and
-    /// length. `None` where that does not matter.
-    #[inline]
-    fn add_forces_by(
-        self,
-        pull: impl Fn(f64, f64, f64) -> Option<f64>,
-        x: &[Point],
-        ratio_max: f64,
-        crush: Option<Crush<'_>>,
-        forces: &mut [Vector],
-    ) -> Pull {
-        let (mut is_sane, mut damped_w) = (true, 0.0);
-        for colour in &self.constraints.colours {
-            for (([a, b], rest, stiffness), &damping) in colour.springs().zip(&colour.damping) {
-                let d = x[b] - x[a];
-                let length = length(d);
-                let Some(mut pull) = pull(rest, stiffness, length) else {
-                    continue;
-                };
-                is_sane &= length <= ratio_max * rest;
-                if length > 0.0 {
-                    if let Some(crush) = crush
-                        && (damping > 0.0 || length < Crush::BELOW * rest)
-                    {
-                        let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
-                        pull += damping * speed;
-                        damped_w += damping * speed * speed;
-                        if length < Crush::BELOW * rest {
-                            pull += crush.pull(stiffness, length / rest, speed);
-                        }
-                    }
-                    let force = d * (pull / length);
-                    forces[a] += force;
-                    forces[b] -= force;
-                }
-            }
-        }
-        Pull { is_sane, damped_w }
-    }
-
-    /// Adds the forces on one particle, as `exerted` has them by the ends of a constraint, its force by its
-    /// length, and the multiplier that the last step recorded; and the forces of damping at these velocities,
-    /// if the method damps.
-    pub(crate) fn add_force_at(
-        self,
-        x: &[Point],
-        velocities: Option<&[Vector]>,
-        particle: usize,
-        exerted: impl Fn([usize; 2], f64, f64) -> f64,
-        sum: &mut Vector,
-    ) {
-        for id in self.constraints.of(particle) {
-            let one = self.constraints.get(id);
-            let [a, b] = one.ends;
-            let other = a + b - particle;
-            let d = x[other] - x[particle];
+/// [`add_forces`] by one law, which the loop has inlined: the pull by rest length, stiffness and
+/// length. `None` where that does not matter.
+#[inline]
+fn add_forces_by(
+    family: &Constraints,
+    pull: impl Fn(f64, f64, f64) -> Option<f64>,
+    x: &[Point],
+    ratio_max: f64,
+    crush: Option<Crush<'_>>,
+    forces: &mut [Vector],
+) -> Pull {
+    let (mut is_sane, mut damped_w) = (true, 0.0);
+    for colour in &family.colours {
+        for (([a, b], rest, stiffness), &damping) in colour.springs().zip(&colour.damping) {
+            let d = x[b] - x[a];
             let length = length(d);
+            let Some(mut pull) = pull(rest, stiffness, length) else {
+                continue;
+            };
+            is_sane &= length <= ratio_max * rest;
             if length > 0.0 {
-                let multiplier = self.constraints.memory(id).multiplier;
-                let damped_n = velocities.map_or(0.0, |v| {
-                    self.constraints.damping(id) * dot(d, v[other] - v[particle]) / length
-                });
-                let pull = exerted([a, b], self.axial_of(&one, x).force, multiplier) + damped_n;
-                *sum += d * (pull / length);
-            }
-        }
-    }
-
-    /// The one that is longest for its rest length: its ends, and the ratio of the two. The length of a bend
-    /// without stiffness does not matter, which is what an edit leaves where rounding left none at rest.
-    pub(crate) fn longest(self, x: &[Point]) -> Option<([usize; 2], f64)> {
-        let all = self.constraints.colours.iter().flat_map(Colour::springs);
-        let measured = all.filter(|one| self.buckling.is_none() || one.2 > 0.0);
-        let ratios = measured.map(|(ends, rest, _)| (ends, span(x, ends) / rest));
-        ratios.reduce(|most, one| if one.1 > most.1 { one } else { most })
-    }
-
-    /// Visits springs that together are as stiff as these constraints or stiffer, in every direction and in
-    /// any state: their particles, and their stiffness in N/m. A damper of 1 N s/m counts as `damper`.
-    pub(crate) fn each_spring(self, damper: f64, mut visit: impl FnMut([usize; 2], f64)) {
-        for colour in &self.constraints.colours {
-            for ((ends, _, stiffness), &damping) in colour.springs().zip(&colour.damping) {
-                if stiffness > 0.0 {
-                    visit(ends, self.stiffest(stiffness) + damper * damping);
+                if let Some(crush) = crush
+                    && (damping > 0.0 || length < Crush::BELOW * rest)
+                {
+                    let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
+                    pull += damping * speed;
+                    damped_w += damping * speed * speed;
+                    if length < Crush::BELOW * rest {
+                        pull += crush.pull(stiffness, length / rest, speed);
+                    }
                 }
+                let force = d * (pull / length);
+                forces[a] += force;
+                forces[b] -= force;
             }
         }
     }
+    Pull { is_sane, damped_w }
+}
 
-    /// Visits those springs of a particle: the other one, and the stiffness.
-    pub(crate) fn springs_at(
-        self,
-        particle: usize,
-        damper: f64,
-        mut visit: impl FnMut(usize, f64),
-    ) {
-        for id in self.constraints.of(particle) {
-            let one = self.constraints.get(id);
-            if one.stiffness_n_per_m > 0.0 {
-                let [a, b] = one.ends;
-                let damping = damper * self.constraints.damping(id);
-                let stiffness = self.stiffest(one.stiffness_n_per_m) + damping;
-                visit(a + b - particle, stiffness);
-            }
+/// Adds the forces on one particle, as `exerted` has them by the ends of a constraint, its force by its
+/// length, and the multiplier that the last step recorded; and the forces of damping at these velocities,
+/// if the method damps.
+pub(crate) fn add_force_at(
+    family: &Constraints,
+    x: &[Point],
+    velocities: Option<&[Vector]>,
+    particle: usize,
+    exerted: impl Fn([usize; 2], f64, f64) -> f64,
+    sum: &mut Vector,
+) {
+    for id in family.of(particle) {
+        let one = family.get(id);
+        let [a, b] = one.ends;
+        let other = a + b - particle;
+        let d = x[other] - x[particle];
+        let length = length(d);
+        if length > 0.0 {
+            let multiplier = family.memory(id).multiplier;
+            let damped_n = velocities.map_or(0.0, |v| {
+                family.damping(id) * dot(d, v[other] - v[particle]) / length
+            });
+            let pull = exerted([a, b], axial_of(family, &one, x).force, multiplier) + damped_n;
+            *sum += d * (pull / length);
         }
     }
+}
 
-    /// The particles of each, with its id.
-    pub(crate) fn each_pair(self, mut visit: impl FnMut(usize, [u32; 2])) {
-        for colour in &self.constraints.colours {
-            for (&id, &ends) in colour.ids.iter().zip(&colour.ends) {
-                visit(id as usize, ends);
-            }
-        }
-    }
+/// The one that is longest for its rest length: its ends, and the ratio of the two. The length of a bend
+/// without stiffness does not matter, which is what an edit leaves where rounding left none at rest.
+pub(crate) fn longest(family: &Constraints, x: &[Point]) -> Option<([usize; 2], f64)> {
+    let measured = family
+        .springs()
+        .filter(|one| family.law.is_none() || one.2 > 0.0);
+    let ratios = measured.map(|(ends, rest, _)| (ends, span(x, ends) / rest));
+    ratios.reduce(|most, one| if one.1 > most.1 { one } else { most })
+}
 
-    /// Adds the second derivatives of the energy, each by its id in this kind. With `clamp` every term is positive
-    /// semidefinite; returns how many had a part dropped for it.
-    pub(crate) fn add_hessian(
-        self,
-        kind: usize,
-        x: &[Point],
-        clamp: bool,
-        to: &mut Hessian,
-    ) -> u64 {
-        let mut clamped = 0;
-        for colour in &self.constraints.colours {
-            for (&id, (ends, rest, stiffness)) in colour.ids.iter().zip(colour.springs()) {
-                // Edges of a cloth of triangles alone are measured, and pull at nothing.
-                if stiffness > 0.0 {
-                    let d = x[ends[1]] - x[ends[0]];
-                    let (block, dropped) =
-                        block(d, self.stiffness(rest, stiffness, length(d)), clamp);
-                    clamped += u64::from(dropped);
-                    let (pair, [a, b]) = ((kind, id as usize), ends.map(|end| end as u32));
-                    to.add(pair, [a, a], &block);
-                    to.add(pair, [b, b], &block);
-                    to.add(pair, [a, b], &Block::ZERO.plus(-1.0, &block));
-                }
+/// Visits springs that together are as stiff as these constraints or stiffer, in every direction and in
+/// any state: their particles, and their stiffness in N/m. A damper of 1 N s/m counts as `damper`.
+pub(crate) fn each_spring(
+    family: &Constraints,
+    damper: f64,
+    mut visit: impl FnMut([usize; 2], f64),
+) {
+    for colour in &family.colours {
+        for ((ends, _, stiffness), &damping) in colour.springs().zip(&colour.damping) {
+            if stiffness > 0.0 {
+                visit(ends, stiffest(family, stiffness) + damper * damping);
             }
         }
-        clamped
     }
+}
+
+/// Visits those springs of a particle: the other one, and the stiffness.
+pub(crate) fn springs_at(
+    family: &Constraints,
+    particle: usize,
+    damper: f64,
+    mut visit: impl FnMut(usize, f64),
+) {
+    for id in family.of(particle) {
+        let one = family.get(id);
+        if one.stiffness_n_per_m > 0.0 {
+            let [a, b] = one.ends;
+            let damping = damper * family.damping(id);
+            let stiffness = stiffest(family, one.stiffness_n_per_m) + damping;
+            visit(a + b - particle, stiffness);
+        }
+    }
+}
+
+/// Adds the second derivatives of the energy. With `clamp` every term is positive semidefinite;
+/// returns how many had a part dropped for it.
+pub(crate) fn add_hessian(family: &Constraints, x: &[Point], clamp: bool, to: &mut Hessian) -> u64 {
+    let mut clamped = 0;
+    // Edges of a cloth of triangles alone are measured, and pull at nothing.
+    for ([a, b], rest, stiffness) in family.springs().filter(|spring| spring.2 > 0.0) {
+        let d = x[b] - x[a];
+        let length = length(d);
+        let Axial { force, slope, .. } = axial(family, rest, stiffness, length);
+        // The derivative of the force for a turn.
+        let across = match family.law {
+            None => stiffness * ((length - rest) / length),
+            Some(_) => force / length,
+        };
+        let (block, dropped) = block(d, [slope, across], clamp);
+        clamped += u64::from(dropped);
+        let [a, b] = [a, b].map(|end| end as u32);
+        to.add([a, a], &block);
+        to.add([b, b], &block);
+        to.add([a, b], &-block);
+    }
+    clamped
 }
 
 /// How far two particles are apart, in metres.
@@ -267,12 +239,11 @@ pub(crate) fn span(x: &[Point], [a, b]: [usize; 2]) -> f64 {
 fn block(d: Vector, [along, across]: [f64; 2], clamp: bool) -> (Block, bool) {
     let length = length(d);
     if length == 0.0 {
-        return (Block::identity_times(along), false);
+        return (Block::from_diagonal_element(along), false);
     }
     let direction = d / length;
     let clamped = clamp && across < 0.0;
     let across = if clamped { 0.0 } else { across };
-    let line = Block::outer(direction, direction);
-    let block = Block::identity_times(across).plus(along - across, &line);
-    (block, clamped)
+    let line = outer(direction, direction) * (along - across);
+    (Block::from_diagonal_element(across) + line, clamped)
 }

@@ -1,11 +1,11 @@
 //! A cloth: a system that is made from a mesh, and follows the mesh's log while the mesh tears.
 
-pub(crate) mod error;
+use std::fmt;
 
-pub use error::ClothError;
-
-use tearmesh::geometry::{Point, cross, length};
-use tearmesh::{Cursor, Follower as _, HalfEdgeId, Masses, Mesh, Positions, VertexId};
+use tearmesh::geometry::{Point, Vector, cross, length};
+use tearmesh::{
+    Cursor, FaceId, Follower as _, HalfEdgeId, MassError, Masses, Mesh, Positions, VertexId,
+};
 
 use crate::constraint::{Constraint, ConstraintId};
 use crate::fabric::{Bending, Fabric, Stretch};
@@ -170,7 +170,7 @@ impl Cloth {
         }
         if let Some(bend) = fabric.bend {
             if let Bending::Buckling { law, .. } = bend {
-                cloth.system.model.buckling = Some(law);
+                cloth.system.model.bend.law = Some(law);
             }
             for h in mesh.edges() {
                 if let Some(pair) = mesh.pair(h) {
@@ -317,9 +317,8 @@ impl Cloth {
     /// numbers.
     fn bend_stiffness(&self, edge: [HalfEdgeId; 2], rest_length_m: f64) -> Option<f64> {
         let [one, other] = edge.map(|h| self.rest_area(h));
-        self.fabric
-            .bend?
-            .stiffness_n_per_m(rest_length_m, one + other)
+        let bend = self.fabric.bend?;
+        bend.stiffness_n_per_m(rest_length_m, one + other)
     }
 
     /// Gives the bend constraint across an edge the length that the rest positions of its ends have
@@ -386,10 +385,55 @@ pub(crate) struct Piece {
     pub(crate) is_kept: bool,
     /// Whether it is a part of an edge of the parent.
     pub(crate) divided: bool,
-    /// The constraint of that edge.
-    pub(crate) stretch: ConstraintId,
-    pub(crate) bend: ConstraintId,
+    /// The stretch and the bend constraint of that edge.
+    pub(crate) ids: [ConstraintId; 2],
     /// What k L shall be.
     pub(crate) stiffness_by_length: f64,
     pub(crate) length: f64,
 }
+
+/// The reason why a cloth was refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ClothError {
+    /// The masses were refused.
+    Mass(MassError),
+    /// A number of the [`Fabric`](crate::Fabric) cannot be used, or would make a bend too stiff.
+    Number(SettingError),
+    /// Two vertices that a constraint joins are at the same place, or have coordinates that are not
+    /// finite.
+    Length {
+        /// The two vertices.
+        ends: [VertexId; 2],
+        /// The rest length between them, in metres.
+        given: f64,
+    },
+    /// A face of a cloth with a [`Weave`](crate::Weave) has no area at rest, or the direction of
+    /// warp is perpendicular to it.
+    Face {
+        /// The face that cannot be used.
+        face: FaceId,
+        /// The direction of warp that was given, in space.
+        warp: Vector,
+    },
+}
+
+impl fmt::Display for ClothError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ClothError::Mass(error) => error.fmt(f),
+            ClothError::Number(error) => error.fmt(f),
+            ClothError::Length {
+                ends: [a, b],
+                given,
+            } => write!(f, "the edge {a}-{b} has the rest length {given} m"),
+            ClothError::Face { face, warp } => write!(
+                f,
+                "the face {face} has no area at rest, or the warp ({}, {}, {}) no direction in it",
+                warp.x, warp.y, warp.z
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ClothError {}

@@ -2,34 +2,36 @@
 
 use crate::air::{self, AirRate};
 use crate::guard::{Frequency, Guard};
-use crate::solver::{Solver, StepError, StepLimit};
+use crate::solver::{Abilities, Solver, StepError, StepLimit};
 use crate::system::{System, Unstable};
+
+/// What the air takes of a step: the rate at which it slows, and one over the longest step in seconds that is
+/// stable without springs.
+type AirShare = (AirRate, f64);
 
 /// How many substeps a step takes, by the springs of an explicit method, and by air that a method takes in by
 /// the velocities before. With light particles carried there are none up to twice the step that suits, and
 /// beyond that as many as make each substep suit, or more if those would not be stable.
 pub(crate) fn admit(system: &mut System, solver: &dyn Solver, dt_s: f64) -> Result<u32, StepError> {
-    if solver.abilities().damps {
+    let abilities = solver.abilities();
+    if abilities.damps {
         damp(system);
     }
-    let limit = match system.unstable {
-        Unstable::Allow => None,
-        Unstable::Refuse | Unstable::Substep => limit(system, solver),
-    };
-    let Some((springs_s, air)) = limit else {
+    if system.unstable == Unstable::Allow {
         return Ok(1);
-    };
+    }
+    let (springs_s, air) = limit(system, abilities);
     let mut limit_s = with_air(springs_s, air);
     let is_whole = dt_s <= limit_s;
     if !is_whole && system.unstable == Unstable::Refuse {
         return Err(refused(system, [dt_s, limit_s], springs_s, air));
     }
-    if !solver.abilities().carries_light {
+    if !abilities.carries_light {
         return divided(dt_s, limit_s);
     }
     let suited_s = with_air(springs_s / Guard::WHOLE, air);
     let mut substeps = divided(dt_s, if is_whole { limit_s } else { suited_s })?;
-    system.scratch.air_per_s = air.map_or(0.0, |air| air.per_s);
+    system.scratch.air_per_s = air.map_or(0.0, |(_, per_s)| per_s);
     loop {
         weigh_for(system, dt_s / f64::from(substeps));
         if system.guard.is_sound(&system.model, &mut system.counters) {
@@ -44,18 +46,15 @@ pub(crate) fn admit(system: &mut System, solver: &dyn Solver, dt_s: f64) -> Resu
     Ok(substeps)
 }
 
-/// The longest step in seconds that springs admit whole by this method, and what the air takes of it; `None`
-/// if nothing limits it.
-fn limit(system: &mut System, solver: &dyn Solver) -> Option<(f64, Option<AirShare>)> {
-    let abilities = solver.abilities();
-    let springs_s = if abilities.carries_light {
-        Some(Guard::WHOLE * recommended_step_s(system))
-    } else {
-        let limit = abilities.frequency_limit;
-        limit.map(|limit| stable_step_s(system, limit))
+/// The longest step in seconds that springs admit whole by such a method, infinite where they admit any, and
+/// what the air takes of it.
+fn limit(system: &mut System, abilities: Abilities) -> (f64, Option<AirShare>) {
+    let springs_s = match abilities.frequency_limit {
+        _ if abilities.carries_light => Guard::WHOLE * recommended_step_s(system),
+        Some(limit) => stable_step_s(system, limit),
+        None => f64::INFINITY,
     };
-    let air = air_share(system, solver);
-    (springs_s.is_some() || air.is_some()).then(|| (springs_s.unwrap_or(f64::INFINITY), air))
+    (springs_s, air_share(system, abilities))
 }
 
 /// A step in seconds beyond a limit, which springs or air make too long.
@@ -65,8 +64,8 @@ fn refused(
     springs_s: f64,
     air: Option<AirShare>,
 ) -> StepError {
-    let by = match air.filter(|air| air.per_s * springs_s > 1.0) {
-        Some(air) => StepLimit::Air(air.rate),
+    let by = match air.filter(|(_, per_s)| per_s * springs_s > 1.0) {
+        Some((rate, _)) => StepLimit::Air(rate),
         None => StepLimit::Springs(frequency_bound(system)),
     };
     StepError::Unstable {
@@ -83,7 +82,7 @@ fn refused(
 /// a pass over all constraints if something has changed.
 pub fn recommended_step_s(system: &mut System) -> f64 {
     reach_out(system);
-    system.guard.suited_s(&system.model)
+    system.guard.suited_s.unwrap_or(f64::INFINITY)
 }
 
 /// Weighs particles for steps of this length.
@@ -100,7 +99,7 @@ pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
 /// Costs a pass over all constraints if something has changed, and over all triangles.
 pub fn frequency_bound(system: &mut System) -> Frequency {
     reach_out(system);
-    system.guard.frequency(&system.model)
+    system.guard.frequency
 }
 
 /// Returns the largest step in seconds that is taken whole by a method with this limit of ω Δt, which
@@ -127,18 +126,14 @@ fn damp(system: &mut System) {
 }
 
 /// The largest step in seconds that is taken whole by this method with the present wind, where of that of the
-/// springs alone only a part is to be taken; `None` if nothing limits it.
-pub(crate) fn whole_step_s(
-    system: &mut System,
-    solver: &dyn Solver,
-    springs_part: f64,
-) -> Option<f64> {
-    limit(system, solver).map(|(springs_s, air)| with_air(springs_part * springs_s, air))
+/// springs alone only a part is to be taken; infinite if nothing limits it.
+pub(crate) fn whole_step_s(system: &mut System, solver: &dyn Solver, springs_part: f64) -> f64 {
+    let (springs_s, air) = limit(system, solver.abilities());
+    with_air(springs_part * springs_s, air)
 }
 
 /// What the air takes of a step by this method.
-fn air_share(system: &mut System, solver: &dyn Solver) -> Option<AirShare> {
-    let abilities = solver.abilities();
+fn air_share(system: &mut System, abilities: Abilities) -> Option<AirShare> {
     let limit = abilities.air_limit?;
     let mut rate = air::wind_rate(system);
     if abilities.takes_drag_explicitly
@@ -150,22 +145,12 @@ fn air_share(system: &mut System, solver: &dyn Solver) -> Option<AirShare> {
         });
         wind.rate_per_s += drag.rate_per_s;
     }
-    let rate = rate?;
-    let per_s = rate.rate_per_s / limit;
-    Some(AirShare { rate, per_s })
-}
-
-/// What the air takes of a step.
-#[derive(Clone, Copy, Debug)]
-struct AirShare {
-    rate: AirRate,
-    /// One over the longest step in seconds that is stable without springs.
-    per_s: f64,
+    rate.map(|rate| (rate, rate.rate_per_s / limit))
 }
 
 /// The longest stable step of springs and air together, in seconds, by that of the springs.
 fn with_air(springs_s: f64, air: Option<AirShare>) -> f64 {
-    air.map_or(springs_s, |air| 1.0 / (1.0 / springs_s + air.per_s))
+    air.map_or(springs_s, |(_, per_s)| 1.0 / (1.0 / springs_s + per_s))
 }
 
 /// A step in as many parts as are admitted.

@@ -80,7 +80,8 @@ fn check(system: &System, solver: &dyn Solver, dt_s: f64) -> Result<(), StepErro
     if solver.abilities().takes_all_forces {
         return Ok(());
     }
-    let bends = system.model.buckling.map_or(0, |_| system.model.bend.len());
+    let bend = &system.model.bend;
+    let bends = bend.law.map_or(0, |_| bend.len());
     let triangles = (system.triangles().len(), "triangles resist stretch");
     let mut others = [triangles, (bends, "bends buckle")].into_iter();
     if let Some((count, what)) = others.find(|(count, _)| *count > 0) {
@@ -157,8 +158,6 @@ fn go_back(system: &mut System, failure: Failure) -> StepError {
     std::mem::swap(&mut system.velocities, &mut system.scratch.velocities);
     system.scratch.is_fresh = false;
     system.model.recorded = Recorded::Nothing;
-    let multipliers = system.model.multipliers_mut();
-    multipliers.for_each(|lambda| *lambda = 0.0);
     error
 }
 

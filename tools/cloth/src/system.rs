@@ -180,7 +180,7 @@ impl System {
         room_for(&mut model.masses, particles);
         room_for(&mut model.inverse_masses, particles);
         room_for(&mut model.held, particles);
-        let (bends, triangles) = (model.bend.len(), model.triangles.as_slice().len());
+        let (bends, triangles) = (model.bend.len(), model.triangles.list.len());
         model.stretch.reserve(particles, stretches);
         model.bend.reserve(particles, bends);
         model.triangles.reserve(particles);
@@ -257,7 +257,7 @@ impl System {
     /// If the system is that of a cloth, whose bends follow its fabric.
     pub fn set_buckling(&mut self, buckling: Option<Buckling>) {
         self.is_no_cloth();
-        self.model.buckling = buckling;
+        self.model.bend.law = buckling;
         self.rebuilt();
     }
 
@@ -265,10 +265,8 @@ impl System {
     /// index, from 0. A triangle has three particles, their coordinates (u, v) in the material in
     /// metres, and the stiffness along u, along v and in shear in N/m.
     ///
-    /// # Errors
-    ///
-    /// [`SystemError::Triangle`] if a stiffness is negative, a number is not finite, the
-    /// coordinates span no area, or the corners are not three different particles.
+    /// Returns `None` if a stiffness is negative, a number is not finite, the coordinates span no area,
+    /// or the corners are not three different particles.
     ///
     /// # Panics
     ///
@@ -278,22 +276,17 @@ impl System {
         corners: [usize; 3],
         material_m: [[f64; 2]; 3],
         stiffness_n_per_m: [f64; 3],
-    ) -> Result<usize, SystemError> {
+    ) -> Option<usize> {
         self.is_no_cloth();
         let [a, b, c] = corners;
         let distinct = a != b && b != c && c != a && a.max(b).max(c) < self.positions.len();
-        let triangle = Triangle::new(
-            corners.map(|corner| corner as u32),
-            material_m,
-            stiffness_n_per_m,
-        );
-        let triangle = triangle.filter(|_| distinct);
-        let triangle = triangle.ok_or(SystemError::Triangle { corners })?;
-        Ok(self.push_triangle(triangle))
+        let vertices = corners.map(|corner| corner as u32);
+        let triangle = Triangle::new(vertices, material_m, stiffness_n_per_m);
+        Some(self.push_triangle(triangle.filter(|_| distinct)?))
     }
 
     pub(crate) fn push_triangle(&mut self, triangle: Triangle) -> usize {
-        let index = self.model.triangles.as_slice().len();
+        let index = self.model.triangles.list.len();
         self.model.triangles.put(index, triangle);
         self.rebuilt();
         index
@@ -332,7 +325,7 @@ impl System {
     /// Notes that constraints have changed otherwise than by edits of a mesh.
     fn rebuilt(&mut self) {
         self.touched();
-        self.guard.forget();
+        self.guard.suited_s = None;
     }
 
     /// Notes that masses or constraints have changed.
@@ -506,7 +499,7 @@ impl System {
     /// Returns the triangles that resist stretch and shear, by index.
     #[must_use]
     pub fn triangles(&self) -> &[Triangle] {
-        self.model.triangles.as_slice()
+        &self.model.triangles.list
     }
 
     /// Returns the external loads.

@@ -30,7 +30,7 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 use crate::crush::Crush;
 use crate::damping;
 use crate::incidence::Incidence;
-use crate::matrix::{Block, Hessian};
+use crate::matrix::{Block, Hessian, outer};
 use crate::pair::Pull;
 
 /// A triangle that resists stretch and shear.
@@ -170,9 +170,9 @@ impl Triangle {
         self.damping != [0.0; 3] || squares.iter().any(|l| *l < Crush::BELOW * Crush::BELOW)
     }
 
-    /// The second derivatives of the energy: `[i][j]` is the block of corners i and j, in N/m; and
-    /// how many of the three terms (u, v, shear) had a part dropped.
-    fn hessian(&self, [w_u, w_v]: [Vector; 2], clamp: bool) -> ([[Block; 3]; 3], u32) {
+    /// The second derivatives of the energy, in N/m, for each corner: the blocks of it with itself and with the
+    /// next; and how many of the three terms (u, v, shear) had a part dropped.
+    fn hessian(&self, [w_u, w_v]: [Vector; 2], clamp: bool) -> ([[Block; 2]; 3], u32) {
         let [k_u, k_v, k_s] = self.stiffness;
         let shear = dot(w_u, w_v);
         let mut clamped = 0;
@@ -184,44 +184,39 @@ impl Triangle {
             }
             let l = length(w);
             let direction = if l > 0.0 { w / l } else { w };
-            Block::identity_times(k * across)
-                .plus(k * (1.0 - across), &Block::outer(direction, direction))
-                .plus(k_s, &Block::outer(other, other))
+            Block::from_diagonal_element(k * across)
+                + outer(direction, direction) * (k * (1.0 - across))
+                + outer(other, other) * k_s
         };
         let mut uu = along(w_u, k_u, w_v);
         let mut vv = along(w_v, k_v, w_u);
-        let mut uv = Block::outer(w_v, w_u);
+        let mut uv = outer(w_v, w_u);
         // s [0 I; I 0] is half |s| [I ±I; ±I I] less half |s| [I ∓I; ∓I I].
         if clamp {
-            let half = Block::identity_times(0.5 * k_s * shear.abs());
-            uu = uu.plus(1.0, &half);
-            vv = vv.plus(1.0, &half);
-            uv = uv.plus(0.5 * shear, &Block::identity_times(1.0));
+            let half = Block::from_diagonal_element(0.5 * k_s * shear.abs());
+            uu += half;
+            vv += half;
+            uv += Block::from_diagonal_element(0.5 * shear);
             clamped += u32::from(k_s * shear != 0.0);
         } else {
-            uv = uv.plus(shear, &Block::identity_times(1.0));
+            uv += Block::from_diagonal_element(shear);
         }
-        let uv = Block::ZERO.plus(k_s, &uv);
-        let vu = uv.transposed();
+        let uv = uv * k_s;
+        let vu = uv.transpose();
         let [g_u, g_v] = self.weights();
         let a = self.area;
         let block = |i: usize, j: usize| {
-            Block::ZERO
-                .plus(a * (g_u[i] * g_u[j]), &uu)
-                .plus(a * (g_v[i] * g_v[j]), &vv)
-                .plus(a * (g_u[i] * g_v[j]), &uv)
-                .plus(a * (g_v[i] * g_u[j]), &vu)
+            uu * (a * (g_u[i] * g_u[j]))
+                + vv * (a * (g_v[i] * g_v[j]))
+                + uv * (a * (g_u[i] * g_v[j]))
+                + vu * (a * (g_v[i] * g_u[j]))
         };
         // Moving the whole triangle changes no force: rows sum to zero, and the first corner's
         // blocks follow from the others'.
         let (b11, b12, b22) = (block(1, 1), block(1, 2), block(2, 2));
-        let b21 = b12.transposed();
-        let zero = Block::ZERO;
-        let b10 = zero.plus(-1.0, &b11).plus(-1.0, &b12);
-        let b20 = zero.plus(-1.0, &b21).plus(-1.0, &b22);
-        let b00 = zero.plus(-1.0, &b10).plus(-1.0, &b20);
-        let (b01, b02) = (b10.transposed(), b20.transposed());
-        ([[b00, b01, b02], [b10, b11, b12], [b20, b21, b22]], clamped)
+        let (b10, b20) = (-b11 - b12, -b12.transpose() - b22);
+        let b00 = -b10 - b20;
+        ([[b00, b10.transpose()], [b11, b12], [b22, b20]], clamped)
     }
 
     /// Springs between its corners that together are as stiff as these moduli along warp, along weft and in
@@ -255,7 +250,7 @@ fn stretch(w: Vector) -> f64 {
 /// The triangles 0, 1, 2, … of particles, and which particle has which.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Triangles {
-    list: Vec<Triangle>,
+    pub(crate) list: Vec<Triangle>,
     lists: Incidence<3>,
 }
 
@@ -263,10 +258,6 @@ impl Triangles {
     /// Makes room for so many particles in all.
     pub(crate) fn reserve(&mut self, particles: usize) {
         self.lists.reserve(particles, self.list.len());
-    }
-
-    pub(crate) fn as_slice(&self) -> &[Triangle] {
-        &self.list
     }
 
     /// The triangles of a particle, and which corner of them it is.
@@ -392,14 +383,8 @@ impl Triangles {
             let w = t.derivatives_at(x);
             *sum += t.forces(w)[corner];
             if let Some(velocities) = velocities {
-                // Without a step nothing is damped for being crushed.
-                let (pulls, _) = t.damping(
-                    w,
-                    Crush {
-                        velocities,
-                        dt_s: 0.0,
-                    },
-                );
+                let dt_s = 0.0; // Without a step nothing is damped for being crushed.
+                let (pulls, _) = t.damping(w, Crush { velocities, dt_s });
                 *sum += pulls[corner];
             }
         }
@@ -462,35 +447,17 @@ impl Triangles {
         }
     }
 
-    /// The pairs of particles that act on each other. The edges of triangle t have the numbers 3 t and on.
-    pub(crate) fn each_pair(&self, mut visit: impl FnMut(usize, [u32; 2])) {
-        for (t, triangle) in self.list.iter().enumerate() {
-            let [a, b, c] = triangle.vertices;
-            for (i, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
-                visit(3 * t + i, ends);
-            }
-        }
-    }
-
-    /// Adds the second derivatives of the energy, each pair's by that number in this kind. With `clamp` every term
-    /// is positive semidefinite; returns how many had a part dropped for it.
-    pub(crate) fn add_hessian(
-        &self,
-        kind: usize,
-        x: &[Point],
-        clamp: bool,
-        to: &mut Hessian,
-    ) -> u64 {
+    /// Adds the second derivatives of the energy. With `clamp` every term is positive semidefinite;
+    /// returns how many had a part dropped for it.
+    pub(crate) fn add_hessian(&self, x: &[Point], clamp: bool, to: &mut Hessian) -> u64 {
         let mut clamped = 0;
-        for (number, t) in self.list.iter().enumerate() {
+        for t in &self.list {
             let (blocks, dropped) = t.hessian(t.derivatives_at(x), clamp);
             clamped += u64::from(dropped);
-            for (i, row) in blocks.iter().enumerate() {
-                let j = (i + 1) % 3;
-                let (a, b) = (t.vertices[i], t.vertices[j]);
-                let pair = (kind, 3 * number + i);
-                to.add(pair, [a, a], &row[i]);
-                to.add(pair, [a, b], &row[j]);
+            for (i, [own, next]) in blocks.iter().enumerate() {
+                let (a, b) = (t.vertices[i], t.vertices[(i + 1) % 3]);
+                to.add([a, a], own);
+                to.add([a, b], next);
             }
         }
         clamped

@@ -12,7 +12,7 @@
 //! around it are made anew.
 
 use tearmesh::geometry::{Point, Vector, cross, dot, length};
-use tearmesh::{FaceId, HalfEdgeId, Insert};
+use tearmesh::{FaceId, HalfEdgeId};
 
 use crate::fabric::Weave;
 use crate::sheet::{Cloth, ClothError};
@@ -61,15 +61,11 @@ impl Cloth {
         }
     }
 
-    /// Divides triangles among the children of their faces.
-    pub(super) fn insert_triangles(&mut self, insert: &Insert<'_>) {
-        if self.fabric.weave.is_none() {
-            return;
-        }
-        for child in insert.children {
-            let triangle = self.woven(child.face);
-            let triangles = &mut self.system.model.triangles;
-            triangles.put(child.face.index(), triangle);
+    /// Makes the triangle of a face anew, or that of a face that has come, if the fabric asks for them.
+    pub(super) fn weave_face(&mut self, f: FaceId) {
+        if self.fabric.weave.is_some() {
+            let triangle = self.woven(f);
+            self.system.model.triangles.put(f.index(), triangle);
         }
     }
 
@@ -78,8 +74,7 @@ impl Cloth {
         let around = self.system.model.triangles.of(particle);
         let around: Vec<usize> = around.map(|(t, _)| t).collect();
         for t in around {
-            let triangle = self.woven(FaceId::new(t).expect("I1: ids fit"));
-            self.system.model.triangles.put(t, triangle);
+            self.weave_face(FaceId::new(t).expect("I1: ids fit"));
         }
     }
 
@@ -98,7 +93,10 @@ impl Cloth {
         let material = self.material(f);
         if let Some(triangle) = material.and_then(|m| Triangle::new(vertices, m, [0.0; 3])) {
             let now = vertices.map(|v| self.positions()[v as usize]);
-            return larger_singular_value(triangle.derivatives(now));
+            let [w_u, w_v] = triangle.derivatives(now);
+            let (uu, vv, uv) = (dot(w_u, w_u), dot(w_v, w_v), dot(w_u, w_v));
+            let apart = 0.5 * (uu - vv);
+            return (0.5 * (uu + vv) + (apart * apart + uv * uv).sqrt()).sqrt();
         }
         let ratio = |h: HalfEdgeId| self.system.stretch_ratio(self.stretch(h));
         f.half_edges().map(ratio).into_iter().fold(0.0, f64::max)
@@ -118,13 +116,6 @@ impl Cloth {
         let at = |v: u32| self.rest.as_slice()[v as usize];
         self.face_vertices(f).map(at)
     }
-}
-
-/// The larger singular value of a matrix of two columns.
-fn larger_singular_value([w_u, w_v]: [Vector; 2]) -> f64 {
-    let (uu, vv, uv) = (dot(w_u, w_u), dot(w_v, w_v), dot(w_u, w_v));
-    let apart = 0.5 * (uu - vv);
-    (0.5 * (uu + vv) + (apart * apart + uv * uv).sqrt()).sqrt()
 }
 
 /// The places (u, v) of a triangle's corners in its own plane, in metres: the first at the origin,

@@ -26,6 +26,7 @@
 use tearmesh::geometry::{Vector, length};
 
 use crate::motion::{finish, finish_and_predict, force_scale, predict};
+use crate::pair;
 use crate::solver::{Abilities, Failure, Quality, Solver};
 use crate::spring::{self, Correction};
 use crate::system::{Recorded, SettingError, System};
@@ -91,8 +92,8 @@ impl Solver for Xpbd {
         let miss = |_, by_length, multiplier| by_length + multiplier;
         let residual_n = |particle| {
             let mut sum = Vector::zeros();
-            for pairs in model.families() {
-                pairs.add_force_at(x, None, particle, miss, &mut sum);
+            for family in [&model.stretch, &model.bend] {
+                pair::add_force_at(family, x, None, particle, miss, &mut sum);
             }
             length(sum)
         };

@@ -54,7 +54,7 @@ impl fmt::Display for SettingError {
 
 impl std::error::Error for SettingError {}
 
-/// The reason why particles, constraints or triangles were refused.
+/// The reason why particles or constraints were refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SystemError {
@@ -77,12 +77,6 @@ pub enum SystemError {
     Constraint {
         /// The constraint as given.
         given: Constraint,
-    },
-    /// A stiffness of a triangle is negative, one of its numbers is not finite, its coordinates in
-    /// the material span no area, or its corners are not three different particles.
-    Triangle {
-        /// The indices of the particles that were given as corners.
-        corners: [usize; 3],
     },
 }
 
@@ -107,10 +101,6 @@ impl fmt::Display for SystemError {
                     given.rest_length_m, given.stiffness_n_per_m
                 )
             }
-            SystemError::Triangle { corners: [a, b, c] } => write!(
-                f,
-                "the particles {a}, {b} and {c} make no triangle with these coordinates and this stiffness"
-            ),
         }
     }
 }

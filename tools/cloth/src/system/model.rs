@@ -3,14 +3,13 @@
 use tearmesh::geometry::{Point, Vector};
 
 use super::counters::Counters;
-use crate::bend::Buckling;
 use crate::blow_up::BlowUpSite;
 use crate::constraint::Constraints;
 use crate::crush::Crush;
 use crate::load::{Loads, Path};
 use crate::mass_scaling::MassScaling;
 use crate::matrix::{Hessian, Weights};
-use crate::pair::{Pairs, Pull};
+use crate::pair::{self, Pull};
 use crate::triangle::Triangles;
 
 /// All but positions and velocities.
@@ -22,8 +21,6 @@ pub(crate) struct Model {
     pub(crate) held: Vec<bool>,
     pub(crate) stretch: Constraints,
     pub(crate) bend: Constraints,
-    /// The law of all bend constraints; `None` where they are springs.
-    pub(crate) buckling: Option<Buckling>,
     pub(crate) triangles: Triangles,
     /// The time τ of the damping of stretch constraints ([`damping`](crate::damping)).
     pub(crate) damping_s: f64,
@@ -53,15 +50,6 @@ pub(crate) enum Recorded {
 }
 
 impl Model {
-    /// Stretch and bend constraints, with their laws, in the order of every sum; triangles come after them.
-    pub(crate) fn families(&self) -> [Pairs<'_>; 2] {
-        let families = [(&self.stretch, None), (&self.bend, self.buckling)];
-        families.map(|(constraints, buckling)| Pairs {
-            constraints,
-            buckling,
-        })
-    }
-
     /// Appends a particle without constraints.
     pub(crate) fn push_particle(&mut self, mass: f64, is_held: bool) {
         self.masses.push(mass);
@@ -85,7 +73,7 @@ impl Model {
     /// Counts so many visits of each constraint for forces.
     pub(crate) fn count_visits(&self, times: u64, counters: &mut Counters) {
         let [stretch, bend] = [&self.stretch, &self.bend].map(|family| times * family.len() as u64);
-        let triangle = times * self.triangles.as_slice().len() as u64;
+        let triangle = times * self.triangles.list.len() as u64;
         counters.features.stretch += stretch;
         counters.features.bend += bend;
         counters.features.triangle += triangle;
@@ -94,7 +82,7 @@ impl Model {
 
     /// The constraint that is longest for its rest length, if that is beyond `ratio_max`.
     pub(crate) fn longest_beyond(&self, x: &[Point], ratio_max: f64) -> Option<BlowUpSite> {
-        let [stretch, bend] = self.families().map(|pairs| pairs.longest(x));
+        let [stretch, bend] = [&self.stretch, &self.bend].map(|family| pair::longest(family, x));
         let triangle = self.triangles.longest(x);
         let sites = [
             stretch.map(|(ends, ratio)| BlowUpSite::Constraint(ends, ratio)),
@@ -117,9 +105,8 @@ impl Model {
         damper: f64,
         mut visit: impl FnMut([usize; 2], f64),
     ) {
-        let [stretch, bend] = self.families();
-        stretch.each_spring(damper, &mut visit);
-        bend.each_spring(damper, &mut visit);
+        pair::each_spring(&self.stretch, damper, &mut visit);
+        pair::each_spring(&self.bend, damper, &mut visit);
         self.triangles.each_spring(reach, damper, visit);
     }
 
@@ -134,23 +121,23 @@ impl Model {
         self.triangles.each_damper(reach, visit);
     }
 
-    /// Visits the pairs of particles that act on each other: the kind of their constraint, and a number that
-    /// stays its own.
-    pub(crate) fn each_pair(&self, visit: &mut dyn FnMut(usize, usize, [u32; 2])) {
-        let [stretch, bend] = self.families();
-        stretch.each_pair(|number, ends| visit(0, number, ends));
-        bend.each_pair(|number, ends| visit(1, number, ends));
-        self.triangles
-            .each_pair(|number, ends| visit(2, number, ends));
+    /// The pairs of particles that act on each other, once for each constraint and each side of a triangle.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> + Clone + '_ {
+        let colours = [&self.stretch, &self.bend].into_iter();
+        let colours = colours.flat_map(|family| &family.colours);
+        let springs = colours.flat_map(|colour| colour.ends.iter().copied());
+        let triangles = self.triangles.list.iter();
+        let sides =
+            triangles.flat_map(|t| [0, 1, 2].map(|i| [t.vertices[i], t.vertices[(i + 1) % 3]]));
+        springs.chain(sides)
     }
 
     /// Adds the second derivatives of the energy. With `clamp` every term is positive semidefinite; returns how
     /// many had a part dropped for it.
     pub(crate) fn add_hessian(&self, x: &[Point], clamp: bool, to: &mut Hessian) -> u64 {
-        let [stretch, bend] = self.families();
-        stretch.add_hessian(0, x, clamp, to)
-            + bend.add_hessian(1, x, clamp, to)
-            + self.triangles.add_hessian(2, x, clamp, to)
+        pair::add_hessian(&self.stretch, x, clamp, to)
+            + pair::add_hessian(&self.bend, x, clamp, to)
+            + self.triangles.add_hessian(x, clamp, to)
     }
 
     pub(crate) fn weights(&self) -> Weights<'_> {
@@ -168,8 +155,9 @@ impl Model {
         forces: &mut [Vector],
     ) -> Pull {
         let ratio_max = self.stretch_ratio_max;
-        let families = self.families();
-        let [stretch, bend] = families.map(|pairs| pairs.add_forces(x, ratio_max, crush, forces));
+        let families = [&self.stretch, &self.bend];
+        let [stretch, bend] =
+            families.map(|family| pair::add_forces(family, x, ratio_max, crush, forces));
         let triangles = self.triangles.add_forces(x, ratio_max, crush, forces);
         Pull {
             is_sane: stretch.is_sane & bend.is_sane & triangles.is_sane,
@@ -179,8 +167,7 @@ impl Model {
 
     /// The elastic energy of all constraints and triangles, in joules.
     pub(crate) fn elastic_j(&self, x: &[Point]) -> f64 {
-        let families = self.families().into_iter();
-        let sum = families.fold(0.0, |sum, pairs| pairs.energy(x, sum));
+        let sum = pair::energy(&self.bend, x, pair::energy(&self.stretch, x, 0.0));
         self.triangles.energy(x, sum)
     }
 

@@ -4,7 +4,8 @@ use tearmesh::geometry::{Vector, cross, dot};
 use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
-use crate::constraint::{Colour, ConstraintId};
+use crate::constraint::ConstraintId;
+use crate::fabric::Weave;
 use crate::force;
 use crate::sheet::Cloth;
 use crate::system::{Recorded, System};
@@ -67,14 +68,11 @@ impl Threshold {
             }
         }
     }
-}
 
-impl Threshold {
     /// How many times as long as at rest any edge is at least that has this load, by the strain that
     /// [`strain`] says; `None` where faces decide, or forces that no strain tells. Linear.
     pub(super) fn ratio_from(&self, cloth: &Cloth, load: f64) -> Option<f64> {
-        let springs = cloth.system().stretches().colours.iter();
-        let springs = springs.flat_map(Colour::springs);
+        let springs = cloth.system().stretches().springs();
         let larger = |most: f64, one: f64| if one > most { one } else { most };
         let recorded = cloth.system().model.recorded;
         let has_strains = !matches!(recorded, Recorded::RigidForces | Recorded::Limiter);
@@ -154,11 +152,9 @@ pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(
 /// What a cloth's strain is multiplied by for its tension, in N/m: of springs and, the mean of
 /// warp and weft, of triangles.
 fn modulus(cloth: &Cloth) -> f64 {
-    let woven = cloth
-        .fabric
-        .weave
-        .map_or(0.0, |weave| (weave.warp_n_per_m + weave.weft_n_per_m) / 2.0);
-    cloth.fabric.stretch_n_per_m() + woven
+    let fabric = &cloth.fabric;
+    let woven = |weave: Weave| (weave.warp_n_per_m + weave.weft_n_per_m) / 2.0;
+    fabric.stretch_n_per_m() + fabric.weave.map_or(0.0, woven)
 }
 
 /// √(2 G / (E h)).
