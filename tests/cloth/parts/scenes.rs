@@ -69,8 +69,8 @@ pub(crate) fn noted(mut run: Run) -> Played {
         let before = run.tally().splits;
         let step = run.step().expect("a step");
         log.note(&run, &step);
-        let made = run.cuts_made().iter();
-        cuts.extend(made.map(|cut| (run.elapsed_s(), cut.number, cut.report.separated)));
+        let made = (cuts.len()..).zip(run.cuts_made());
+        cuts.extend(made.map(|(number, cut)| (run.elapsed_s(), number, cut.separated)));
         if run.tally().splits > before {
             torn.push((run.elapsed_s(), run.tally().splits, run.torn_length_m()));
         }

@@ -13,9 +13,9 @@ use std::io::Write;
 use std::time::Instant;
 
 use indicatif::ProgressBar;
-use tearmesh::{Cursor, Scissor, VertexId};
+use tearmesh::{Cursor, CutReport, Scissor, VertexId};
 use tearmesh_cloth::scene::ensemble::Subject;
-use tearmesh_cloth::scene::{CutMade, Frame, Region, Run, Scene, TearLog, TimedCut};
+use tearmesh_cloth::scene::{Frame, Region, Run, Scene, TearLog, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::{Document, TornDocument};
 
@@ -342,15 +342,16 @@ impl Play<'_> {
         step::check(subject, run.step_s(), &self.guard, &bar)
     }
 
-    fn note_cut(&self, scene: &Scene, made: &CutMade, session: &mut Session<'_, '_>) {
-        let (cut, done) = (&scene.cuts[made.number], &made.report);
+    fn note_cut(&self, scene: &Scene, done: &CutReport, session: &mut Session<'_, '_>) {
+        let number = session.report.cuts.len();
+        let cut = &scene.cuts[number];
         let Ok(scissor) = Scissor::new(cut.rays[0], cut.rays[1]) else {
             return; // It was made with these rays.
         };
         let how = report::How::new(cut.method, cut.through, "vertex", (Scissor::SNAP, false));
         let entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
         session.report.cuts.push(entry);
-        let many = (scene.cuts.len() > 1).then_some(made.number + 1);
+        let many = (scene.cuts.len() > 1).then_some(number + 1);
         let at = crate::say::short(cut.at_s);
         let line = crate::cut::summary::cut(many, done);
         session.words.push(format!("{line} · at {at} s"));

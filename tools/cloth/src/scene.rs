@@ -15,7 +15,7 @@ mod warning;
 
 pub use frame::{Axis, Frame};
 pub use presets::Preset;
-pub use run::{CutMade, EnergyGain, Run, RunError, RunTally};
+pub use run::{EnergyGain, Run, RunError, RunTally};
 pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
 pub use warning::Warning;
 

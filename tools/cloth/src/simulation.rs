@@ -27,8 +27,8 @@ pub use report::{CutId, Event, Picked, Reached};
 
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
-    Cut, CutError, CutMethod, CutReport, Edit, Edits, Follower as _, Masses, Mesh, Mix, PerVertex,
-    PositionError, Positions, Scissor, VertexId, mend, pick,
+    Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Follower as _, Masses, Mesh, Mix,
+    PerVertex, PositionError, Positions, Scissor, VertexId, mend, pick,
 };
 
 use self::hand::Hands;
@@ -77,7 +77,6 @@ pub struct Simulation {
     pub(crate) tear: Option<Tear>,
     pub(crate) solver: Box<dyn Solver + Send + Sync>,
     pub(crate) step_s: f64,
-    steps: u64,
     /// The time that was asked for and is not simulated, up to half a step either way.
     owed_s: f64,
     /// The strengths of vertices without grips and guards.
@@ -85,9 +84,13 @@ pub struct Simulation {
     hands: Hands,
     seams: Seams,
     healing: Healing,
+    /// The edits that hands, seams and healing have followed.
+    seen: Cursor,
     buffers: ClothBuffers,
     pub(crate) events: Vec<Event>,
-    log: Option<InputLog>,
+    /// The steps, and the inputs if they are recorded.
+    log: InputLog,
+    is_recorded: bool,
 }
 
 impl Simulation {
@@ -103,7 +106,7 @@ impl Simulation {
         mut def: SimulationDef,
     ) -> Result<Simulation, SimulationError> {
         let is_recorded = std::mem::take(&mut def.is_recorded);
-        let log = is_recorded.then(|| InputLog::new(log::digest(&mesh, positions, &def)));
+        let digest = is_recorded.then(|| log::digest(&mesh, positions, &def));
         let seen = positions.seen();
         let mut edits = Edits::starting_at(seen);
         let masses = Masses::area(&mesh, positions, def.density_kg_per_m2);
@@ -129,9 +132,7 @@ impl Simulation {
             return Err(SimulationError::Step(step_s));
         }
         let mut buffers = ClothBuffers::new(&mesh, cloth.positions(), seen);
-        let (mut hands, mut healing, mut seams) =
-            (Hands::default(), Healing::default(), Seams::default());
-        (hands.seen, healing.seen, seams.seen) = (seen, seen, seen);
+        let mut seams = Seams::default();
         seams.cut_of.resize(mesh.half_edge_count(), 0);
         let mut strengths = PerVertex::new(strengths).starting_at(seen);
         let mut events = Vec::new();
@@ -154,15 +155,16 @@ impl Simulation {
             tear,
             solver,
             step_s,
-            steps: 0,
             owed_s: 0.0,
             strengths,
-            hands,
+            hands: Hands::default(),
             seams,
-            healing,
+            healing: Healing::default(),
+            seen,
             buffers,
             events,
-            log,
+            log: InputLog::new(digest.unwrap_or_default()),
+            is_recorded,
         })
     }
 
@@ -202,7 +204,7 @@ impl Simulation {
         def.is_recorded = true;
         let sim = Simulation::new(mesh, positions, def);
         let mut sim = sim.map_err(ReplayError::Definition)?;
-        if sim.log.as_ref().map(|log| log.digest) != Some(log.digest) {
+        if sim.log.digest != log.digest {
             return Err(ReplayError::Digest);
         }
         for (number, record) in log.records.iter().enumerate() {
@@ -226,7 +228,7 @@ impl Simulation {
     /// Takes the steps of a log up to a number.
     fn reach(&mut self, steps: u64) -> Result<(), ReplayError> {
         self.edits.clear();
-        while self.steps < steps {
+        while self.log.steps < steps {
             let step = self.step();
             step.map_err(|error| ReplayError::Step(Some(error)))?;
         }
@@ -261,8 +263,8 @@ impl Simulation {
     }
 
     fn note(&mut self, verb: &'static str, words: impl IntoIterator<Item = u64>) {
-        if let Some(log) = &mut self.log {
-            log.note(verb, words.into_iter().collect());
+        if self.is_recorded {
+            self.log.note(verb, words.into_iter().collect());
         }
     }
 
@@ -303,41 +305,36 @@ impl Simulation {
 
     fn step(&mut self) -> Result<(), StepError> {
         self.step_observed(None)?;
-        let found = self.find_overstretched();
-        self.tear_found(found);
+        self.tear_observed(|_| {});
         self.heal_step();
         Ok(())
     }
 
-    /// Takes a step, which a balance of energy sees, and looks at nothing that it overstretched.
+    /// Takes a step, which a balance of energy sees, and tears nothing.
     pub(crate) fn step_observed(
         &mut self,
         balance: Option<&mut Balance>,
     ) -> Result<u32, StepError> {
         let system = self.cloth.system_mut();
         let substeps = system.step_observed(&mut *self.solver, self.step_s, balance)?;
-        self.steps += 1;
-        if let Some(log) = &mut self.log {
-            log.steps = self.steps;
-        }
+        self.log.steps += 1;
         Ok(substeps)
     }
 
-    /// Finds what is overstretched, and changes nothing.
-    pub(crate) fn find_overstretched(&mut self) -> TearReport {
-        let find = |tear: &mut Tear| tear.find(&self.mesh, &mut self.cloth);
-        self.tear.as_mut().map(find).unwrap_or_default()
-    }
-
-    /// Tears what was found.
-    pub(crate) fn tear_found(&mut self, found: TearReport) -> TearReport {
-        let Some(tear) = self.tear.as_mut().filter(|_| found.overstretched > 0) else {
-            return found;
+    /// Tears what is overstretched, if anything is, once somebody has looked at the cloth.
+    pub(crate) fn tear_observed(&mut self, look: impl FnOnce(&Cloth)) -> TearReport {
+        let Some(tear) = &mut self.tear else {
+            return TearReport::default();
         };
+        let found = tear.find(&self.mesh, &mut self.cloth);
+        if found.overstretched == 0 {
+            return found;
+        }
+        look(&self.cloth);
         let (mesh, edits) = (&mut self.mesh, &mut self.edits);
         let report = tear.tear(mesh, &mut self.cloth, edits, found);
         let time_s = self.cloth.system().elapsed_s();
-        let torn = tear.torn().iter().map(|torn| Event::Tore {
+        let torn = tear.torn.iter().map(|torn| Event::Tore {
             edge: torn.edge,
             vertex: torn.vertex,
             time_s,
@@ -379,10 +376,14 @@ impl Simulation {
 
     /// Has everything follow the mesh.
     fn follow(&mut self) {
-        let of_vertices = (&mut self.strengths, &mut self.hands, &mut self.healing);
-        let others = (&mut self.seams, &mut self.buffers.draw);
-        self.edits
-            .replay(&mut (&mut self.cloth, of_vertices, others));
+        for edit in self.edits.since(self.seen) {
+            self.hands.follow(&edit);
+            self.healing.follow(&edit);
+            self.seams.follow(&edit);
+        }
+        self.seen = self.edits.cursor();
+        let others = (&mut self.strengths, &mut self.buffers.draw);
+        self.edits.replay(&mut (&mut self.cloth, others));
         if let Some(tear) = &mut self.tear {
             self.edits.replay(tear);
         }
@@ -657,7 +658,7 @@ impl Simulation {
     /// [has them recorded](SimulationDef::is_recorded).
     #[must_use]
     pub fn log(&self) -> Option<&InputLog> {
-        self.log.as_ref()
+        self.is_recorded.then_some(&self.log)
     }
 
     /// Returns the time simulated so far, in seconds.
@@ -669,7 +670,7 @@ impl Simulation {
     /// Returns the number of steps taken so far.
     #[must_use]
     pub fn steps(&self) -> u64 {
-        self.steps
+        self.log.steps
     }
 
     /// Returns the length of a step, in seconds.

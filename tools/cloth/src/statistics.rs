@@ -76,14 +76,14 @@ const CLOSE_TO_ONE: [f64; 2] = [0.8, 1.25];
 pub fn compare(first: &[f64], second: &[f64]) -> Comparison {
     assert!(!first.is_empty(), "the first sample has values");
     assert!(!second.is_empty(), "the second sample has values");
+    let ratio = |first: f64, second: f64| if first == second { 1.0 } else { second / first };
     let mut random = Random::new(2014);
     let mut redrawn_median = |sample: &[f64]| {
         let draw = (0..sample.len()).map(|_| sample[random.below(sample.len())]);
         median(draw.collect()).expect("a draw is as large as its sample")
     };
-    let mut ratios: Vec<f64> = (0..DRAWS)
-        .map(|_| ratio(redrawn_median(first), redrawn_median(second)))
-        .collect();
+    let draws = (0..DRAWS).map(|_| ratio(redrawn_median(first), redrawn_median(second)));
+    let mut ratios: Vec<f64> = draws.collect();
     ratios.sort_by(f64::total_cmp);
     let at = |fraction: f64| ratios[(fraction * DRAWS as f64) as usize];
     let interval @ [low, high] = [at(0.025), at(0.975)];
@@ -100,10 +100,6 @@ pub fn compare(first: &[f64], second: &[f64]) -> Comparison {
         interval,
         verdict,
     }
-}
-
-fn ratio(first: f64, second: f64) -> f64 {
-    if first == second { 1.0 } else { second / first }
 }
 
 /// Returns the 10 %, 50 % and 90 % quantiles of a sample in any order, interpolated linearly.

@@ -142,7 +142,21 @@ impl Tearing {
     ///
     /// [`TearingError`] names the first number that is not usable.
     pub fn check(&self) -> Result<(), TearingError> {
-        self.check_numbers().map_err(TearingError::Number)?;
+        let above_1 = |given: f64| {
+            let holds = given > 1.0 && given.is_finite();
+            SettingError::unless(holds, "threshold", given, "finite and above 1")
+        };
+        let threshold = match self.threshold {
+            Threshold::Stretch(ratio) | Threshold::PrincipalStretch(ratio) => above_1(ratio),
+            Threshold::WarpWeft { warp, weft, .. } => above_1(warp).and(above_1(weft)),
+            Threshold::Toughness(given) | Threshold::Force(given) => {
+                SettingError::unless_above_0("threshold", given)
+            }
+        };
+        let given = self.weakening.unwrap_or(1.0);
+        let holds = given > 0.0 && given <= 1.0;
+        let weakening = SettingError::unless(holds, "weakening", given, "above 0 and at most 1");
+        threshold.and(weakening).map_err(TearingError::Number)?;
         match self.threshold {
             Threshold::WarpWeft { axis: given, .. }
                 if given == Vector::zeros() || check_point(given.into()).is_err() =>
@@ -151,23 +165,6 @@ impl Tearing {
             }
             _ => Ok(()),
         }
-    }
-
-    fn check_numbers(&self) -> Result<(), SettingError> {
-        let above_1 = |given: f64| {
-            let holds = given > 1.0 && given.is_finite();
-            SettingError::unless(holds, "threshold", given, "finite and above 1")
-        };
-        match self.threshold {
-            Threshold::Stretch(ratio) | Threshold::PrincipalStretch(ratio) => above_1(ratio)?,
-            Threshold::WarpWeft { warp, weft, .. } => above_1(warp).and(above_1(weft))?,
-            Threshold::Toughness(given) | Threshold::Force(given) => {
-                SettingError::unless_above_0("threshold", given)?;
-            }
-        }
-        let given = self.weakening.unwrap_or(1.0);
-        let holds = given > 0.0 && given <= 1.0;
-        SettingError::unless(holds, "weakening", given, "above 0 and at most 1")
     }
 }
 

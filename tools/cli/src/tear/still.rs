@@ -33,7 +33,7 @@ impl Still {
 
     /// Looks at a run after a step.
     pub(super) fn record(&mut self, run: &Run) {
-        let cuts = run.cuts_made().iter().map(|cut| cut.report.splits as u64);
+        let cuts = run.cuts_made().iter().map(|cut| cut.splits as u64);
         self.cut_splits += cuts.sum::<u64>();
         let now_s = run.elapsed_s();
         if let Some(at_s) = self.at_s {

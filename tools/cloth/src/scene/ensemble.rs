@@ -183,20 +183,16 @@ pub fn member(
     seed: u64,
     stop: &dyn Fn() -> bool,
 ) -> Member {
-    let observed = observe(subject, step_divisor, seed, stop);
-    let status = match observed {
-        Ok(Some(_)) => MemberStatus::Done,
-        Ok(None) => MemberStatus::Interrupted,
-        Err(_) => MemberStatus::Failed,
+    let (status, why, observed) = match observe(subject, step_divisor, seed, stop) {
+        Ok(Some(observed)) => (MemberStatus::Done, String::new(), Some(observed)),
+        Ok(None) => (MemberStatus::Interrupted, String::new(), None),
+        Err(error) => (MemberStatus::Failed, error.to_string(), None),
     };
     Member {
         seed,
         status,
-        why: observed
-            .as_ref()
-            .err()
-            .map_or_else(String::new, ToString::to_string),
-        observed: observed.ok().flatten(),
+        why,
+        observed,
     }
 }
 

@@ -8,7 +8,7 @@ use tearmesh::geometry::{Point, Vector, dot};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Axis {
     /// 0, 1 or 2: x, y or z.
-    number: u8,
+    number: usize,
     /// Whether it points to smaller coordinates.
     is_negative: bool,
 }
@@ -31,7 +31,7 @@ impl Axis {
         ("-z", Axis::Z.opposite()),
     ];
 
-    const fn new(number: u8) -> Axis {
+    const fn new(number: usize) -> Axis {
         Axis {
             number,
             is_negative: false,
@@ -51,7 +51,7 @@ impl Axis {
     #[must_use]
     pub fn vector(self) -> Vector {
         let mut vector = Vector::zeros();
-        vector[usize::from(self.number)] = if self.is_negative { -1.0 } else { 1.0 };
+        vector[self.number] = if self.is_negative { -1.0 } else { 1.0 };
         vector
     }
 }
@@ -92,12 +92,9 @@ impl Frame {
                 high[i] = high[i].max(point[i]);
             }
         }
-        let extent = |axis: Axis| {
-            let i = usize::from(axis.number);
-            (high[i] - low[i]).max(0.0)
-        };
+        let extent = |axis: Axis| (high[axis.number] - low[axis.number]).max(0.0);
         let level = [[Axis::Y, Axis::Z], [Axis::X, Axis::Z], [Axis::X, Axis::Y]];
-        let [mut across, mut other] = level[usize::from(up.number)];
+        let [mut across, mut other] = level[up.number];
         if extent(other) > extent(across) {
             std::mem::swap(&mut across, &mut other);
         }
@@ -105,9 +102,9 @@ impl Frame {
         let (along, depth) = if is_flat { (other, up) } else { (up, other) };
         let mut corner = Point::origin();
         for axis in [across, along, depth] {
-            let i = usize::from(axis.number);
             let ends = if axis.is_negative { high } else { low };
-            corner[i] = if ends[i].is_finite() { ends[i] } else { 0.0 };
+            let end = ends[axis.number];
+            corner[axis.number] = if end.is_finite() { end } else { 0.0 };
         }
         Frame {
             up,
@@ -133,10 +130,8 @@ impl Frame {
             let distance = dot(axis.vector(), d);
             if extent > 0.0 { distance / extent } else { 0.0 }
         };
-        [
-            part(self.across, self.extents_m[0]),
-            part(self.along, self.extents_m[1]),
-        ]
+        let [width, height, _] = self.extents_m;
+        [part(self.across, width), part(self.along, height)]
     }
 
     /// Returns the point at these fractions of width, height and depth.

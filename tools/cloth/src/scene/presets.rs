@@ -117,11 +117,12 @@ impl Scene {
             until_s: None,
             moves: vec![(0.5, Vector::zeros()), (2.5, down * 1.5)],
         };
+        let rings = [1.0, 2.0, 4.0, 8.0, 16.0];
         Scene {
             duration_s: 3.0,
             drag_per_s: 5.0,
             holds: vec![HeldVertices::still(edge), grab],
-            strengths: [1.0, 2.0, 4.0, 8.0, 16.0]
+            strengths: rings
                 .map(|nearer| (grip(0.12 / nearer), 8.0 * nearer))
                 .to_vec(),
             ..Scene::fall(frame.up)

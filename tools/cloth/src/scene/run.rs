@@ -51,9 +51,9 @@ use crate::tearing::TearReport;
 pub struct Run {
     scene: Scene,
     pub(super) sim: Simulation,
-    held: Vec<Held>,
+    pub(super) held: Vec<Held>,
     next_cut: usize,
-    cuts_made: Vec<CutMade>,
+    cuts_made: Vec<CutReport>,
     steps_planned: u64,
     tally: RunTally,
     balance: Balance,
@@ -80,15 +80,6 @@ pub struct RunTally {
     /// The largest change of momentum by a cut or by the tears of a step, as a fraction of Σ |m v|
     /// before it.
     pub momentum_drift: f64,
-}
-
-/// A cut that was made while the cloth moved.
-#[derive(Debug)]
-pub struct CutMade {
-    /// The index of the cut in the scene, from 0.
-    pub number: usize,
-    /// The report of the changes to the mesh.
-    pub report: CutReport,
 }
 
 impl Run {
@@ -280,15 +271,13 @@ impl Run {
         let substeps = self.sim.step_observed(Some(&mut self.balance))?;
         self.tally.steps += 1;
         self.measure_moves(step_s / f64::from(substeps));
-        let is_frame = self.watch.is_time(self.tally.steps);
+        let is_frame = self.tally.steps.is_multiple_of(self.watch.every);
         let tear = self.tear_overstretched();
         if is_frame || tear.overstretched > 0 || self.is_over() {
             // Splits move nothing: edges are as long as they were before.
             let system = self.sim.cloth.system();
-            let ratios = system
-                .stretches()
-                .iter()
-                .map(|id| system.unlimited_ratio(id));
+            let edges = system.stretches().iter();
+            let ratios = edges.map(|id| system.unlimited_ratio(id));
             self.tally.stretch_ratio_max = ratios.fold(self.tally.stretch_ratio_max, f64::max);
         }
         if is_frame {
@@ -322,10 +311,7 @@ impl Run {
                 at: BlowUpSite::Particle(error.unusable()[0].0.index()),
             })?;
             self.compare(&before);
-            self.cuts_made.push(CutMade {
-                number: self.next_cut,
-                report,
-            });
+            self.cuts_made.push(report);
             self.next_cut += 1;
         }
         Ok(())
@@ -342,16 +328,13 @@ impl Run {
     }
 
     fn tear_overstretched(&mut self) -> TearReport {
-        let found = self.sim.find_overstretched();
-        if found.overstretched == 0 {
-            return found;
-        }
-        let before = Measured::of(self.cloth());
-        let report = self.sim.tear_found(found);
+        let mut before = None;
+        let look = |cloth: &Cloth| before = Some(Measured::of(cloth));
+        let report = self.sim.tear_observed(look);
         self.tally.splits += report.splits as u64;
         self.tally.edge_energy_j += report.edge_energy_j;
         self.tally.steps_at_cap += u64::from(report.cap_hit);
-        if report.splits > 0 {
+        if let Some(before) = before.filter(|_| report.splits > 0) {
             self.compare(&before);
         }
         report
@@ -442,7 +425,7 @@ impl Run {
     /// damps.
     #[must_use]
     pub fn energy_gain(&self) -> Option<EnergyGain> {
-        self.watch.gain()
+        self.watch.is_beyond.then_some(self.watch.gain)
     }
 
     /// Returns the scene that this run carries out.
@@ -468,9 +451,10 @@ impl Run {
         self.sim.edits()
     }
 
-    /// Returns the cuts made at the beginning of the last step, even if that step failed later.
+    /// Returns the reports of the cuts made at the beginning of the last step, even if that step failed
+    /// later. The cuts of a scene are made in order, each once.
     #[must_use]
-    pub fn cuts_made(&self) -> &[CutMade] {
+    pub fn cuts_made(&self) -> &[CutReport] {
         &self.cuts_made
     }
 
@@ -483,17 +467,6 @@ impl Run {
     #[must_use]
     pub fn held(&self, hold: usize) -> &[VertexId] {
         self.held[hold].now()
-    }
-
-    /// Returns the number of isolated vertices that a hold of the scene takes, that is, vertices
-    /// without a held neighbour. The strain around such a pin grows as 1/h with the edge length h
-    /// of the mesh; the strain around a clamp does not. Takes linear time.
-    ///
-    /// # Panics
-    ///
-    /// If the scene has no hold of this number.
-    pub(crate) fn pins(&self, hold: usize) -> usize {
-        self.held[hold].pins(self.mesh())
     }
 
     /// Returns the length at rest of all torn edges, each counted once, in metres.

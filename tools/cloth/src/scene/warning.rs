@@ -134,13 +134,12 @@ impl Warning {
         }
         if scene.tearing.is_some() {
             let still = (0..scene.holds.len()).filter(|&hold| scene.holds[hold].moves.is_empty());
-            let pins = still.map(|hold| (hold, run.pins(hold)));
+            let pins = still.map(|hold| (hold, run.held[hold].pins(run.mesh())));
             let pins = pins.filter(|&(_, pins)| pins > 0);
             warnings.extend(pins.map(|(hold, pins)| Warning::Pinned { hold, pins }));
         }
-        let edges = run.cloth().system().stretches();
-        let lengths = edges.iter().map(|id| edges.get(id).rest_length_m);
-        let longest_m = lengths.fold(0.0, f64::max);
+        let edges = run.cloth().system().stretches().springs();
+        let longest_m = edges.map(|(_, rest, _)| rest).fold(0.0, f64::max);
         let small = balls(run).filter(|(_, radius_m)| 2.0 * radius_m < longest_m);
         warnings.extend(small.map(|(collider, radius_m)| Warning::SmallBall {
             collider,

@@ -12,8 +12,6 @@ pub struct ClothBuffers {
     pub(super) draw: DrawBuffers<[f32; 0]>,
     positions: Vec<[f32; 3]>,
     pieces: Vec<u32>,
-    /// The edit up to which the pieces are known; `None` at the beginning.
-    pieces_seen: Option<Cursor>,
     /// Positions and pieces when changes were last taken.
     sent: (Vec<[f32; 3]>, Vec<u32>),
 }
@@ -38,7 +36,6 @@ impl ClothBuffers {
             draw: draw.starting_at(seen),
             positions: Vec::new(),
             pieces: Vec::new(),
-            pieces_seen: None,
             sent: (Vec::new(), Vec::new()),
         };
         buffers.update(mesh, points);
@@ -51,13 +48,10 @@ impl ClothBuffers {
         let positions = (0..self.draw.len()).map(|slot| self.draw.place_f32(slot as u32, points));
         self.positions.clear();
         self.positions.extend(positions);
-        let now = Some(*self.draw.cursor());
-        if std::mem::replace(&mut self.pieces_seen, now) != now {
-            let components = mesh.components();
-            self.pieces.clear();
-            let pieces = mesh.faces().map(|face| components.of(face) as u32);
-            self.pieces.extend(pieces);
-        }
+        let components = mesh.components();
+        self.pieces.clear();
+        let pieces = mesh.faces().map(|face| components.of(face) as u32);
+        self.pieces.extend(pieces);
     }
 
     /// Returns the positions of the slots, in metres.

@@ -66,9 +66,9 @@ impl fmt::Display for InputError {
         match self {
             InputError::NoVertex(v) => write!(f, "the mesh has no vertex {v}"),
             InputError::Held(v) => write!(f, "{v} is held, and cannot be grabbed"),
-            InputError::InHand(v, hand) => write!(f, "{v} is in {hand}"),
-            InputError::NoHand(hand) => write!(f, "{hand} does not hold anything"),
-            InputError::NoCut(cut) => write!(f, "{cut} was not made"),
+            InputError::InHand(v, hand) => write!(f, "{v} is in hand {}", hand.0),
+            InputError::NoHand(hand) => write!(f, "hand {} does not hold anything", hand.0),
+            InputError::NoCut(cut) => write!(f, "cut {} was not made", cut.0),
             InputError::Number(name, given) => write!(f, "{name} cannot be {given}"),
             InputError::Continued => f.write_str("the scissor continues another cut"),
             InputError::Positions(error) => error.fmt(f),

@@ -6,24 +6,16 @@
 //! around a point that is pulled grows with 1/distance. And a hand that jumps where a pointer jumps
 //! stretches edges in no time, and tears them falsely; so it has a largest speed.
 
-use std::fmt;
-
 use tearmesh::geometry::{Point, length};
-use tearmesh::{Cursor, Edit, Follower, Merge, VertexId};
+use tearmesh::{Edit, Merge, VertexId};
 
 use crate::load::Path;
 use crate::method::FRAME_S;
 
-/// The id of a hand of a [`Simulation`](super::Simulation), displayed as `hand 7`. No two hands of
-/// a simulation have the same, at whatever times they hold.
+/// The id of a hand of a [`Simulation`](super::Simulation). No two hands of a simulation have the same, at
+/// whatever times they hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct HandId(pub(super) u32);
-
-impl fmt::Display for HandId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "hand {}", self.0)
-    }
-}
 
 /// The strength of the cloth at the radius of a grip, as a multiple of its own.
 const GRIP_STRENGTH: f64 = 8.0;
@@ -44,12 +36,11 @@ pub(super) struct Hand {
     radius_m: f64,
 }
 
-/// The hands that hold now, a follower of the log.
+/// The hands that hold now.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hands {
     hands: Vec<Hand>,
     next: u32,
-    pub(super) seen: Cursor,
 }
 
 impl Hands {
@@ -90,14 +81,8 @@ impl Hands {
         };
         self.hands.iter().filter_map(grip).fold(1.0, f64::max)
     }
-}
 
-impl Follower for Hands {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
+    pub(super) fn follow(&mut self, edit: &Edit<'_>) {
         for Hand { vertices, .. } in &mut self.hands {
             match edit {
                 Edit::Split(split) if vertices.contains(&split.old) => vertices.push(split.new),

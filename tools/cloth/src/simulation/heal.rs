@@ -9,7 +9,7 @@
 use std::collections::BTreeSet;
 
 use tearmesh::geometry::length;
-use tearmesh::{Cursor, Edit, Follower, HalfEdgeId, Mesh, VertexId};
+use tearmesh::{Edit, HalfEdgeId, Mesh, VertexId};
 
 use super::hand::{Hands, now};
 use super::report::CutId;
@@ -52,14 +52,13 @@ pub(super) struct Pair {
     until_s: f64,
 }
 
-/// The pairs that are still open, a follower of the log.
+/// The pairs that are still open.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Healing {
     pub(super) open: Vec<Pair>,
     /// How many were sewn, and left, since no pair was open.
     pub(super) sewn: usize,
     pub(super) left: usize,
-    pub(super) seen: Cursor,
 }
 
 impl Healing {
@@ -156,6 +155,15 @@ impl Healing {
         }
         guarded
     }
+
+    pub(super) fn follow(&mut self, edit: &Edit<'_>) {
+        if let Edit::Merge(merge) = edit {
+            for pair in &mut self.open {
+                pair.ends = sorted(pair.ends.map(|v| now(v, merge)));
+            }
+            self.open.retain(|pair| pair.ends[0] != pair.ends[1]);
+        }
+    }
 }
 
 /// The vertices at both ends of a torn link that are not yet one, as seen from one of its half-edges; none
@@ -163,25 +171,12 @@ impl Healing {
 fn apart(mesh: &Mesh, h: HalfEdgeId) -> impl Iterator<Item = [VertexId; 2]> + use<> {
     let sides = mesh.ghost_pair(h).map(|ghost| {
         let [from, to] = [h, ghost].map(|h| [mesh.origin(h), mesh.target(h)]);
-        [[from[0], to[1]], [from[1], to[0]]]
+        [sorted([from[0], to[1]]), sorted([from[1], to[0]])]
     });
     let ends = sides.into_iter().flatten();
-    let ends = ends.filter(|[one, other]| one != other);
-    ends.map(|[one, other]| [one.min(other), one.max(other)])
+    ends.filter(|[one, other]| one != other)
 }
 
-impl Follower for Healing {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
-        if let Edit::Merge(merge) = edit {
-            for pair in &mut self.open {
-                let [one, other] = pair.ends.map(|v| now(v, merge));
-                pair.ends = [one.min(other), one.max(other)];
-            }
-            self.open.retain(|pair| pair.ends[0] != pair.ends[1]);
-        }
-    }
+fn sorted([one, other]: [VertexId; 2]) -> [VertexId; 2] {
+    [one.min(other), one.max(other)]
 }

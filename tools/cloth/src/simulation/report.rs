@@ -1,19 +1,10 @@
 //! What a simulation reports: events, how far it got, and what a pointer is on.
 
-use std::fmt;
-
 use tearmesh::{HalfEdgeId, RayHit, VertexId};
 
-/// The id of a cut that a [`Simulation`](super::Simulation) made, displayed as `cut 7`. Cuts are
-/// numbered from 0.
+/// The id of a cut that a [`Simulation`](super::Simulation) made. Cuts are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CutId(pub(super) u32);
-
-impl fmt::Display for CutId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "cut {}", self.0)
-    }
-}
 
 /// Something that happened to the cloth of a [`Simulation`](super::Simulation). Ids of vertices are
 /// those of the time of the event: a later merge may give them to others.

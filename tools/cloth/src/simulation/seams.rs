@@ -1,17 +1,16 @@
 //! Which cut tore which links of a mesh.
 
-use tearmesh::{Cursor, Cut, Edit, Follower, HalfEdgeId, Insert};
+use tearmesh::{Cut, Edit, HalfEdgeId, Insert};
 
 use super::report::CutId;
 use crate::follow::lies_on;
 
-/// Which cut tore each link, a follower of the log.
+/// Which cut tore each link.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Seams {
     /// By half-edge: the number of the cut that tore its link, from 1; 0 for none.
     pub(super) cut_of: Vec<u32>,
     cuts: u32,
-    pub(super) seen: Cursor,
 }
 
 impl Seams {
@@ -49,14 +48,8 @@ impl Seams {
             }
         }
     }
-}
 
-impl Follower for Seams {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
+    pub(super) fn follow(&mut self, edit: &Edit<'_>) {
         match edit {
             Edit::Insert(insert) => self.insert(insert),
             Edit::Merge(merge) => {

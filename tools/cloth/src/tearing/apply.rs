@@ -24,7 +24,8 @@ pub struct Tear {
     /// tips.
     tips: PerVertex<Vector>,
     due: Vec<Due>,
-    torn: Vec<Torn>,
+    /// The edges that tore in the last step, in the order in which they did.
+    pub(crate) torn: Vec<Torn>,
     seen: Cursor,
     /// The far ends of the links that a split tore.
     ahead: Vec<VertexId>,
@@ -230,11 +231,6 @@ impl Tear {
         }
         self.due = due;
         report
-    }
-
-    /// The edges that tore in the last step, in the order in which they did.
-    pub(crate) fn torn(&self) -> &[Torn] {
-        &self.torn
     }
 
     /// Finds the edges that tear, the worst first: the first half of [`apply`](Tear::apply).

@@ -28,13 +28,13 @@ pub struct EnergyGain {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Watch {
     /// The steps of a frame.
-    every: u64,
+    pub(super) every: u64,
     /// What rounding may make, in joules.
     least_j: f64,
     /// The largest values of any frame, and since when more is made than its share of what was put in.
-    gain: EnergyGain,
+    pub(super) gain: EnergyGain,
     /// Whether more is made.
-    is_beyond: bool,
+    pub(super) is_beyond: bool,
 }
 
 impl Watch {
@@ -49,11 +49,8 @@ impl Watch {
     const ROUNDING: f64 = 1e-9;
 
     pub(super) fn new(system: &System, step_s: f64) -> Watch {
-        let springs = system.stretches();
-        let collapsed = springs.iter().map(|id| {
-            let spring = springs.get(id);
-            0.5 * spring.stiffness_n_per_m * spring.rest_length_m * spring.rest_length_m
-        });
+        let springs = system.stretches().springs();
+        let collapsed = springs.map(|(_, rest, stiffness)| 0.5 * stiffness * rest * rest);
         let every = (FRAME_S / step_s).round().max(1.0);
         Watch {
             every: every as u64,
@@ -61,11 +58,6 @@ impl Watch {
             gain: EnergyGain::default(),
             is_beyond: false,
         }
-    }
-
-    /// Whether a frame ends after `steps` steps.
-    pub(super) fn is_time(&self, steps: u64) -> bool {
-        steps.is_multiple_of(self.every)
     }
 
     /// Judges a frame. What was made before more was put in may turn out to be within its share.
@@ -77,9 +69,5 @@ impl Watch {
             gain.since_s = elapsed_s;
         }
         self.is_beyond = gain.made_j > Watch::SHARE * gain.put_in_j + self.least_j;
-    }
-
-    pub(super) fn gain(&self) -> Option<EnergyGain> {
-        self.is_beyond.then_some(self.gain)
     }
 }

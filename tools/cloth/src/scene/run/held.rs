@@ -14,7 +14,7 @@ use crate::system::System;
 
 /// A hold, and its vertices.
 #[derive(Clone, Debug)]
-pub(super) struct Held {
+pub(in crate::scene) struct Held {
     hold: HeldVertices,
     vertices: Vec<VertexId>,
     /// The step at whose beginning it took its vertices; `None` before that, and after it let go.
@@ -156,8 +156,9 @@ impl Held {
         self.since.map_or(&[], |_| &self.vertices)
     }
 
-    /// How many of its vertices are joined to no other of them.
-    pub(super) fn pins(&self, mesh: &Mesh) -> usize {
+    /// How many of its vertices are joined to no other of them. The strain around such a pin grows as
+    /// 1/h with the edge length h of the mesh; the strain around a clamp does not.
+    pub(in crate::scene) fn pins(&self, mesh: &Mesh) -> usize {
         let mut held = vec![false; mesh.vertex_count()];
         self.vertices.iter().for_each(|v| held[v.index()] = true);
         let is_alone = |v: &VertexId| {
