@@ -70,11 +70,9 @@ impl Diagnostic {
     ) -> Diagnostic {
         Diagnostic {
             level: Level::Error,
-            code,
             location,
-            message,
-            excerpt: None,
             help: Some(help.to_owned()),
+            ..Diagnostic::warning(code, 1, message)
         }
     }
 

@@ -60,19 +60,6 @@ impl Families {
         self.of_face[face] = family;
     }
 
-    /// Divides a face that has these corners into others.
-    pub(crate) fn divide(
-        &mut self,
-        face: usize,
-        corners: [u32; 3],
-        into: impl Iterator<Item = usize>,
-    ) {
-        let above = self.of(face);
-        let number = self.all.len() as u32;
-        self.add(Family { corners, above });
-        into.for_each(|face| self.give(face, number));
-    }
-
     /// The outermost of the families that contain this one, which may be itself.
     pub(crate) fn outermost(&self, mut family: u32) -> u32 {
         while let Some(above) = self.all[family as usize].above {

@@ -274,27 +274,22 @@ impl Document {
             self.positions.push(self.positions[vertex.index()]);
         }
         for (face, copy) in moves {
-            let vertex = sources[copy as usize].index() as u32;
-            self.move_corner(face.index(), vertex, copies as u32 + copy);
+            let (from, to) = (u32::from(sources[copy as usize]), copies as u32 + copy);
+            let corners = self.polygons.corners(self.polygon_of(face.index()));
+            // Another triangle of the polygon may have moved it already.
+            let replace = |vertices: &mut [u32]| {
+                let own = vertices.iter_mut().find(|vertex| **vertex == from);
+                own.into_iter().for_each(|vertex| *vertex = to);
+            };
+            replace(&mut self.polygons.vertices[corners]);
+            if let Some(triangles) = &mut self.triangulation {
+                replace(&mut triangles[face.index()]);
+            }
         }
         // Where a split's would be.
         let attached = self.attached_to_last_vertex();
         self.layout.add_vertices(sources.len(), attached);
         self.report_unspoken(&vertices);
-    }
-
-    /// Puts another vertex in the place of one of a triangle's.
-    fn move_corner(&mut self, triangle: usize, from: u32, to: u32) {
-        let corners = self.polygons.corners(self.polygon_of(triangle));
-        // Another triangle of the polygon may have moved it already.
-        let replace = |vertices: &mut [u32]| {
-            let own = vertices.iter_mut().find(|vertex| **vertex == from);
-            own.into_iter().for_each(|vertex| *vertex = to);
-        };
-        replace(&mut self.polygons.vertices[corners]);
-        if let Some(triangles) = &mut self.triangulation {
-            replace(&mut triangles[triangle]);
-        }
     }
 
     /// How many bytes are attached to the last vertex.

@@ -23,7 +23,7 @@ use self::ancestry::Ancestry;
 use self::corners::Corners;
 use crate::document::Document;
 use crate::families::Families;
-use crate::record::{Apart, Inserted, Record, Slid, SplitOff, is_in, is_same_point};
+use crate::record::{Apart, Inserted, Record, Slid, SplitOff, is_same_point};
 
 /// A document together with all edits of its mesh. It is a [`Follower`] of the mesh's log, and
 /// writes the edited file.
@@ -103,25 +103,30 @@ impl<'d> TornDocument<'d> {
     #[must_use]
     pub fn new(document: &'d Document) -> TornDocument<'d> {
         let count = document.positions.len();
+        let extras = (0..count).filter(|_| document.extras.len() > 0);
+        let extras = extras.map(|v| document.extras.row(v).to_vec());
         let record = document.record.as_deref();
+        let apart = record.filter(|record| !record.apart.is_empty());
+        let shown = apart.map(|record| {
+            let mut points = document.positions.clone();
+            for apart in &record.apart {
+                points[apart.vertex as usize] = apart.shown;
+            }
+            points
+        });
         TornDocument {
             document,
             seen: Cursor::START,
             cut: record.map_or(0, Record::last_cut) + 1,
             cut_is_used: false,
             ancestry: Ancestry::new(count, record.map_or(&[], |record| &record.splits)),
-            extras: match document.extras.len() {
-                0 => Vec::new(),
-                _ => (0..count)
-                    .map(|v| document.extras.row(v).to_vec())
-                    .collect(),
-            },
+            extras: extras.collect(),
             inserted: record.map_or(Vec::new(), |record| record.inserted.clone()),
             corners: Corners::new(document),
             families: record.map_or_else(Families::default, |record| record.families.clone()),
             slides: record.map_or(Vec::new(), |record| record.slides.clone()),
             places: Cow::Borrowed(&document.positions),
-            shown: record.and_then(|record| shown(document, record)),
+            shown,
         }
     }
 
@@ -414,18 +419,6 @@ impl<'d> TornDocument<'d> {
     }
 }
 
-/// Where the `v` of all vertices say that these are; `None` if they all say where they are.
-fn shown(document: &Document, record: &Record) -> Option<Vec<Point>> {
-    if record.apart.is_empty() {
-        return None;
-    }
-    let mut points = document.positions.clone();
-    for apart in &record.apart {
-        points[apart.vertex as usize] = apart.shown;
-    }
-    Some(points)
-}
-
 impl Follower for TornDocument<'_> {
     fn cursor(&mut self) -> &mut Cursor {
         &mut self.seen
@@ -495,14 +488,6 @@ impl TornDocument<'_> {
         let known = |&statement: &u32| (statement as usize) < self.document.positions.len();
         let origin = Some(home).filter(known).or(Some(class).filter(known));
         origin.map(|statement| statement as usize)
-    }
-
-    /// Whether a texture coordinate (0) or a normal (1) was inserted.
-    pub(crate) fn is_index_inserted(&self, which: usize, index: usize) -> bool {
-        let known = self.document.counts()[1 + which];
-        let record = self.document.record.as_deref();
-        let runs = record.map(|record| &record.new_indices[which]);
-        index >= known || runs.is_some_and(|runs| is_in(runs, index as u32))
     }
 }
 

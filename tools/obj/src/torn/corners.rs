@@ -6,7 +6,7 @@ use std::ops::Range;
 use tearmesh::{Blend, ChildFace, HalfEdgeId, Insert, Mix, Slide, VertexId};
 
 use crate::document::Document;
-use crate::families::Families;
+use crate::families::{Families, Family};
 use crate::record::Exchange;
 use crate::store::Rows;
 
@@ -106,12 +106,13 @@ impl<'d> Corners<'d> {
             let parent = family[0].parent.index();
             let slot = self.slots[parent];
             let corners = original(family, &class);
-            let children = family.iter().map(|child| child.face.index());
-            families.divide(parent, corners, children);
+            let (number, above) = (families.all().len() as u32, families.of(parent));
+            families.add(Family { corners, above });
             let before =
                 [0, 1].map(|which| [0, 1, 2].map(|corner| self.raw(which, 3 * parent + corner)));
             for child in family {
                 let face = child.face.index();
+                families.give(face, number);
                 if face >= self.slots.len() {
                     assert_eq!(face, self.slots.len(), "new faces come without a gap");
                     self.slots.push(slot);

@@ -207,12 +207,7 @@ impl<'t> PieceWriter<'t> {
             let groups = group.split_whitespace().map(|name| (1, name.to_owned()));
             for (which, name) in [(0, object), (2, material)].into_iter().chain(groups) {
                 if !name.is_empty() && seen.insert((which, name.clone())) {
-                    let PieceNames {
-                        objects,
-                        groups,
-                        materials,
-                    } = &mut names;
-                    [objects, groups, materials][which].push(name);
+                    [&mut names.objects, &mut names.groups, &mut names.materials][which].push(name);
                 }
             }
         }

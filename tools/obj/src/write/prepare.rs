@@ -7,7 +7,7 @@ use tearmesh::{Mesh, Point};
 
 use super::separate::Separated;
 use crate::order::{Added, Order};
-use crate::record::{Apart, Inserted, Record, runs};
+use crate::record::{Apart, Inserted, Record, is_in, runs};
 use crate::torn::{Slots, TornDocument};
 
 /// What is written, worked out before the first byte.
@@ -96,10 +96,15 @@ impl<'m> Prepared<'m> {
             apart.vertex = number(apart.vertex);
         }
         apart.sort_unstable_by_key(|apart| apart.vertex);
+        let document = torn.document();
         let new_indices = [0, 1].map(|which| {
             let order = &self.orders[1 + which];
             let all = 0..torn.corners.counts()[which];
-            let inserted = all.filter(|&index| torn.is_index_inserted(which, index));
+            let known = document.counts()[1 + which];
+            let of_file = document.record.as_deref();
+            let of_file = of_file.map(|record| &record.new_indices[which]);
+            let is_of_file = |index| of_file.is_some_and(|runs| is_in(runs, index as u32));
+            let inserted = all.filter(|&index| index >= known || is_of_file(index));
             let numbers = inserted.map(|index| order.number(index as u32));
             let mut numbers: Vec<u32> = numbers.collect();
             numbers.sort_unstable();
