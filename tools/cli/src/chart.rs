@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args as _, Command, CommandFactory as _};
 use cpu_time::ThreadTime;
-use serde::Serialize;
 use tearmesh_lab::cut::Cuts;
 use tearmesh_lab::experiment::{
     Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table, workers,
@@ -20,6 +19,7 @@ use tearmesh_lab::tear::{EnsembleScene, Tear};
 
 use crate::args::{Args, ChartArgs, DrawArgs, ParetoArgs, TearChartArgs, What};
 use crate::exit::{Exit, Stop};
+use crate::files::is_same;
 use crate::input::cannot_read;
 use crate::interrupt::Guard;
 use crate::output;
@@ -29,37 +29,47 @@ use crate::streams::Streams;
 /// Runs an experiment, writes what is wanted of it, and returns the exit status.
 pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>) -> Exit {
     let command = command_line(line);
-    let (draw, done) = match &args.what {
+    match &args.what {
         What::Guide(args) => {
             let guide = Guide::new(args.size, args.seeds, args.diagonals);
-            (&args.draw, work(&guide, command, &args.draw, streams))
+            draw(&guide, command, &args.draw, streams)
         }
-        What::Pareto(args) => (
-            &args.draw,
-            work(&pareto(args), command, &args.draw, streams),
-        ),
+        What::Pareto(args) => draw(&pareto(args), command, &args.draw, streams),
         What::Stability(args) => {
             let stiffness_n_per_m = args.stiffness.clone();
-            let stability = Stability { stiffness_n_per_m };
-            (&args.draw, work(&stability, command, &args.draw, streams))
+            draw(
+                &Stability { stiffness_n_per_m },
+                command,
+                &args.draw,
+                streams,
+            )
         }
-        What::Tear(args) => {
-            let done = tear(args).and_then(|tear| work(&tear, command, &args.draw, streams));
-            (&args.draw, done)
+        What::Tear(args) if args.strips.len() == 1 => {
+            let message = "`--strips` takes two numbers or more: forces are compared";
+            let stop = Stop::usage(message, "as in --strips 8,16");
+            streams.conclude(Err(stop), Vec::new(), args.draw.color, true)
         }
+        What::Tear(args) => draw(&tear(args), command, &args.draw, streams),
         What::Cut(args) => {
             let cuts = Cuts::new(&args.size, args.cuts);
-            (&args.draw, work(&cuts, command, &args.draw, streams))
+            draw(&cuts, command, &args.draw, streams)
         }
         What::Fig7(args) => {
             let cells = args.size.clone();
-            (
-                &args.draw,
-                work(&Fig7 { cells }, command, &args.draw, streams),
-            )
+            draw(&Fig7 { cells }, command, &args.draw, streams)
         }
-    };
-    done.unwrap_or_else(|stop| streams.conclude(Err(stop), Vec::new(), draw.color, true))
+    }
+}
+
+/// Does what is wanted of an experiment, says what went wrong, and returns the exit status.
+fn draw<E: Chart>(
+    experiment: &E,
+    command: String,
+    args: &DrawArgs,
+    streams: &mut Streams<'_>,
+) -> Exit {
+    let done = work(experiment, command, args, streams);
+    done.unwrap_or_else(|stop| streams.conclude(Err(stop), Vec::new(), args.color, true))
 }
 
 fn pareto(args: &ParetoArgs) -> Pareto {
@@ -78,24 +88,20 @@ fn pareto(args: &ParetoArgs) -> Pareto {
     })
 }
 
-fn tear(args: &TearChartArgs) -> Result<Tear, Stop> {
-    if args.strips.len() == 1 {
-        let message = "`--strips` takes two numbers or more: forces are compared".to_owned();
-        return Err(Stop::usage(message, "as in --strips 8,16"));
-    }
+fn tear(args: &TearChartArgs) -> Tear {
     let is_named = |scene: &EnsembleScene| args.scene.iter().any(|name| name == scene.name());
     let scenes = EnsembleScene::ALL.into_iter().filter(is_named);
     let mut cells = args.size.clone();
     cells.sort_unstable();
     cells.dedup();
-    Ok(Tear {
+    Tear {
         strips: args.strips.clone(),
         // Ensembles without seeds have no runs.
         scenes: scenes.filter(|_| args.seeds > 0).collect(),
         cells,
         methods: args.method.clone(),
         seeds: args.seeds,
-    })
+    }
 }
 
 /// The command line as it was read, with the defaults of all options that decide the numbers.
@@ -165,21 +171,14 @@ fn work<E: Chart>(
         }
         None => conducted(experiment, draw, streams)?,
     };
-    let tabled = || table(&rows).map_err(|error| bug(&error.to_string()));
     if let Some(path) = &draw.output {
         let chart = plot::svg(&experiment.figure(&rows, &provenance));
         write(path, &chart, streams)?;
     }
     if let Some(path) = &draw.csv {
-        write(path, &tabled()?, streams)?;
-    }
-    if let Some(path) = &draw.json {
-        let json = serde_json::to_string_pretty(&Json {
-            provenance,
-            rows: &rows,
-        });
-        let json = json.map_err(|error| bug(&error.to_string()))?;
-        write(path, &(json + "\n"), streams)?;
+        let table = table(&rows);
+        let table = table.map_err(|error| Fault::error("E-BUG-INVARIANT", error.to_string()))?;
+        write(path, &table, streams)?;
     }
     let is_streamed = files.first().is_some_and(|path| *path == Path::new("-"));
     if !draw.quiet && !is_streamed {
@@ -196,13 +195,6 @@ fn work<E: Chart>(
     let message = format!("interrupted; {missing} runs are missing");
     let fault = Fault::warning("W-CHART-INTERRUPTED", message);
     Ok(streams.fail(&fault, draw.color, Exit::Interrupted))
-}
-
-/// A table as JSON.
-#[derive(Serialize)]
-struct Json<'a, R> {
-    provenance: Provenance,
-    rows: &'a [R],
 }
 
 /// The rows of an experiment that ran until its end or until it was interrupted, and how many runs are missing.
@@ -255,20 +247,18 @@ fn processor() -> String {
     named.to_owned()
 }
 
-/// The files that are wanted. All must be places of their own that can be written, and only the chart may be
+/// The files that are wanted. Both must be places of their own that can be written, and only the chart may be
 /// standard output.
 fn check(draw: &DrawArgs) -> Result<Vec<&PathBuf>, Stop> {
-    let files = [draw.output.as_ref(), draw.csv.as_ref(), draw.json.as_ref()];
-    let files: Vec<&PathBuf> = files.into_iter().flatten().collect();
-    let is_stream = |path: &PathBuf| path == Path::new("-");
-    for (i, path) in files.iter().enumerate() {
-        let is_it = |other: &&PathBuf| other == path || output::is_same_place(other, path);
-        let is_chart = i == 0 && draw.output.is_some();
-        if files[..i].iter().any(is_it) || (is_stream(path) && !is_chart) {
-            let message = format!("`{}` is named twice, or is not a file", path.display());
+    let is_stream = |path: &Path| path == Path::new("-");
+    if let Some(table) = &draw.csv {
+        let mut chart = draw.output.iter();
+        if is_stream(table) || chart.any(|chart| is_same(chart, table)) {
+            let message = format!("`{}` is named twice, or is not a file", table.display());
             return Err(Stop::usage(message, "name a file for each"));
         }
     }
+    let files: Vec<&PathBuf> = draw.output.iter().chain(&draw.csv).collect();
     let mut named = files.iter().filter(|path| !is_stream(path));
     named.try_for_each(|path| output::check(path))?;
     Ok(files)
@@ -276,8 +266,4 @@ fn check(draw: &DrawArgs) -> Result<Vec<&PathBuf>, Stop> {
 
 fn write(path: &Path, text: &str, streams: &mut Streams<'_>) -> Result<(), Fault> {
     output::write_or_print(path, streams.output, |out| out.write_all(text.as_bytes())).map(|_| ())
-}
-
-fn bug(message: &str) -> Fault {
-    Fault::error("E-BUG-INVARIANT", message)
 }

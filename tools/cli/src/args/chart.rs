@@ -56,16 +56,12 @@ pub(crate) enum What {
 #[derive(Debug, clap::Args)]
 pub(crate) struct DrawArgs {
     /// Write the chart as SVG; `-` is standard output.
-    #[arg(short, long, value_name = "X.svg", required_unless_present_any = ["csv", "json"])]
+    #[arg(short, long, value_name = "X.svg", required_unless_present = "csv")]
     pub(crate) output: Option<PathBuf>,
 
     /// Write the table, with a row for each run.
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
-
-    /// Write the table as JSON, with its provenance.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) json: Option<PathBuf>,
 
     /// Draw this table of the same chart, and run nothing.
     #[arg(long, value_name = "TABLE.csv")]
