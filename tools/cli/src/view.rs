@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use tearmesh_obj::Repair;
 use tearmesh_view::{Moment, Page};
 
-use crate::args::{PlayArgs, ViewArgs};
+use crate::args::ViewArgs;
 use crate::exit::Stop;
 use crate::input::named::named;
 use crate::say::{Fault, count};
 use crate::session;
 use crate::streams::Streams;
-use crate::{files, output, page, play};
+use crate::{files, output, page};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -21,9 +21,6 @@ pub(crate) fn run(
 ) -> Result<String, Stop> {
     // What was typed is refused before large files are read.
     let inputs = inputs(args)?;
-    if args.play {
-        return play::run(&playing(args, &inputs)?, faults, streams);
-    }
     let unnamed = || named_like(&args.inputs[0]);
     let output = page::place(args.output.as_ref(), unnamed, &inputs)?;
     let options = match session::repair(args.look.repair, args.look.separate_fans) {
@@ -70,21 +67,6 @@ fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
     let files = files.map_err(|(_, fault)| fault)?;
     files::one_stream(&files)?;
     Ok(files)
-}
-
-/// What `play` is asked for by --play.
-fn playing(args: &ViewArgs, inputs: &[PathBuf]) -> Result<PlayArgs, Stop> {
-    let [input] = inputs else {
-        let message = "a page to play on has one mesh";
-        return Err(Stop::usage(message, "name one file, or leave out --play"));
-    };
-    Ok(PlayArgs {
-        input: Some(input.clone()),
-        scene: "rip".to_owned(),
-        up: "y".to_owned(),
-        output: args.output.clone(),
-        look: args.look.clone(),
-    })
 }
 
 /// A page in the folder where we are, by the name of an input.
