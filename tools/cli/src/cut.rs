@@ -20,7 +20,7 @@ use tearmesh_obj::TornDocument;
 use self::map::Map;
 use self::no_op::NoOpReason;
 use self::pieces::Pieces;
-use self::scissors::{Along, no_plane, warn_of_skew};
+use self::scissors::{Along, no_plane};
 use crate::args::{CutArgs, Gap, Mass};
 use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
@@ -56,8 +56,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let cuts = scissors::cuts(args, session.streams)?;
     for pair in cuts.iter().filter_map(Along::rays) {
         // Rays that span no plane are refused before a large file is read.
-        let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
-        warn_of_skew(&scissor, &mut session.faults);
+        scissors::of_rays(pair, &mut session.faults)?;
     }
     let pieces = Pieces::of(args, &names(args))?;
     let opened = session.open(session::repair(args.repair, args.separate_fans))?;

@@ -8,7 +8,7 @@ use tearmesh::{Ray, Scissor};
 use tearmesh_view::{Camera, RenderOptions, fit, write_drawn};
 
 use crate::args::RenderArgs;
-use crate::cut::scissors::{no_plane, warn_of_skew};
+use crate::cut::scissors::of_rays;
 use crate::exit::Stop;
 use crate::picture::Texture;
 use crate::say::{Fault, count};
@@ -84,9 +84,7 @@ fn options(args: &RenderArgs, faults: &mut Vec<Fault>) -> Result<RenderOptions, 
     };
     for text in &args.rays {
         let pair = rays::pair(text, "--rays", 1)?;
-        let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(&pair, error))?;
-        warn_of_skew(&scissor, faults);
-        options.cuts.push(scissor);
+        options.cuts.push(of_rays(&pair, faults)?);
         options.rays.extend::<[Ray; 2]>(pair);
     }
     for text in &args.plane {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
 use tearmesh::{CutLayers, CutMethod, CutTips, Point};
+use tearmesh_view::PictureSize;
 
 use super::files::FileArgs;
 use super::read::Gap;
@@ -180,7 +181,7 @@ pub(crate) struct CameraArgs {
     /// The width and height of the picture in pixels.
     #[arg(long, hide_short_help = true, value_name = "WxH", value_parser = super::read::size,
         default_value = "960x720", requires = "camera")]
-    pub(crate) viewport: [f64; 2],
+    pub(crate) viewport: PictureSize,
 
     /// Two pixels of the picture, from the top left; may be given repeatedly.
     ///

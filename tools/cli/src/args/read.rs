@@ -21,14 +21,6 @@ pub(super) fn look(text: &str) -> Result<[Point; 2], String> {
     Ok([point(eye)?, point(at)?])
 }
 
-/// Reads the size of a picture.
-pub(super) fn size(text: &str) -> Result<[f64; 2], String> {
-    match numbers(text, 'x')[..] {
-        [width, height] if width > 0.0 && height > 0.0 => Ok([width, height]),
-        _ => Err("expected width and height with an x between them, as in 1920x1080".to_owned()),
-    }
-}
-
 /// Reads an angle between two faces, in degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {
     within(text, 0.0..=180.0, "degrees from 0 to 180")
@@ -75,8 +67,8 @@ fn number(text: &str, is_in: impl Fn(f64) -> bool, expected: &str) -> Result<f64
     }
 }
 
-/// Reads the size of a picture that is drawn.
-pub(super) fn picture_size(text: &str) -> Result<PictureSize, String> {
+/// Reads the size of a picture.
+pub(super) fn size(text: &str) -> Result<PictureSize, String> {
     let (width, height) = text
         .split_once('x')
         .ok_or("expected width and height with an x between them, as in 1920x1080")?;

@@ -33,7 +33,7 @@ pub(crate) struct RenderArgs {
     pub(crate) output: PathBuf,
 
     /// The width and height of the picture in pixels.
-    #[arg(long, value_name = "WxH", value_parser = super::read::picture_size, default_value = "960x720")]
+    #[arg(long, value_name = "WxH", value_parser = super::read::size, default_value = "960x720")]
     pub(crate) size: PictureSize,
 
     /// The eye, and the point that it looks at: eye@target.

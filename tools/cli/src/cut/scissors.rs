@@ -56,7 +56,7 @@ pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Alon
 /// The rays through points of a picture.
 fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
     let refused = |message: &str, help: &str| Fault::error("E-CAMERA", message).help(help);
-    let camera = Camera::new(look, args.up.coords, args.fov, args.viewport);
+    let camera = Camera::new(look, args.up.coords, args.fov, args.viewport.as_f64());
     let camera = camera.map_err(picture::no_camera)?;
     let pairs = args.points.iter().map(|text| {
         let points = rays::split_pair(text).map(|span| numbers(&text[span], ','));
@@ -87,15 +87,16 @@ fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
 const POINTS_HELP: &str = "write both in pixels from the top left, as in --points 200,300 600,250";
 
 /// Says that two rays span no plane, and what would.
-pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
+pub(super) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
     let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
     let aimed = [x - 1.0, x + 1.0].map(|to| format!("{x},{y},{z}@{to},{y},0"));
     let help = format!("move one origin, or aim at two points: {}", aimed.join(" "));
     Fault::error("E-RAY-ONE-LINE", error.to_string()).help(help)
 }
 
-/// Says how far the second ray leaves the plane, if it does.
-pub(crate) fn warn_of_skew(scissor: &Scissor, faults: &mut Vec<Fault>) {
+/// The scissor of two rays, with a warning if the second leaves the plane.
+pub(crate) fn of_rays(pair: &Pair, faults: &mut Vec<Fault>) -> Result<Scissor, Fault> {
+    let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(pair, error))?;
     if scissor.skew() > 0.0 {
         let leaves = short(scissor.skew());
         let message = format!(
@@ -104,4 +105,5 @@ pub(crate) fn warn_of_skew(scissor: &Scissor, faults: &mut Vec<Fault>) {
         );
         faults.push(Fault::warning("W-RAY-SKEW", message));
     }
+    Ok(scissor)
 }

@@ -1,6 +1,5 @@
 //! A strip of pictures of a simulation, from its first tear on.
 
-use tearmesh::{Mesh, Point};
 use tearmesh_cloth::scene::{Frame, Run};
 use tearmesh_view::{Camera, Picture, RenderOptions, fit_all, render};
 
@@ -11,13 +10,6 @@ use crate::scene::SceneFile;
 use crate::session::Opened;
 use crate::streams::Streams;
 use crate::tear;
-
-/// A mesh at a moment.
-struct Moment {
-    mesh: Mesh,
-    points: Vec<Point>,
-    texture: Vec<[f64; 2]>,
-}
 
 /// Plays a scene and draws so many moments of it, at equal times: from the step before the first tear, or the
 /// beginning if nothing tears, to the end.
@@ -59,25 +51,22 @@ pub(super) fn draw(
             step(&mut run)?;
             texture.follow(run.edits());
         }
-        moments.push(Moment {
-            mesh: run.mesh().clone(),
-            points: run.cloth().positions().to_vec(),
-            texture: texture.values.clone(),
-        });
+        let points = run.cloth().positions().to_vec();
+        moments.push((run.mesh().clone(), points, texture.values.clone()));
     }
     let up = frame.up.vector();
-    let seen = moments.iter().map(|moment| (&moment.mesh, &*moment.points));
+    let seen = moments.iter().map(|(mesh, points, _)| (mesh, &**points));
     let camera = match given {
         Some(camera) => camera,
         None => fit_all(seen, up, args.fov, args.size.as_f64()).map_err(no_camera)?,
     };
-    let pictures = moments.into_iter().map(|moment| {
+    let pictures = moments.into_iter().map(|(mesh, points, texture)| {
         let options = RenderOptions {
-            texture: moment.texture,
+            texture,
             ground: Some(up),
             ..options.clone()
         };
-        render(&moment.mesh, &*moment.points, &camera, args.size, &options)
+        render(&mesh, &*points, &camera, args.size, &options)
     });
     Ok(Picture::beside(&pictures.collect::<Vec<_>>()))
 }

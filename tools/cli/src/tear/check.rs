@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use tearmesh::{FaceId, Scissor, Vector, VertexId};
+use tearmesh::{FaceId, Vector, VertexId};
 use tearmesh_cloth::scene::{Preset, RunError, Scene, TimedCut};
 use tearmesh_cloth::{ClothError, Method, SimulationError, Stretch, TearingError, Threshold};
 
 use crate::args::TearArgs;
 use crate::choice::Choice as _;
-use crate::cut::scissors::{no_plane, warn_of_skew};
+use crate::cut::scissors::of_rays;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::rays;
@@ -32,8 +32,7 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
     let mut cuts = Vec::new();
     for text in &args.rays {
         let pair = rays::pair(text, "--rays", 1).map_err(|fault| Stop::new(Exit::Usage, fault))?;
-        let scissor = Scissor::new(pair[0], pair[1]).map_err(|error| no_plane(&pair, error))?;
-        warn_of_skew(&scissor, faults);
+        of_rays(&pair, faults)?;
         cuts.push(TimedCut {
             at_s: args.cut_at.unwrap_or(0.0),
             rays: pair,
