@@ -79,6 +79,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let mut slid = false;
     let mut line = Polyline::default();
     let through = args.through || !args.plane.is_empty();
+    let how = (args.method, through);
     let mut seams = Vec::new();
     for (i, along) in cuts.iter().enumerate() {
         let number = (cuts.len() > 1).then_some(i + 1);
@@ -95,22 +96,22 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         edits.clear();
         torn.next_cut();
         let chosen = (args.layers == CutLayers::First).then_some(&cut);
-        let mut entry = report::Cut::new(along.rays(), &scissor, how(args), &done, chosen);
+        let mut entry = report::Cut::new(along.rays(), &scissor, how, &done, chosen);
         session.words.push(summary::cut(number, &done));
         if let Some(pair) = along.rays().filter(|_| args.camera.camera.is_some()) {
             let typed = rays::typed(pair);
             session.words.push(format!("the same as {typed}"));
             entry.equivalent = Some(typed);
         }
-        session.report.cuts.push(entry);
         let how_cut = (&scissor, args.method, args.snap);
         let reason = match done.splits {
             0 => no_op::reason(how_cut, through, (&mesh, &positions), &done),
             _ => NoOpReason::Unknown,
         };
         let extent = done.missed.then(|| Bounds::of(&mesh, &positions));
-        let warnings = summary::warnings(number, how(args), &done, reason, extent);
+        let warnings = summary::warnings(number, &entry, reason, extent);
         session.faults.extend(warnings);
+        session.report.cuts.push(entry);
         session.faults.extend(summary::of_layers(number, &cut));
         seams.push(seam::lines(&cut, &mesh, &positions));
     }
@@ -202,13 +203,6 @@ fn scissor(
     let scissor = scissor.through(args.through).tips(args.tips);
     let scissor = scissor.layers(args.layers).snap(args.snap);
     Ok(scissor.snap_move(args.snap_move))
-}
-
-/// The options that the report repeats.
-fn how(args: &CutArgs) -> report::How {
-    let through = args.through || !args.plane.is_empty();
-    let snap = (args.snap, args.snap_move);
-    report::How::new(args.method, through, args.tips.word(), snap)
 }
 
 /// Refuses options that do not go together: when, what is said, and what helps.

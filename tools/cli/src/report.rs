@@ -3,8 +3,8 @@
 use serde::Serialize;
 use tearmesh::{CutMethod, CutReport, Mesh, Point, Ray, Scissor, Vector};
 use tearmesh_cloth::Quality;
-use tearmesh_cloth::scene::TearEvent;
 use tearmesh_cloth::scene::ensemble::{Ensemble, Quantity};
+use tearmesh_cloth::scene::{EnergyGain, FirstTear, TearEvent};
 use tearmesh_cloth::statistics::Comparison;
 use tearmesh_obj::Location;
 
@@ -82,45 +82,14 @@ pub(crate) struct Cut {
     /// Of a cut between two pixels: what to type for the same with rays.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) equivalent: Option<String>,
-    #[serde(flatten)]
-    how: How,
+    pub(crate) method: &'static str,
+    pub(crate) through: bool,
     plane: PlaneEntry,
     /// Where each ray hit the layer that was cut, of a cut through the first layers alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     layers: Option<[Option<LayerEntry>; 2]>,
     #[serde(flatten)]
-    report: CutReport,
-}
-
-/// How a cut was made.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct How {
-    pub(crate) method: &'static str,
-    pub(crate) through: bool,
-    pub(crate) tips: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) snap: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) snap_move: Option<bool>,
-}
-
-impl How {
-    /// The part of an edge within which crossings snap, and whether vertices move then, are of one method.
-    pub(crate) fn new(
-        method: CutMethod,
-        through: bool,
-        tips: &'static str,
-        (snap, snap_move): (f64, bool),
-    ) -> How {
-        let is_exact = method == CutMethod::Exact;
-        How {
-            method: method.word(),
-            through,
-            tips,
-            snap: is_exact.then_some(snap),
-            snap_move: is_exact.then_some(snap_move),
-        }
-    }
+    pub(crate) report: CutReport,
 }
 
 /// The point cache of a simulation.
@@ -192,18 +161,6 @@ pub(crate) struct Tear {
     pub(crate) cache: Option<Cache>,
 }
 
-/// How a cloth tore first.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct FirstTear {
-    pub(crate) time_s: f64,
-    /// The middle of the edge with the largest load: where it was then, and at rest.
-    pub(crate) place: Point,
-    pub(crate) place_at_rest: Point,
-    /// The largest force at a hold then, as a mean over 1/60 s; not said by Provot's method.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) force_n: Option<f64>,
-}
-
 /// `--check-step`: the scene played with many seeds, at its step and at half of it.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct StepCheck {
@@ -251,16 +208,6 @@ pub(crate) struct Energy {
     pub(crate) gain: Option<EnergyGain>,
 }
 
-/// Energy that a method made out of nothing.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct EnergyGain {
-    pub(crate) since_s: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) made_j: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) put_in_j: Option<f64>,
-}
-
 /// What was computed.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Counters {
@@ -302,7 +249,7 @@ impl Cut {
     pub(crate) fn new(
         rays: Option<&[Ray; 2]>,
         scissor: &Scissor,
-        how: How,
+        (method, through): (CutMethod, bool),
         report: &CutReport,
         cut: Option<&tearmesh::Cut>,
     ) -> Cut {
@@ -320,7 +267,8 @@ impl Cut {
         Cut {
             rays: rays.map(|rays| rays.map(ray)),
             equivalent: None,
-            how,
+            method: method.word(),
+            through,
             plane: PlaneEntry {
                 point: plane.point() + zero,
                 normal: plane.normal() + zero,

@@ -181,7 +181,6 @@ impl Play<'_> {
         let tally = run.tally();
         let (status, exit) = status(&ended);
         let is_checked = exit == Exit::Done && self.args.check_step;
-        let first_tear = records.tear_log.first_tear();
         let tear = report::Tear {
             scene: self.name.clone(),
             solver: run.scene().solver.name(),
@@ -206,12 +205,7 @@ impl Play<'_> {
             },
             largest_force_n: records.tear_log.largest_force_n(),
             peak_force_n: records.tear_log.peak_force_n(),
-            first_tear: first_tear.map(|first| report::FirstTear {
-                time_s: first.event.time_s,
-                place: first.event.place,
-                place_at_rest: first.event.place_at_rest,
-                force_n: first.force_n,
-            }),
+            first_tear: records.tear_log.first_tear(),
             tears: records.tear_log.events().to_vec(),
             step_check: is_checked.then(|| self.check_step(&run, session)),
             frames: None,
@@ -348,17 +342,17 @@ impl Play<'_> {
         let Ok(scissor) = Scissor::new(cut.rays[0], cut.rays[1]) else {
             return; // It was made with these rays.
         };
-        let how = report::How::new(cut.method, cut.through, "vertex", (Scissor::SNAP, false));
+        let how = (cut.method, cut.through);
         let entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
-        session.report.cuts.push(entry);
         let many = (scene.cuts.len() > 1).then_some(number + 1);
         let at = crate::say::short(cut.at_s);
         let line = crate::cut::summary::cut(many, done);
         session.words.push(format!("{line} · at {at} s"));
         // The cloth has moved since, and there is no snap to choose.
         let why = NoOpReason::Unknown;
-        let warnings = crate::cut::summary::warnings(many, how, done, why, None);
+        let warnings = crate::cut::summary::warnings(many, &entry, why, None);
         session.faults.extend(warnings);
+        session.report.cuts.push(entry);
     }
 
     /// A progress bar, unless the words are to be few or JSON.

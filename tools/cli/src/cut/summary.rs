@@ -5,7 +5,7 @@ use tearmesh::{Cut, CutReport};
 use super::gap::Gapped;
 use super::no_op::NoOpReason;
 use crate::measure::Bounds;
-use crate::report::How;
+use crate::report;
 use crate::say::{Fault, count, place, short};
 
 /// The line of the summary on a cut; cuts have numbers where there are several.
@@ -53,11 +53,11 @@ pub(crate) fn of_gap(gapped: &Gapped) -> Option<Fault> {
 /// the mesh, which helps if the cut missed it.
 pub(crate) fn warnings(
     number: Option<usize>,
-    how: How,
-    cut: &CutReport,
+    entry: &report::Cut,
     reason: NoOpReason,
     extent: Option<Bounds>,
 ) -> Vec<Fault> {
+    let cut = &entry.report;
     let is_cut = !cut.missed && cut.splits > 0;
     let crumbs = cut.crumbs.saturating_sub(cut.necks.len());
     let [crossed, crumb, lost] = [
@@ -75,11 +75,11 @@ pub(crate) fn warnings(
         _ if cut.nearest_vertex == 0.0 => (touches, unsplit),
         _ => (&*far, unsplit),
     };
-    let place_of_cut = match how.through {
+    let place_of_cut = match entry.through {
         true => "on the plane",
         false => "between the rays",
     };
-    let why_lost = match how.method {
+    let why_lost = match entry.method {
         "exact" => "the part to cut off is smaller than the snap",
         _ => "the mesh has no edges for the cut to follow",
     };

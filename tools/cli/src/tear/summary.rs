@@ -83,11 +83,7 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         colliders: balance.colliders_j,
         edits: balance.edits_j,
         numerical_dissipation: said(-balance.made_j()),
-        gain: run.energy_gain().map(|gain| report::EnergyGain {
-            since_s: gain.since_s,
-            made_j: said(gain.made_j),
-            put_in_j: said(gain.put_in_j),
-        }),
+        gain: run.energy_gain().filter(|_| !has_limited(run)),
     }
 }
 

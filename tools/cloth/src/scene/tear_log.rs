@@ -32,11 +32,14 @@ pub struct TearEvent {
 
 /// The first tear of a cloth.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FirstTear {
     /// The first step in which the cloth tore.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub event: TearEvent,
     /// The largest force at a hold in newtons, as a mean over the [`FRAME_S`] before the tear, by
     /// the rule of [`TearLog::largest_force_n`]; `None` if the method does not know its forces.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub force_n: Option<f64>,
 }
 

@@ -14,6 +14,7 @@ use crate::system::System;
 
 /// The energy that a method made out of nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct EnergyGain {
     /// The time at which it was first noticed, in seconds: at most 1/60 s after it exceeded the
     /// margin.
