@@ -15,11 +15,14 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
         0 => String::new(),
         inserted => count(inserted, "vertex", "vertices") + " inserted, ",
     };
+    let refused = match cut.refused {
+        0 => String::new(),
+        refused => format!(" ({refused} refused)"),
+    };
     format!(
-        "{name}: {} crossed, {inserted}{} split ({} refused), {} -> {}",
+        "{name}: {} crossed, {inserted}{} split{refused}, {} -> {}",
         count(cut.faces_crossed, "face", "faces"),
         count(cut.splits, "vertex", "vertices"),
-        cut.refused,
         count(cut.pieces_before, "piece", "pieces"),
         count(cut.pieces, "piece", "pieces"),
     )
