@@ -1,7 +1,7 @@
 //! The size of a mesh, and its pieces.
 
 use serde::Serialize;
-use tearmesh::{Mesh, Point, Positions};
+use tearmesh::{Mesh, Place, Point, Positions};
 
 /// The box that holds all faces.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -56,7 +56,7 @@ pub(crate) struct Piece {
 
 impl Piece {
     /// All pieces, by their smallest faces.
-    pub(crate) fn all(mesh: &Mesh, positions: &Positions) -> Vec<Piece> {
+    pub(crate) fn all(mesh: &Mesh, positions: &(impl Place + ?Sized)) -> Vec<Piece> {
         let components = mesh.components();
         let mut pieces = vec![Piece::default(); components.count()];
         for f in mesh.faces() {
@@ -65,6 +65,13 @@ impl Piece {
             piece.area += area(mesh.face_vertices(f).map(|v| positions.at(v)));
         }
         pieces
+    }
+
+    /// How many pieces are crumbs: those with less than a hundredth of the faces of the largest.
+    pub(crate) fn crumbs(pieces: &[Piece]) -> usize {
+        let largest = pieces.iter().map(|piece| piece.faces).max().unwrap_or(0);
+        let is_crumb = |piece: &&Piece| 100 * piece.faces < largest;
+        pieces.iter().filter(is_crumb).count()
     }
 }
 

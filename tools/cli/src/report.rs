@@ -135,7 +135,10 @@ pub(crate) struct Tear {
     pub(crate) cap_hit: bool,
     pub(crate) steps_at_cap: u64,
     pub(crate) pieces_before: usize,
+    #[serde(skip)]
+    pub(crate) crumbs_before: usize,
     pub(crate) pieces: usize,
+    pub(crate) crumbs: usize,
     pub(crate) tear_length_m: f64,
     pub(crate) max_stretch: f64,
     pub(crate) momentum_drift: f64,

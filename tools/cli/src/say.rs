@@ -182,6 +182,15 @@ pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
+/// A number of pieces, of which so many are crumbs.
+pub(crate) fn pieces(all: usize, crumbs: usize) -> String {
+    let pieces = count(all - crumbs, "piece", "pieces");
+    match crumbs {
+        0 => pieces,
+        _ => format!("{pieces} and {}", count(crumbs, "crumb", "crumbs")),
+    }
+}
+
 /// The name of a file as a shell reads it, and no option.
 pub(crate) fn quoted(name: &str) -> String {
     let here = if name.starts_with('-') { "./" } else { "" };

@@ -26,6 +26,7 @@ use crate::args::{Format, TearArgs};
 use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
+use crate::measure::Piece;
 use crate::picture::Texture;
 use crate::scene::SceneFile;
 use crate::session::{Opened, Session, milliseconds};
@@ -153,7 +154,7 @@ fn status(ended: &Result<Ended, StepError>) -> (&'static str, Exit) {
 
 impl Play<'_> {
     fn perform(&self, mut run: Run, session: &mut Session<'_, '_>) -> Result<(), Stop> {
-        let pieces_before = run.mesh().components().count();
+        let pieces_before = Piece::all(run.mesh(), run.cloth().positions());
         let vertices_before = run.mesh().vertex_count();
         let torn_before_m = run.torn_length_m();
         let files = &self.args.files;
@@ -180,6 +181,7 @@ impl Play<'_> {
 
         let tally = run.tally();
         let (status, exit) = status(&ended);
+        let pieces = Piece::all(run.mesh(), run.cloth().positions());
         let is_checked = exit == Exit::Done && self.args.check_step;
         let tear = report::Tear {
             scene: self.name.clone(),
@@ -192,8 +194,10 @@ impl Play<'_> {
             splits: tally.splits,
             cap_hit: tally.steps_at_cap > 0,
             steps_at_cap: tally.steps_at_cap,
-            pieces_before,
-            pieces: run.mesh().components().count(),
+            pieces_before: pieces_before.len(),
+            crumbs_before: Piece::crumbs(&pieces_before),
+            pieces: pieces.len(),
+            crumbs: Piece::crumbs(&pieces),
             tear_length_m: run.torn_length_m() - torn_before_m,
             max_stretch: tally.stretch_ratio_max,
             momentum_drift: tally.momentum_drift,

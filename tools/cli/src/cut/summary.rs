@@ -6,7 +6,7 @@ use super::gap::Gapped;
 use super::no_op::NoOpReason;
 use crate::measure::Bounds;
 use crate::report;
-use crate::say::{Fault, count, place, short};
+use crate::say::{Fault, count, pieces, place, short};
 
 /// The line of the summary on a cut; cuts have numbers where there are several.
 pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
@@ -24,8 +24,13 @@ pub(crate) fn cut(number: Option<usize>, cut: &CutReport) -> String {
         count(cut.faces_crossed, "face", "faces"),
         count(cut.splits, "vertex", "vertices"),
         count(cut.pieces_before, "piece", "pieces"),
-        count(cut.pieces, "piece", "pieces"),
+        pieces(cut.pieces, crumbs(cut)),
     )
+}
+
+/// The pieces that were not expected, but for those of which a warning of their own says why.
+fn crumbs(cut: &CutReport) -> usize {
+    cut.crumbs.saturating_sub(cut.necks.len())
 }
 
 /// The line of the summary on a gap.
@@ -62,10 +67,10 @@ pub(crate) fn warnings(
 ) -> Vec<Fault> {
     let cut = &entry.report;
     let is_cut = !cut.missed && cut.splits > 0;
-    let crumbs = cut.crumbs.saturating_sub(cut.necks.len());
-    let [crossed, crumb, lost] = [
+    let crumbs = crumbs(cut);
+    let [crossed, loose, lost] = [
         count(cut.faces_crossed, "face", "faces"),
-        count(crumbs, "piece", "pieces"),
+        count(crumbs, "crumb", "crumbs"),
         count(cut.lost, "piece", "pieces"),
     ];
     let far = format!("; the nearest vertex is {} away", short(cut.nearest_vertex));
@@ -95,7 +100,7 @@ pub(crate) fn warnings(
         let message = format!("a piece of {faces} came off at {at}: {hung}");
         ("W-CUT-NECK", is_cut, message)
     });
-    let loose = format!("{crumb} came loose beside the cut");
+    let loose = format!("{loose} came loose beside the cut");
     let lost = format!("{lost} stayed joined: {why_lost}");
     let shared = "the two sides still share a vertex between the rays".to_owned();
     let rows = [

@@ -6,7 +6,7 @@ use tearmesh_cloth::Quality;
 use tearmesh_cloth::scene::{Run, TearLog};
 
 use crate::report;
-use crate::say::{count, short, three_digits};
+use crate::say::{count, pieces, short, three_digits};
 
 /// The line of the summary.
 pub(super) fn simulation(tear: &report::Tear) -> String {
@@ -25,8 +25,8 @@ pub(super) fn simulation(tear: &report::Tear) -> String {
         tear.solver,
         count(tear.splits as usize, "vertex", "vertices"),
         short(tear.tear_length_m),
-        count(tear.pieces_before, "piece", "pieces"),
-        count(tear.pieces, "piece", "pieces"),
+        pieces(tear.pieces_before, tear.crumbs_before),
+        pieces(tear.pieces, tear.crumbs),
         short(tear.max_stretch),
     )
 }
