@@ -88,11 +88,6 @@ pub(crate) fn method() -> impl TypedValueParser<Value = Method> {
     names.map(|name| Method::named(&name).expect("the parser knows no other name"))
 }
 
-/// Reads an axis, as it is typed.
-pub(crate) fn axis(text: &str) -> Result<Axis, String> {
-    Axis::of(text).ok_or_else(|| format!("expected one of {}", Axis::words()))
-}
-
 impl Choice for Copies {
     const ALL: &'static [(&'static str, Copies)] =
         &[("halved", Copies::Halved), ("whole", Copies::Whole)];

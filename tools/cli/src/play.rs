@@ -6,6 +6,7 @@ use tearmesh_obj::TornDocument;
 use tearmesh_view::PlayPage;
 
 use crate::args::PlayArgs;
+use crate::choice::Choice as _;
 use crate::exit::Stop;
 use crate::say::{Fault, count};
 use crate::session::{self, Opened};
@@ -24,7 +25,7 @@ pub(crate) fn run(
         title: "Cloth".to_owned(),
         file: None,
         scene: args.scene.clone(),
-        up: args.up.clone(),
+        up: args.up.word().to_owned(),
     };
     let mut cloth = "a sheet of 1 m".to_owned();
     if let Some(input) = &args.input {

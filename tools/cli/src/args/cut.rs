@@ -162,9 +162,9 @@ pub(crate) struct CameraArgs {
     )]
     pub(crate) camera: Option<[Point; 2]>,
 
-    /// The direction that is up in pictures and pages.
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
-        default_value = "0,1,0", hide_short_help = true)]
+    /// The direction that is up in pictures and pages: x, y, z, -x, -y, -z, or X,Y,Z.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up,
+        default_value = "y", hide_short_help = true)]
     pub(crate) up: Point,
 
     /// The vertical angle of view, in degrees.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Parser;
+use tearmesh_cloth::scene::Axis;
 
 use super::look::LookArgs;
 
@@ -34,8 +35,8 @@ pub(crate) struct PlayArgs {
     pub(crate) scene: String,
 
     /// The direction that is up: x, y, z, -x, -y or -z.
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = AXES, hide_possible_values = true, default_value = "y")]
-    pub(crate) up: String,
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up_axis, default_value = "y")]
+    pub(crate) up: Axis,
 
     /// Where to write the page; `-` is standard output.
     ///
@@ -48,4 +49,3 @@ pub(crate) struct PlayArgs {
 }
 
 const SCENES: [&str; 5] = ["rip", "hang", "flag", "trouser", "fall"];
-const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];

@@ -3,7 +3,10 @@
 use std::ops::RangeInclusive;
 
 use tearmesh::Point;
+use tearmesh_cloth::scene::Axis;
 use tearmesh_view::{PIXELS_MAX, PictureSize};
+
+use crate::choice::Choice as _;
 
 /// Reads a point.
 pub(super) fn point(text: &str) -> Result<Point, String> {
@@ -11,6 +14,21 @@ pub(super) fn point(text: &str) -> Result<Point, String> {
         [x, y, z] => Ok(Point::new(x, y, z)),
         _ => Err("expected three numbers with commas between them, as in 0,1.5,0".to_owned()),
     }
+}
+
+/// Reads a direction that is up: an axis, or three numbers.
+pub(super) fn up(text: &str) -> Result<Point, String> {
+    let axis = Axis::of(text).map(|axis| Point::from(axis.vector()));
+    let help = "expected x, y, z, -x, -y or -z, or three numbers as in 0,1,0";
+    axis.map_or_else(|| point(text).map_err(|_| help.to_owned()), Ok)
+}
+
+/// Reads a direction that is up, of which only the axes will do.
+pub(super) fn up_axis(text: &str) -> Result<Axis, String> {
+    let up = up(text).unwrap_or_default();
+    let mut axes = Axis::NAMED.into_iter().map(|(_, axis)| axis);
+    let named = axes.find(|axis| Point::from(axis.vector()) == up);
+    named.ok_or_else(|| format!("expected one of {}", Axis::words()))
 }
 
 /// Reads an eye and the point that it looks at.

@@ -44,9 +44,9 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "EYE@AT", allow_hyphen_values = true, value_parser = super::read::look)]
     pub(crate) camera: Option<[Point; 2]>,
 
-    /// The direction that is up in the picture.
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
-        default_value = "0,1,0")]
+    /// The direction that is up in the picture: x, y, z, -x, -y, -z, or X,Y,Z.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up,
+        default_value = "y")]
     pub(crate) up: Point,
 
     /// The vertical angle of view, in degrees.

@@ -6,6 +6,7 @@ use clap::{Parser, ValueEnum};
 
 use super::files::FileArgs;
 use tearmesh_cloth::Method;
+use tearmesh_cloth::scene::Axis;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -75,8 +76,8 @@ pub(crate) struct TearArgs {
     pub(crate) dt: Option<f64>,
 
     /// The direction that is up: x, y, z, -x, -y or -z (default: y).
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = crate::choice::axis)]
-    pub(crate) up: Option<tearmesh_cloth::scene::Axis>,
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up_axis)]
+    pub(crate) up: Option<Axis>,
 
     /// Cut between two rays at --cut-at; may be given repeatedly.
     ///

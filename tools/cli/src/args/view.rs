@@ -35,9 +35,9 @@ pub(crate) struct ViewArgs {
     #[arg(short, long, value_name = "F.html")]
     pub(crate) output: Option<PathBuf>,
 
-    /// The direction that is up on the page.
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = super::read::point,
-        default_value = "0,1,0")]
+    /// The direction that is up on the page: x, y, z, -x, -y, -z, or X,Y,Z.
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up,
+        default_value = "y")]
     pub(crate) up: Point,
 
     #[command(flatten)]
