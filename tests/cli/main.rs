@@ -32,6 +32,8 @@ mod pages;
 mod pieces;
 mod plain;
 mod play;
+#[cfg(target_os = "linux")]
+mod progress;
 #[path = "../support/random.rs"]
 #[allow(dead_code, reason = "shared with other tests")]
 mod random;

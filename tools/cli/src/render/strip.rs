@@ -32,8 +32,11 @@ pub(super) fn draw(
         run.map_err(|error| tear::check::refused(&error, opened, &source))
     };
     let mut run = begin()?;
+    // It is played twice.
+    let bar = streams.bar(2 * run.steps_planned(), BAR, !args.look.quiet);
     while !run.is_over() && run.tally().splits == 0 {
         step(&mut run)?;
+        bar.set_position(run.tally().steps);
     }
     let has_torn = run.tally().splits > 0;
     let first = if has_torn { run.tally().steps - 1 } else { 0 };
@@ -49,11 +52,13 @@ pub(super) fn draw(
         };
         while run.tally().steps < at {
             step(&mut run)?;
+            bar.set_position(last + run.tally().steps);
             texture.follow(run.edits());
         }
         let points = run.cloth().positions().to_vec();
         moments.push((run.mesh().clone(), points, texture.values.clone()));
     }
+    bar.finish_and_clear();
     let up = frame.up.vector();
     let seen = moments.iter().map(|(mesh, points, _)| (mesh, &**points));
     let camera = match given {
@@ -70,6 +75,9 @@ pub(super) fn draw(
     });
     Ok(Picture::beside(&pictures.collect::<Vec<_>>()))
 }
+
+/// The progress bar.
+const BAR: &str = "{bar:40} {percent} %, {eta} left";
 
 /// Takes a step that has to be good.
 fn step(run: &mut Run) -> Result<(), Stop> {
