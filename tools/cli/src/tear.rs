@@ -55,6 +55,7 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     check::known_forces(args, &scene)?;
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
     let run = run.map_err(|error| check::refused(&error, &opened, &source))?;
+    session.faults.extend(check::moved(&opened));
     let number = |v| opened.document.number_of_vertex(v);
     session.faults.extend(advice::before(&run, &frame, &number));
     session.faults.extend(advice::times(&run, args));

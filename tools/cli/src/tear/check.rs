@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use tearmesh::{FaceId, Vector, VertexId};
+use tearmesh::{FaceId, HalfEdgeId, Vector, VertexId};
 use tearmesh_cloth::scene::{Preset, RunError, Scene, TimedCut};
 use tearmesh_cloth::{ClothError, Method, SimulationError, Stretch, TearingError, Threshold};
 
@@ -41,6 +41,21 @@ pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<Timed
         });
     }
     Ok(cuts)
+}
+
+/// A warning if the mesh has moved since it was torn: no other shape is known than the one that it has.
+pub(super) fn moved(opened: &Opened) -> Option<Fault> {
+    let (mesh, at) = (&opened.mesh, |v| opened.positions.at(v));
+    let is_apart = |h: HalfEdgeId| {
+        let across = mesh.ghost_pair(h);
+        across.is_some_and(|across| at(mesh.origin(h)) != at(mesh.target(across)))
+    };
+    let message = "the file was torn before, and its sides have moved apart: the shape that it has now is taken as the \
+                   shape at rest";
+    let help =
+        "play the file from before with a scene file of all holds and cuts, each at its time";
+    let fault = Fault::warning("W-SIM-REST", message).help(help);
+    mesh.half_edges().any(is_apart).then_some(fault)
 }
 
 /// Refuses a table of forces where the method knows none.
