@@ -12,6 +12,7 @@ use std::path::Path;
 use tearmesh_cloth::scene::Preset;
 
 pub(crate) use self::read::SceneFile;
+use self::read::near;
 pub(crate) use self::schema::schema;
 use crate::choice::Choice as _;
 use crate::exit::Stop;
@@ -28,8 +29,11 @@ impl SceneFile {
         }
         if !Path::new(name).exists() && !name.contains(['.', '/', '\\']) {
             let fault = Fault::error("E-SCENE-NAME", format!("there is no scene `{name}`"));
+            let known = Preset::ALL.iter().map(|(name, _)| *name);
+            let near = near(name, &known.collect::<Vec<_>>());
+            let meant = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
             let scenes = Preset::words();
-            let help = format!("scenes are {scenes}, and files such as scene.toml");
+            let help = format!("{meant}scenes are {scenes}, and files such as scene.toml");
             return Err(fault.help(help).into());
         }
         let file = Input::find(Path::new(name), streams.input)?;

@@ -295,7 +295,7 @@ impl Reader<'_> {
 }
 
 /// The name that is nearest to a word, if it is near.
-fn near<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
+pub(super) fn near<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
     let distance = |name| (strsim::damerau_levenshtein(word, name), name);
     let (distance, name) = names.iter().copied().map(distance).min()?;
     (2 * distance <= name.len()).then_some(name)
