@@ -11,9 +11,10 @@ use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
+use crate::measure::Edges;
 use crate::picture::Texture;
 use crate::report;
-use crate::say::{Fault, count};
+use crate::say::{Fault, count, short};
 use crate::session::{self, Session, milliseconds};
 use crate::streams::Streams;
 
@@ -40,11 +41,13 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let stitches = stitches(args, &mesh, &positions, &torn);
     let apart = |stitch: &Stitch| positions.at(stitch.kept()) != positions.at(stitch.gone());
     let moves = stitches.iter().any(apart);
+    let far = moves.then(|| far_apart(&stitches, &mesh, &positions));
     let mut edits = Edits::new();
     let (weight, farthest) = (|v| masses.at(v), args.max_distance.unwrap_or(f64::INFINITY));
     let log = &mut edits;
     let merged = mend::sew(&mut mesh, &positions, &stitches, weight, farthest, log);
     let merged = merged.map_err(|error| too_far(&error, &document))?;
+    session.faults.extend(far.flatten());
     edits.replay(&mut (&mut positions, &mut masses, &mut torn));
     close_gaps(&mut torn, &mesh, &edits, vertices_before);
     session.timing.cut = milliseconds(start);
@@ -192,6 +195,23 @@ fn stitches(
     let ball = args.near.zip(args.radius);
     let is_in = |v| ball.is_none_or(|(centre, radius)| (positions.at(v) - centre).norm() <= radius);
     mend::stitches(mesh, is_in)
+}
+
+/// A warning of vertices to be joined that are farther apart than the mean edge is long: their faces are
+/// drawn out over that.
+fn far_apart(stitches: &[Stitch], mesh: &Mesh, positions: &Positions) -> Option<Fault> {
+    let edge = Edges::of(mesh, positions).mean;
+    let between = |stitch: &Stitch| positions.at(stitch.kept()) - positions.at(stitch.gone());
+    let distances = stitches.iter().map(|stitch| between(stitch).norm());
+    let far: Vec<f64> = distances.filter(|&distance| distance > edge).collect();
+    let farthest = short(far.iter().copied().fold(0.0, f64::max));
+    let (one, many) = ("pair of vertices was", "pairs of vertices were");
+    let (pairs, edge) = (count(far.len(), one, many), short(edge));
+    let message = format!(
+        "{pairs} sewn from farther apart than the mean edge is long, {edge}: up to {farthest}"
+    );
+    let help = "--max-distance D refuses that, and --near sews a part";
+    (!far.is_empty()).then(|| Fault::warning("W-MEND-FAR", message).help(help))
 }
 
 /// Warns of vertices that stay where they are, because they were edited since.
