@@ -95,7 +95,7 @@ impl SceneFile {
 
     fn collider(&self, table: &Table) -> Result<Collider, Fault> {
         let groups: [&[_]; 2] = [&["point", "normal"], &["centre", "radius_m"]];
-        self.one_of(table, "a collider", &groups)?;
+        let group = self.one_of(table, "a collider", &groups)?;
         if let (Some(point), Some(normal)) = (point(table, "point"), vector(table, "normal")) {
             let wrong = |why: String| self.fault(table, "normal", "E-SCENE-RANGE", why);
             let plane = Plane::new(point, normal).map_err(|error| wrong(error.to_string()))?;
@@ -103,7 +103,7 @@ impl SceneFile {
         }
         match (point(table, "centre"), table.get("radius_m")) {
             (Some(centre), Some(radius_m)) => Ok(Collider::Sphere { centre, radius_m }),
-            _ => Err(self.missing(table, other_half(table))),
+            _ => Err(self.lacks(table, group)),
         }
     }
 
@@ -135,7 +135,7 @@ impl SceneFile {
     fn region(&self, table: &Table, what: &str) -> Result<Region, Fault> {
         let places: [&[_]; 2] = [&["near", "radius"], &["across", "along"]];
         let bodies: [&[_]; 3] = [&["from", "to"], &["centre", "radius_m"], &["vertices"]];
-        self.one_of(table, what, &[&places[..], &bodies].concat())?;
+        let group = self.one_of(table, what, &[&places[..], &bodies].concat())?;
         if let Some(at) = table.get("near") {
             let radius = table.get("radius").unwrap_or(0.0);
             return Ok(Region::Near { at, radius });
@@ -156,7 +156,7 @@ impl SceneFile {
         }
         match (point(table, "from"), point(table, "to")) {
             (Some(from), Some(to)) => Ok(Region::Box { from, to }),
-            _ => Err(self.missing(table, other_half(table))),
+            _ => Err(self.lacks(table, group)),
         }
     }
 
@@ -219,18 +219,23 @@ impl SceneFile {
         Ok(Some(tearing))
     }
 
-    /// Refuses keys of different groups in one table, and none of any.
-    fn one_of(&self, table: &Table, what: &str, groups: &[&[&'static str]]) -> Result<(), Fault> {
-        let found = groups.iter().filter_map(|group| {
+    /// Gives the group of keys of which a table has some; refuses keys of different groups, and none of any.
+    fn one_of<'g>(
+        &self,
+        table: &Table,
+        what: &str,
+        groups: &[&'g [&'static str]],
+    ) -> Result<&'g [&'static str], Fault> {
+        let found = groups.iter().filter_map(|&group| {
             let found = table.those_of(group);
-            found.first().copied()
+            Some((group, *found.first()?))
         });
         let mut choices: Vec<&str> = groups.iter().map(|group| group[0]).collect();
         choices.sort_unstable();
         let choices = choices.join(", ");
         match found.collect::<Vec<_>>()[..] {
-            [_] => Ok(()),
-            [one, other, ..] => {
+            [(group, _)] => Ok(group),
+            [(_, one), (_, other), ..] => {
                 let message = format!("`{one}` and `{other}` cannot go together");
                 let fault = self.fault(table, other, "E-SCENE-CLASH", message);
                 Err(fault.help(format!("{what} takes one of {choices}")))
@@ -240,6 +245,12 @@ impl SceneFile {
                 Err(self.fault(table, "", "E-SCENE-MISSING", message))
             }
         }
+    }
+
+    /// That a table has one key of a group, and lacks another.
+    fn lacks(&self, table: &Table, group: &[&str]) -> Fault {
+        let lacking = group.iter().find(|key| !table.has(key));
+        self.missing(table, lacking.unwrap_or(&group[0]))
     }
 }
 
@@ -258,18 +269,4 @@ pub(super) fn vector(table: &Table, key: &str) -> Option<Vector> {
 
 fn point(table: &Table, key: &str) -> Option<Point> {
     table.get::<[f64; 3]>(key).map(Point::from)
-}
-
-/// What a region begun with one key lacks.
-fn other_half(table: &Table) -> &'static str {
-    let halves = [
-        ("radius", "near"),
-        ("from", "to"),
-        ("to", "from"),
-        ("centre", "radius_m"),
-        ("point", "normal"),
-        ("normal", "point"),
-    ];
-    let known = halves.iter().find(|(one, _)| table.has(one));
-    known.map_or("centre", |(_, other)| other)
 }
