@@ -132,21 +132,14 @@ impl Records<'_> {
     }
 }
 
-/// How the steps ended, unless one failed.
-#[derive(Clone, Copy, PartialEq)]
-enum Ended {
-    Done,
-    Interrupted,
-    /// The method made energy beyond all bounds.
-    Exploded,
-}
+/// How the steps ended: the status in the report, and the exit status.
+type Ended = (&'static str, Exit);
 
-/// The status of a run in the report, and its exit status.
-fn status(ended: &Result<Ended, StepError>) -> (&'static str, Exit) {
+const DONE: Ended = ("done", Exit::Done);
+
+fn status(ended: &Result<Ended, StepError>) -> Ended {
     match ended {
-        Ok(Ended::Done) => ("done", Exit::Done),
-        Ok(Ended::Interrupted) => ("interrupted", Exit::Interrupted),
-        Ok(Ended::Exploded) => ("gained energy", Exit::Simulation),
+        Ok(ended) => *ended,
         Err(StepError::BlowUp { .. }) => ("blown up", Exit::Simulation),
         Err(StepError::Implicit { .. }) => ("unsolved", Exit::Simulation),
         Err(_) => ("unstable", Exit::Simulation),
@@ -297,11 +290,11 @@ impl Play<'_> {
         session: &mut Session<'_, '_>,
     ) -> Result<Result<Ended, StepError>, Stop> {
         let bar = self.bar(run.steps_planned(), "step {pos} of {len}", session);
-        let mut ended = Ok(Ended::Done);
+        let mut ended = Ok(DONE);
         records.record(run)?;
-        while !run.is_over() && ended == Ok(Ended::Done) {
+        while !run.is_over() && ended == Ok(DONE) {
             if self.guard.is_interrupted() {
-                ended = Ok(Ended::Interrupted);
+                ended = Ok(("interrupted", Exit::Interrupted));
                 break;
             }
             let step = run.step();
@@ -321,7 +314,7 @@ impl Play<'_> {
                 Err(error) => ended = Err(error),
             }
             if ended.is_ok() && advice::has_exploded(run) {
-                ended = Ok(Ended::Exploded);
+                ended = Ok(("gained energy", Exit::Simulation));
             }
             bar.set_position(run.tally().steps);
         }
