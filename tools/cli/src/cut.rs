@@ -219,15 +219,7 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
     }
     if args.tips == CutTips::Midpoint && args.method != CutMethod::Partition {
         let message = format!("`--tips midpoint` is for the method partition, not {method}");
-        return refused(
-            &message,
-            match is_exact {
-                true => {
-                    "leave it out, because exact ends at the rays themselves, or add --method partition"
-                }
-                false => "leave it out: the paper's methods split vertices between the rays",
-            },
-        );
+        return refused(&message, "leave it out, or add --method partition");
     }
     if args.mass == Mass::Half && is_exact {
         let message =
