@@ -17,13 +17,13 @@ use crate::harness::{Folder, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0x40b7_8119_e45c_828e),
-    ("tear.txt", 0xf049_a767_d039_50a6),
+    ("README.md", 0x98d7_428e_1adc_f627),
+    ("tear.txt", 0xbf07_0beb_0c29_9c60),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x4d0a_07fe_fe90_6d91;
+const DIGEST: u64 = 0x8f7e_bbc1_f748_7d4b;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
