@@ -43,7 +43,10 @@ pub(crate) fn run(
     let (_, opened) = session::look(&args.input, &args.look, faults, streams)?;
     let (document, mesh, positions) = (&opened.document, &opened.mesh, &opened.positions);
     options.texture = Texture::of(document).values;
-    options.crease_deg = args.crease.or_else(|| picture::crease(document));
+    options.crease_deg = match args.flat {
+        true => Some(0.0),
+        false => args.crease.or_else(|| picture::crease(document)),
+    };
     let drawn = match args.strip {
         Some(count) => strip::draw(count, &opened, given, &options, args, streams)?,
         None => {

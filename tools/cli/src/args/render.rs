@@ -71,16 +71,19 @@ pub(crate) struct RenderArgs {
     #[arg(long)]
     pub(crate) edges: bool,
 
+    /// Draw each face flat.
+    #[arg(long, conflicts_with = "crease")]
+    pub(crate) flat: bool,
+
     /// Draw edges as creases where two faces meet at this angle or more, in degrees.
     ///
-    /// 0 draws each face flat.
     /// Without it, a mesh is drawn smooth, as cloth is, unless the file has normals that differ at a
     /// vertex; then the angle is 40 degrees.
     #[arg(long, value_name = "DEG", value_parser = super::read::angle)]
     pub(crate) crease: Option<f64>,
 
     /// Draw each face divided into N² faces, and bent as its normals say.
-    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with = "crease",
+    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with_all = ["flat", "crease"],
         value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) finer: u32,
 
