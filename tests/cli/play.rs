@@ -16,6 +16,12 @@ fn a_page_is_written_with_the_module_that_it_needs() {
         assert!(said.contains(part), "{line}\n{said}");
     }
     assert!(folder.read("play.html").contains("'wasm-unsafe-eval'"));
+    // `view` makes the same page, of a mesh that it is asked to play.
+    folder.done("play flag.obj -o played.html");
+    folder.done("view flag.obj --play -o viewed.html");
+    assert!(folder.bytes("viewed.html") == folder.bytes("played.html"));
+    let said = folder.ends("view flag.obj sheet.obj --play -o two.html", 2);
+    assert!(said.contains("a page to play on has one mesh"), "{said}");
     // The page of `view` grants nothing to a module.
     folder.done("view flag.obj -o v.html");
     let page = folder.read("v.html");

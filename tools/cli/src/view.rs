@@ -2,16 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use tearmesh_cloth::scene::Axis;
 use tearmesh_obj::Repair;
 use tearmesh_view::{Moment, Page};
 
-use crate::args::ViewArgs;
+use crate::args::{PlayArgs, ViewArgs};
 use crate::exit::Stop;
 use crate::input::named::named;
 use crate::say::{Fault, count};
 use crate::session;
 use crate::streams::Streams;
-use crate::{files, output, page};
+use crate::{files, output, page, play};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -21,6 +22,9 @@ pub(crate) fn run(
 ) -> Result<String, Stop> {
     // What was typed is refused before large files are read.
     let inputs = inputs(args)?;
+    if args.play {
+        return play::run(&playing(args, &inputs)?, faults, streams);
+    }
     let unnamed = || named_like(&args.inputs[0]);
     let output = page::place(args.output.as_ref(), unnamed, &inputs)?;
     let options = match session::repair(args.look.repair, args.look.separate_fans) {
@@ -67,6 +71,21 @@ fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
     let files = files.map_err(|(_, fault)| fault)?;
     files::one_stream(&files)?;
     Ok(files)
+}
+
+/// What `play` is asked for by --play.
+fn playing(args: &ViewArgs, inputs: &[PathBuf]) -> Result<PlayArgs, Stop> {
+    let [input] = inputs else {
+        let message = "a page to play on has one mesh";
+        return Err(Stop::usage(message, "name one file, or leave out --play"));
+    };
+    Ok(PlayArgs {
+        input: Some(input.clone()),
+        scene: "rip".to_owned(),
+        up: Axis::Y,
+        output: args.output.clone(),
+        look: args.look.clone(),
+    })
 }
 
 /// A page in the folder where we are, by the name of an input.

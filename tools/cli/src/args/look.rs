@@ -6,7 +6,7 @@ use crate::exit::{Exit, Stop};
 use crate::say::{Color, Fault};
 use crate::streams::Streams;
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct LookArgs {
     /// Repair the input, as `cut` does.
     #[arg(long)]

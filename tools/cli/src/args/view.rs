@@ -28,10 +28,16 @@ pub(crate) struct ViewArgs {
     #[arg(value_name = "IN", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
 
+    /// Make a page on which the mesh is a cloth to be grabbed, ripped, cut and mended: the one of `play`.
+    ///
+    /// For another direction up, run `play`.
+    #[arg(long, conflicts_with = "up")]
+    pub(crate) play: bool,
+
     /// Where to write the page; `-` is standard output.
     ///
     /// Without it, the page is written to the current folder and named after the first input, with the
-    /// ending `.html`. Only a page of tearmesh is replaced then.
+    /// ending `.html` (with --play, it is `play.html`). Only a page of tearmesh is replaced then.
     #[arg(short, long, value_name = "F.html")]
     pub(crate) output: Option<PathBuf>,
 
