@@ -83,12 +83,7 @@ impl fmt::Display for Digits {
         } else if x < 1e-6 {
             write!(f, "{:.2e}", self.0)
         } else {
-            let mut digits = 1;
-            let mut scale = 10.0;
-            while x < scale {
-                digits += 1;
-                scale /= 10.0;
-            }
+            let digits = (2.0 - x.log10().floor()) as usize;
             write!(f, "{:.digits$}", self.0)
         }
     }

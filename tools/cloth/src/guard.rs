@@ -150,18 +150,15 @@ impl Guard {
             list.clear();
             list.resize(model.masses.len(), 0.0);
         }
-        model.each_spring(reach, 0.0, |[a, b], stiffness| {
-            sums[a] += stiffness;
-            sums[b] += stiffness;
+        model.each_spring(reach, |ends, [stiffness, damping]| {
+            for end in ends {
+                sums[end] += stiffness;
+                dampers[end] += damping;
+            }
         });
-        if model.damping_s > 0.0 {
-            model.each_damper(reach, |ends, damping| {
-                ends.iter().for_each(|&end| dampers[end] += damping);
-            });
-        }
         let (sums, w) = (&self.sums, &model.inverse_masses);
         let mut most = (0.0, None);
-        model.each_spring(reach, 0.0, |[a, b], _| {
+        model.each_spring(reach, |[a, b], _| {
             let row = w[a] * sums[a] + w[b] * sums[b];
             if row > most.0 {
                 most = (row, Some([a, b]));
@@ -201,9 +198,10 @@ impl Guard {
         let masses = [&model.masses[..], &model.inverse_masses[..]];
         let reach = self.reach.max(REACH);
         let neighbours = |particle, visit: &mut dyn FnMut(usize, f64)| {
-            pair::springs_at(&model.stretch, particle, damper, &mut *visit);
-            pair::springs_at(&model.bend, particle, damper, &mut *visit);
-            model.triangles.springs_at(particle, reach, damper, visit);
+            let mut visit = |other, [k, c]: [f64; 2]| visit(other, k + damper * c);
+            pair::springs_at(&model.stretch, particle, &mut visit);
+            pair::springs_at(&model.bend, particle, &mut visit);
+            model.triangles.springs_at(particle, reach, visit);
         };
         let share = SHARE * (1.0 - air);
         self.carry.weigh(masses, stiffness, neighbours, share, dt_s);
@@ -247,8 +245,8 @@ impl Guard {
             }
             product.clear();
             product.resize(count, 0.0);
-            model.each_spring(self.reach.max(REACH), damper, |[a, b], stiffness| {
-                let force = stiffness * (u[a] - u[b]);
+            model.each_spring(self.reach.max(REACH), |[a, b], [k, c]| {
+                let force = (k + damper * c) * (u[a] - u[b]);
                 product[a] += force;
                 product[b] -= force;
             });

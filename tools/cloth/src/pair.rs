@@ -165,35 +165,29 @@ pub(crate) fn longest(family: &Constraints, x: &[Point]) -> Option<([usize; 2], 
 }
 
 /// Visits springs that together are as stiff as these constraints or stiffer, in every direction and in
-/// any state: their particles, and their stiffness in N/m. A damper of 1 N s/m counts as `damper`.
-pub(crate) fn each_spring(
-    family: &Constraints,
-    damper: f64,
-    mut visit: impl FnMut([usize; 2], f64),
-) {
+/// any state: their particles, their stiffness in N/m, and their damping in N s/m.
+pub(crate) fn each_spring(family: &Constraints, mut visit: impl FnMut([usize; 2], [f64; 2])) {
     for colour in &family.colours {
         for ((ends, _, stiffness), &damping) in colour.springs().zip(&colour.damping) {
             if stiffness > 0.0 {
-                visit(ends, stiffest(family, stiffness) + damper * damping);
+                visit(ends, [stiffest(family, stiffness), damping]);
             }
         }
     }
 }
 
-/// Visits those springs of a particle: the other one, and the stiffness.
+/// Visits those springs of a particle: the other one, and the numbers.
 pub(crate) fn springs_at(
     family: &Constraints,
     particle: usize,
-    damper: f64,
-    mut visit: impl FnMut(usize, f64),
+    mut visit: impl FnMut(usize, [f64; 2]),
 ) {
     for id in family.of(particle) {
         let one = family.get(id);
         if one.stiffness_n_per_m > 0.0 {
-            let [a, b] = one.ends;
-            let damping = damper * family.damping(id);
-            let stiffness = stiffest(family, one.stiffness_n_per_m) + damping;
-            visit(a + b - particle, stiffness);
+            let stiffness = stiffest(family, one.stiffness_n_per_m);
+            let other = one.ends[0] + one.ends[1] - particle;
+            visit(other, [stiffness, family.damping(id)]);
         }
     }
 }

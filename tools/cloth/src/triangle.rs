@@ -164,12 +164,6 @@ impl Triangle {
         ([-(f1 + f2), f1, f2], self.area * damped_w)
     }
 
-    /// Whether it is damped in this state.
-    #[inline]
-    fn is_damped(&self, squares: [f64; 2]) -> bool {
-        self.damping != [0.0; 3] || squares.iter().any(|l| *l < Crush::BELOW * Crush::BELOW)
-    }
-
     /// The second derivatives of the energy, in N/m, for each corner: the blocks of it with itself and with the
     /// next; and how many of the three terms (u, v, shear) had a part dropped.
     fn hessian(&self, [w_u, w_v]: [Vector; 2], clamp: bool) -> ([[Block; 2]; 3], u32) {
@@ -219,25 +213,24 @@ impl Triangle {
         ([[b00, b10.transpose()], [b11, b12], [b22, b20]], clamped)
     }
 
-    /// Springs between its corners that together are as stiff as these moduli along warp, along weft and in
-    /// shear: since the weights g of either have no sum, |Σ gᵢuᵢ|² is −Σ gᵢgⱼ|uᵢ − uⱼ|² over pairs, and those
-    /// with a negative factor are left out.
-    fn springs(&self, [k_u, k_v, k_s]: [f64; 3], reach: f64) -> [f64; 3] {
+    /// Springs between its corners that together are as stiff and as damped as warp, weft and shear: since the
+    /// weights g of either have no sum, |Σ gᵢuᵢ|² is −Σ gᵢgⱼ|uᵢ − uⱼ|² over pairs, and those with a
+    /// negative factor are left out.
+    fn springs(&self, reach: f64) -> [[f64; 2]; 3] {
         let weights = self.weights();
         // What √k is of a spring.
-        let roots = [k_u, k_v].map(|k| (self.area * (k + k_s * reach)).sqrt());
+        let roots = [self.stiffness, self.damping].map(|[along_u, along_v, shear]| {
+            [along_u, along_v].map(|k| (self.area * (k + shear * reach)).sqrt())
+        });
         [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
-            let part = |c: usize| match weights[c][i] * weights[c][j] < 0.0 {
-                true => (roots[c] * weights[c][i].abs()) * (roots[c] * weights[c][j].abs()),
-                false => 0.0,
-            };
-            part(0) + part(1)
+            roots.map(|roots| {
+                let part = |c: usize| match weights[c][i] * weights[c][j] < 0.0 {
+                    true => (roots[c] * weights[c][i].abs()) * (roots[c] * weights[c][j].abs()),
+                    false => 0.0,
+                };
+                part(0) + part(1)
+            })
         })
-    }
-
-    /// The moduli, with a damper of 1 N s/m counted as `damper`.
-    fn damped_moduli(&self, damper: f64) -> [f64; 3] {
-        [0, 1, 2].map(|c| self.stiffness[c] + damper * self.damping[c])
     }
 }
 
@@ -359,7 +352,7 @@ impl Triangles {
             for (v, pull) in t.vertices.into_iter().zip(t.forces(w)) {
                 forces[v as usize] += pull;
             }
-            if let Some(crush) = crush.filter(|_| t.is_damped(squares)) {
+            if let Some(crush) = crush {
                 let (pulls, power_w) = t.damping(w, crush);
                 damped_w += power_w;
                 for (v, pull) in t.vertices.into_iter().zip(pulls) {
@@ -400,48 +393,31 @@ impl Triangles {
         ratios.reduce(|most, one| if one.1 > most.1 { one } else { most })
     }
 
-    /// Visits springs that together are as stiff as these triangles or stiffer, in any state within `reach`:
-    /// their particles, and their stiffness in N/m.
-    /// A damper of 1 N s/m counts as `damper`.
-    pub(crate) fn each_spring(&self, reach: f64, damper: f64, visit: impl FnMut([usize; 2], f64)) {
-        self.each(reach, |t| t.damped_moduli(damper), visit);
-    }
-
-    /// Visits their dampers alike: their coefficients in N s/m.
-    pub(crate) fn each_damper(&self, reach: f64, visit: impl FnMut([usize; 2], f64)) {
-        self.each(reach, |t| t.damping, visit);
-    }
-
-    fn each(
-        &self,
-        reach: f64,
-        moduli: impl Fn(&Triangle) -> [f64; 3],
-        mut visit: impl FnMut([usize; 2], f64),
-    ) {
+    /// Visits springs that together are as stiff and as damped as these triangles or more, in any state within
+    /// `reach`: their particles, their stiffness in N/m, and their damping in N s/m.
+    pub(crate) fn each_spring(&self, reach: f64, mut visit: impl FnMut([usize; 2], [f64; 2])) {
         for t in &self.list {
             let [a, b, c] = t.vertices.map(|v| v as usize);
-            let springs = t.springs(moduli(t), reach);
-            for (ends, stiffness) in [[a, b], [b, c], [c, a]].into_iter().zip(springs) {
-                visit(ends, stiffness);
+            for (ends, numbers) in [[a, b], [b, c], [c, a]].into_iter().zip(t.springs(reach)) {
+                visit(ends, numbers);
             }
         }
     }
 
-    /// Visits those springs of a particle: the other one, and the stiffness.
+    /// Visits those springs of a particle: the other one, and the numbers.
     pub(crate) fn springs_at(
         &self,
         particle: usize,
         reach: f64,
-        damper: f64,
-        mut visit: impl FnMut(usize, f64),
+        mut visit: impl FnMut(usize, [f64; 2]),
     ) {
         for (t, corner) in self.of(particle) {
             let t = &self.list[t];
-            let springs = t.springs(t.damped_moduli(damper), reach);
+            let springs = t.springs(reach);
             let (next, last) = ((corner + 1) % 3, (corner + 2) % 3);
-            for (other, stiffness) in [(next, springs[corner]), (last, springs[last])] {
-                if stiffness > 0.0 {
-                    visit(t.vertices[other] as usize, stiffness);
+            for (other, numbers) in [(next, springs[corner]), (last, springs[last])] {
+                if numbers[0] > 0.0 {
+                    visit(t.vertices[other] as usize, numbers);
                 }
             }
         }

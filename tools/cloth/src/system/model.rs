@@ -97,28 +97,12 @@ impl Model {
     }
 
     /// Visits springs that together are as stiff as all constraints, or stiffer, in every direction and in
-    /// any state in which triangles are stretched within `reach`: their particles, and their stiffness in
-    /// N/m. A damper of 1 N s/m counts as `damper`.
-    pub(crate) fn each_spring(
-        &self,
-        reach: f64,
-        damper: f64,
-        mut visit: impl FnMut([usize; 2], f64),
-    ) {
-        pair::each_spring(&self.stretch, damper, &mut visit);
-        pair::each_spring(&self.bend, damper, &mut visit);
-        self.triangles.each_spring(reach, damper, visit);
-    }
-
-    /// Visits dampers that together damp as much as all constraints, or more: their particles, and their
-    /// coefficients in N s/m.
-    pub(crate) fn each_damper(&self, reach: f64, mut visit: impl FnMut([usize; 2], f64)) {
-        for colour in &self.stretch.colours {
-            for (ends, &damping) in colour.ends.iter().zip(&colour.damping) {
-                visit(ends.map(|end| end as usize), damping);
-            }
-        }
-        self.triangles.each_damper(reach, visit);
+    /// any state in which triangles are stretched within `reach`: their particles, their stiffness in N/m,
+    /// and their damping in N s/m.
+    pub(crate) fn each_spring(&self, reach: f64, mut visit: impl FnMut([usize; 2], [f64; 2])) {
+        pair::each_spring(&self.stretch, &mut visit);
+        pair::each_spring(&self.bend, &mut visit);
+        self.triangles.each_spring(reach, visit);
     }
 
     /// The pairs of particles that act on each other, once for each constraint and each side of a triangle.
