@@ -116,10 +116,6 @@ pub enum Quality {
     },
     /// For Provot's model: what its limiter did.
     Limiter(LimiterStats),
-    /// For PBD: the root mean square of the present strains. PBD treats constraints as rigid, so
-    /// all strain is an error that its sweeps left.
-    #[cfg_attr(feature = "serde", serde(rename = "strain_rms"))]
-    Strain(f64),
     /// For XPBD: the largest difference, in newtons, between the force on a particle that the last
     /// substep used and the one that the springs have now.
     #[cfg_attr(feature = "serde", serde(rename = "residual_n"))]

@@ -541,15 +541,6 @@ impl System {
         }
     }
 
-    /// The root mean square of the strains l/L − 1 of all stretch constraints; 0 if there are none.
-    pub(crate) fn strain_rms(&self) -> f64 {
-        let squares = self.model.stretch.iter().map(|id| {
-            let strain = self.stretch_ratio(id) - 1.0;
-            strain * strain
-        });
-        (squares.sum::<f64>() / self.model.stretch.len().max(1) as f64).sqrt()
-    }
-
     /// Keeps the state in which a step began, if it is still there. Who changes positions or velocities
     /// calls this first.
     pub(crate) fn keep(&mut self) {

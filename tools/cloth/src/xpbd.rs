@@ -20,8 +20,7 @@
 //! [`Pbd`] is that without compliance: predict positions, project the constraints a fixed number of times,
 //! and take the resulting motion as the velocity (Müller et al. 2007). It is never accurate: how stiff it is
 //! depends on the step and on the number of sweeps, and as the step goes to zero there is no limit. What
-//! it converges to with more sweeps is an inextensible net. [`System::strain_rms`] says how far its lengths
-//! are from that, and not where it hangs.
+//! it converges to with more sweeps is an inextensible net.
 
 use tearmesh::geometry::{Vector, length};
 
@@ -165,10 +164,6 @@ impl Solver for Pbd {
         sweep(system, self.sweeps, self.fractions(), 0.0)?;
         conclude(system, dt_s, Recorded::RigidForces);
         Ok(())
-    }
-
-    fn quality(&self, system: &System) -> Quality {
-        Quality::Strain(system.strain_rms())
     }
 }
 
