@@ -57,6 +57,9 @@ pub(crate) struct Hessian {
     off: Vec<Block>,
     /// The pair (i, j), i < j, of each slot, in ascending order.
     pairs: Vec<[u32; 2]>,
+    /// For each particle i, the first of its slots; and their number. (Without, a step on 24 × 24 cells takes
+    /// 5 % more instructions to find them.)
+    rows: Vec<usize>,
     /// For each particle, the lowest among those that constraints connect with it, itself included.
     pub(crate) pieces: Vec<u32>,
     /// The pairs of all constraints as they were visited.
@@ -80,8 +83,11 @@ impl Hessian {
             self.diagonal[i as usize] += block;
             return;
         }
-        let slot = self.pairs.binary_search(&sorted([i, j]));
-        let sum = &mut self.off[slot.expect("each pair has a slot")];
+        let [low, high] = sorted([i, j]);
+        let row = self.rows[low as usize]..self.rows[low as usize + 1];
+        let mut others = self.pairs[row.clone()].iter();
+        let place = others.position(|pair| pair[1] == high);
+        let sum = &mut self.off[row.start + place.expect("each pair has a slot")];
         *sum += if i < j { *block } else { block.transpose() };
     }
 
@@ -121,6 +127,9 @@ impl Hessian {
         self.pairs.extend(self.visited.iter().copied().map(sorted));
         self.pairs.sort_unstable();
         self.pairs.dedup();
+        let first = |i| self.pairs.partition_point(|pair| pair[0] < i);
+        self.rows.clear();
+        self.rows.extend((0..=particles as u32).map(first));
         self.sets.reset(particles as u32);
         self.pairs.iter().for_each(|&[i, j]| self.sets.join(i, j));
         let particles = 0..particles as u32;
