@@ -212,10 +212,8 @@ fn check(args: &CutArgs) -> Result<(), Stop> {
     let refused = |message: &str, help: &str| Err(Stop::usage(message, help));
     if args.layers == CutLayers::First && !args.plane.is_empty() {
         let message = "`--layers first` is for rays: with a plane, no ray hits a layer first";
-        return refused(
-            message,
-            "cut with --rays or --camera, or leave out --layers",
-        );
+        let help = "cut with --rays or --camera, or leave out --layers";
+        return refused(message, help);
     }
     if args.tips == CutTips::Midpoint && args.method != CutMethod::Partition {
         let message = format!("`--tips midpoint` is for the method partition, not {method}");

@@ -4,23 +4,11 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use tearmesh::{Mesh, Place};
-use tearmesh_view::{CutLine, Moment, Page, is_page};
+use tearmesh_view::{CutLine, is_page};
 
 use crate::exit::Stop;
+use crate::files;
 use crate::say::quoted;
-use crate::{files, picture};
-
-/// Adds a mesh to a page.
-pub(crate) fn add(
-    page: &mut Page,
-    mesh: &Mesh,
-    place: &(impl Place + ?Sized),
-    moment: Moment,
-) -> Result<(), Stop> {
-    let added = page.add(mesh, place, moment);
-    Ok(added.map_err(picture::no_camera)?)
-}
 
 /// What a page is called that shows a file.
 pub(crate) fn title(name: Option<&str>) -> String {

@@ -179,9 +179,8 @@ impl<'a, 's> Session<'a, 's> {
 
     /// Says that there was nothing to do, and so nothing was written; warnings have said why.
     pub(crate) fn nothing_done(&mut self) -> Stop {
-        let unwritten = self
-            .file()
-            .map(|path| format!(". {} not written", path.display()));
+        let unwritten = |path: &Path| format!(". {} not written", path.display());
+        let unwritten = self.file().map(unwritten);
         if let (Some(unwritten), Some(last)) = (unwritten, self.faults.last_mut()) {
             last.message.push_str(&unwritten);
         }
@@ -271,7 +270,8 @@ impl<'a, 's> Session<'a, 's> {
             cut: name.map(|name| page::cut_line(&name, "")),
             ..Moment::default()
         };
-        page::add(&mut page, mesh, place, moment)?;
+        let added = page.add(mesh, place, moment);
+        added.map_err(picture::no_camera)?;
         Ok(output::write(path, |out| page.write(out))?)
     }
 

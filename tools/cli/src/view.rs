@@ -9,6 +9,7 @@ use tearmesh_view::{Moment, Page};
 use crate::args::{PlayArgs, ViewArgs};
 use crate::exit::Stop;
 use crate::input::named::named;
+use crate::picture::no_camera;
 use crate::say::{Fault, count};
 use crate::session;
 use crate::streams::Streams;
@@ -23,7 +24,18 @@ pub(crate) fn run(
     // What was typed is refused before large files are read.
     let inputs = inputs(args)?;
     if args.play {
-        return play::run(&playing(args, &inputs)?, faults, streams);
+        let [input] = &inputs[..] else {
+            let message = "a page to play on has one mesh";
+            return Err(Stop::usage(message, "name one file, or leave out --play"));
+        };
+        let args = PlayArgs {
+            input: Some(input.clone()),
+            scene: "rip".to_owned(),
+            up: Axis::Y,
+            output: args.output.clone(),
+            look: args.look.clone(),
+        };
+        return play::run(&args, faults, streams);
     }
     let unnamed = || named_like(&args.inputs[0]);
     let output = page::place(args.output.as_ref(), unnamed, &inputs)?;
@@ -43,7 +55,8 @@ pub(crate) fn run(
             cut: Some(page::cut_line(&input.name, options)),
             ..Moment::default()
         };
-        page::add(&mut shown, mesh, &opened.positions, moment)?;
+        let added = shown.add(mesh, &opened.positions, moment);
+        added.map_err(no_camera)?;
         vertices.push(mesh.vertex_count());
         faces.push(mesh.face_count());
         pieces = mesh.components().count();
@@ -71,21 +84,6 @@ fn inputs(args: &ViewArgs) -> Result<Vec<PathBuf>, Stop> {
     let files = files.map_err(|(_, fault)| fault)?;
     files::one_stream(&files)?;
     Ok(files)
-}
-
-/// What `play` is asked for by --play.
-fn playing(args: &ViewArgs, inputs: &[PathBuf]) -> Result<PlayArgs, Stop> {
-    let [input] = inputs else {
-        let message = "a page to play on has one mesh";
-        return Err(Stop::usage(message, "name one file, or leave out --play"));
-    };
-    Ok(PlayArgs {
-        input: Some(input.clone()),
-        scene: "rip".to_owned(),
-        up: Axis::Y,
-        output: args.output.clone(),
-        look: args.look.clone(),
-    })
 }
 
 /// A page in the folder where we are, by the name of an input.

@@ -7,6 +7,7 @@ use tearmesh_view::{Moment, Page};
 use super::frames::{RATE_PER_S, places};
 use crate::exit::Stop;
 use crate::page;
+use crate::picture::no_camera;
 
 /// The page of a run, as far as it is recorded.
 pub(super) struct Recorder {
@@ -38,7 +39,8 @@ impl Recorder {
             torn_at_rest_m: Some(run.torn_length_m()),
             ..Moment::default()
         };
-        page::add(&mut self.page, run.mesh(), &places(run)?, moment)?;
+        let added = self.page.add(run.mesh(), &places(run)?, moment);
+        added.map_err(no_camera)?;
         self.stretch.push([run.elapsed_s(), largest_stretch(run)]);
         Ok(())
     }

@@ -60,13 +60,6 @@ pub(super) fn balance(run: &Run) -> String {
     )
 }
 
-/// Momentum that edits made or lost beyond rounding: our bug.
-pub(super) fn momentum_broken(run: &Run) -> Option<String> {
-    let drift = run.tally().momentum_drift;
-    // Each of some millions of terms is rounded; a lost particle is far more.
-    (drift > 1e-6).then(|| format!("edits changed the momentum by the fraction {drift:e}"))
-}
-
 pub(super) fn energy(run: &Run) -> report::Energy {
     let balance = run.energy_balance();
     let said = |joules: f64| Some(joules).filter(|_| !has_limited(run));
