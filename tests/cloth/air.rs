@@ -159,7 +159,7 @@ fn no_mode_is_slowed_faster_than_the_rate_says() {
         if round == 10 {
             system.hold(0);
         }
-        let rate = air::wind_rate(system).expect("there is wind");
+        let rate = air::air_rate(system, false).expect("there is wind");
         let areas = indices.chunks_exact(3).map(|face| {
             let [a, b, c] = [0, 1, 2].map(|i| system.positions()[face[i] as usize]);
             let is_at = face.iter().any(|&v| v as usize == rate.particle);

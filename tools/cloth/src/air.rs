@@ -38,18 +38,19 @@ pub struct AirRate {
     pub particle: usize,
 }
 
-/// Returns a bound on the rate at which wind slows the system with its present areas; `None` if
-/// there is no wind. Costs a pass over all faces.
-pub fn wind_rate(system: &mut System) -> Option<AirRate> {
-    let wind = system.model.loads.wind?;
-    let faces = &system.model.faces;
-    if faces.is_empty() {
+/// Returns a bound on the rate at which wind slows the system with its present areas, and drag if it is to
+/// count; `None` if nothing slows it. Costs a pass over all faces if there is wind.
+pub fn air_rate(system: &mut System, counts_drag: bool) -> Option<AirRate> {
+    let (loads, areas) = (&system.model.loads, &mut system.scratch.areas);
+    let coefficient = loads.wind.map_or(0.0, |wind| wind.coefficient);
+    let drag_per_s = loads.drag_per_s.filter(|_| counts_drag).unwrap_or(0.0);
+    if coefficient + drag_per_s <= 0.0 {
         return None;
     }
-    system.counters.features.wind += faces.len() as u64 / 3;
-    let areas = &mut system.scratch.areas;
     areas.clear();
     areas.resize(system.positions.len(), 0.0);
+    let faces = loads.wind.map_or(&[][..], |_| &system.model.faces);
+    system.counters.features.wind += faces.len() as u64 / 3;
     for face in faces.as_chunks::<3>().0 {
         let [a, b, c] = face.map(|corner| corner as usize);
         let x = &system.positions;
@@ -59,25 +60,19 @@ pub fn wind_rate(system: &mut System) -> Option<AirRate> {
             areas[corner] += area;
         }
     }
-    let rates = areas.iter().zip(&system.model.inverse_masses);
-    let rates = rates.map(|(area, w)| w * wind.coefficient * area / 3.0);
+    let particles = areas.iter().zip(&system.model.inverse_masses).enumerate();
+    let free = particles.filter(|(_, (_, w))| **w > 0.0);
+    let rates = free.map(|(particle, (area, w))| AirRate {
+        rate_per_s: w * coefficient * area / 3.0 + drag_per_s,
+        particle,
+    });
     // A state that is not finite is for the step to find.
-    let finite = rates
-        .enumerate()
-        .filter(|(_, rate)| *rate > 0.0 && rate.is_finite());
-    let most = finite.reduce(|most, one| if one.1 > most.1 { one } else { most });
-    most.map(|(particle, rate_per_s)| AirRate {
-        rate_per_s,
-        particle,
-    })
-}
-
-/// The rate of drag, and the first particle that feels it.
-pub(crate) fn drag_rate(system: &System) -> Option<AirRate> {
-    let rate_per_s = system.model.loads.drag_per_s.filter(|drag| *drag > 0.0)?;
-    let particle = system.model.inverse_masses.iter().position(|w| *w > 0.0)?;
-    Some(AirRate {
-        rate_per_s,
-        particle,
+    let finite = rates.filter(|one| one.rate_per_s > 0.0 && one.rate_per_s.is_finite());
+    finite.reduce(|most, one| {
+        if one.rate_per_s > most.rate_per_s {
+            one
+        } else {
+            most
+        }
     })
 }

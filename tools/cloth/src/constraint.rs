@@ -230,14 +230,11 @@ impl Constraints {
 
     /// The share of those that are damped by less than their stiffness times `time_s`, of all that are damped.
     pub(crate) fn damping_capped(&self, time_s: f64) -> f64 {
-        let (mut capped, mut damped) = (0_u32, 0_u32);
-        for colour in &self.colours {
-            for (stiffness, &damping) in colour.stiffness.iter().zip(&colour.damping) {
-                damped += u32::from(damping > 0.0);
-                capped += u32::from(damping > 0.0 && damping < time_s * stiffness);
-            }
-        }
-        f64::from(capped) / f64::from(damped.max(1))
+        let colours = self.colours.iter();
+        let springs = colours.flat_map(|colour| colour.stiffness.iter().zip(&colour.damping));
+        let damped = springs.filter(|(_, damping)| **damping > 0.0);
+        let capped = damped.clone().filter(|(k, c)| **c < time_s * **k);
+        capped.count() as f64 / damped.count().max(1) as f64
     }
 
     pub(crate) fn push_particle(&mut self) {

@@ -42,7 +42,7 @@ impl Crush<'_> {
     /// What is added to the pull of a spring of this stiffness whose length is such a part of its
     /// rest length, and changes at this speed.
     pub(crate) fn pull(&self, stiffness: f64, ratio: f64, speed: f64) -> f64 {
-        let depth = ((1.0 - ratio - RAMP) / RAMP).min(1.0);
+        let depth = ((1.0 - ratio - RAMP) / RAMP).clamp(0.0, 1.0);
         Crush::SHARE * depth * stiffness * self.dt_s * speed
     }
 }

@@ -69,7 +69,7 @@ use crate::system::{Model, SettingError, System};
 
 /// Linearised implicit steps of a system: backward Euler or BDF2. They are stable at any step for
 /// springs, triangles, bends and drag. Backward Euler evaluates wind where a step begins, and is
-/// stable up to λ Δt = 2 ([`wind_rate`](crate::air::wind_rate)). BDF2 extrapolates positions and
+/// stable up to λ Δt = 2 ([`air_rate`](crate::air::air_rate)). BDF2 extrapolates positions and
 /// velocities for wind from the last step, which keeps its order, and is stable up to λ Δt = 4/3.
 ///
 /// A solver steps one system. BDF2 remembers the last step, and goes on from it if at least one of

@@ -68,7 +68,7 @@ pub struct Abilities {
     /// The largest ω Δt at which the method is stable; `None` if there is no limit.
     pub frequency_limit: Option<f64>,
     /// The largest λ Δt at which the method is stable without springs; `None` if there is no limit.
-    /// The rate λ is that at which wind slows the system ([`wind_rate`](crate::air::wind_rate)),
+    /// The rate λ is that at which wind slows the system ([`air_rate`](crate::air::air_rate)),
     /// plus that of drag if the method [`takes_drag_explicitly`](Abilities::takes_drag_explicitly).
     pub air_limit: Option<f64>,
     /// Whether the method evaluates drag at the velocities before a step, so that the rate of drag

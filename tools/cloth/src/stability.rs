@@ -54,7 +54,11 @@ fn limit(system: &mut System, abilities: Abilities) -> (f64, Option<AirShare>) {
         Some(limit) => stable_step_s(system, limit),
         None => f64::INFINITY,
     };
-    (springs_s, air_share(system, abilities))
+    let air_share = |limit| {
+        let rate = air::air_rate(system, abilities.takes_drag_explicitly)?;
+        Some((rate, rate.rate_per_s / limit))
+    };
+    (springs_s, abilities.air_limit.and_then(air_share))
 }
 
 /// A step in seconds beyond a limit, which springs or air make too long.
@@ -106,7 +110,7 @@ pub fn frequency_bound(system: &mut System) -> Frequency {
 /// is 2 for [`Provot`](crate::Provot); infinite without springs. It follows from the
 /// [bound](frequency_bound) of frequencies, so it is safe in every configuration. It does not consider
 /// wind, which shortens the step further ([`Abilities::air_limit`](crate::Abilities::air_limit),
-/// [`wind_rate`](air::wind_rate)).
+/// [`air_rate`](air::air_rate)).
 pub fn stable_step_s(system: &mut System, frequency_limit: f64) -> f64 {
     frequency_limit / frequency_bound(system).omega_rad_per_s
 }
@@ -130,22 +134,6 @@ fn damp(system: &mut System) {
 pub(crate) fn whole_step_s(system: &mut System, solver: &dyn Solver, springs_part: f64) -> f64 {
     let (springs_s, air) = limit(system, solver.abilities());
     with_air(springs_part * springs_s, air)
-}
-
-/// What the air takes of a step by this method.
-fn air_share(system: &mut System, abilities: Abilities) -> Option<AirShare> {
-    let limit = abilities.air_limit?;
-    let mut rate = air::wind_rate(system);
-    if abilities.takes_drag_explicitly
-        && let Some(drag) = air::drag_rate(system)
-    {
-        let wind = rate.get_or_insert(AirRate {
-            rate_per_s: 0.0,
-            ..drag
-        });
-        wind.rate_per_s += drag.rate_per_s;
-    }
-    rate.map(|rate| (rate, rate.rate_per_s / limit))
 }
 
 /// The longest stable step of springs and air together, in seconds, by that of the springs.

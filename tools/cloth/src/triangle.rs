@@ -152,11 +152,8 @@ impl Triangle {
                 let direction = w[c] / ratio;
                 let speed = dot(direction, rates[c]);
                 damped_w += self.damping[c] * (speed * speed);
-                let mut pull = self.area * self.damping[c] * speed;
-                if ratio < Crush::BELOW {
-                    pull += crush.pull(self.area * self.stiffness[c], ratio, speed);
-                }
-                p += direction * pull;
+                let crushed = crush.pull(self.area * self.stiffness[c], ratio, speed);
+                p += direction * (self.area * self.damping[c] * speed + crushed);
             }
             p
         });

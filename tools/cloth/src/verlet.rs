@@ -61,7 +61,7 @@ use crate::system::System;
 /// Particles that are too light for the step are carried by their neighbours, and constraints
 /// shorter than nine tenths of their rest length are damped. So it is stable at steps of up to twice
 /// [`recommended_step_s`](crate::recommended_step_s) in every configuration, and exact at rest; for
-/// wind alone it is stable up to λ Δt = 1 ([`wind_rate`](crate::air::wind_rate)). In motion the guards
+/// wind alone it is stable up to λ Δt = 1 ([`air_rate`](crate::air::air_rate)). In motion the guards
 /// make light particles swing more slowly about their neighbours; at half the recommended step or less
 /// hardly any particle is carried.
 ///

@@ -32,7 +32,7 @@ use crate::system::{Recorded, SettingError, System};
 
 /// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at
 /// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2
-/// ([`wind_rate`](crate::air::wind_rate)).
+/// ([`air_rate`](crate::air::air_rate)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Xpbd {
     /// The number of substeps per step. Zero counts as one.

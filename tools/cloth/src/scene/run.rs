@@ -23,7 +23,7 @@ use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::energy::{elastic_j, kinetic_j, potential_j};
-use crate::load::{Collider, Loads};
+use crate::load::Loads;
 use crate::method::Softness;
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
@@ -289,8 +289,7 @@ impl Run {
 
     /// Notes how far vertices move in a substep, where there is something to get past.
     fn measure_moves(&mut self, substep_s: f64) {
-        let is_ball = |collider: &Collider| matches!(collider, Collider::Sphere { .. });
-        if !self.scene.colliders.iter().any(is_ball) {
+        if self.scene.colliders.is_empty() {
             return;
         }
         let velocities = self.cloth().system().velocities().iter();
@@ -381,7 +380,7 @@ impl Run {
     /// * Implicit: 1/240 s.
     ///
     /// A chosen step is also at most 0.7 of the limit set by wind
-    /// ([`wind_rate`](crate::air::wind_rate)).
+    /// ([`air_rate`](crate::air::air_rate)).
     #[must_use]
     pub fn step_s(&self) -> f64 {
         self.sim.step_s()
