@@ -12,7 +12,7 @@
 //! # Build, split, upload
 //!
 //! ```
-//! use tearmesh::{split, Edits, Mesh, Plane, Positions, Vector, VertexId};
+//! use tearmesh::{split, Edits, Mesh, Plane, Point, Positions, Vector, VertexId};
 //!
 //! // Four triangles round the vertex 4.
 //! let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
@@ -29,8 +29,8 @@
 //! }
 //! edits.replay(&mut positions);
 //!
-//! let (index_buffer, new_vertices) = (mesh.indices(), positions.tail_f32(old));
-//! assert_eq!((index_buffer.len(), new_vertices), (12, vec![[0.5, 0.5, 0.0]]));
+//! let (index_buffer, new_vertices) = (mesh.indices(), &positions.as_slice()[old..]);
+//! assert_eq!((index_buffer.len(), new_vertices), (12, &[Point::new(0.5, 0.5, 0.0)][..]));
 //! assert!(mesh.check().is_empty());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -63,7 +63,7 @@
 //! |---|---|
 //! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (which of these can be taken back), [`slide`], [`classify`], [`pick`] (ray and face), `place` (positions), `attribute`, [`weld`] and `draw` (an engine's buffers), `mass`, [`shapes`] |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (which of these can be taken back), [`slide`], [`classify`], `place` (positions), `attribute`, [`engine`] (an engine's buffers, picking, normals), `mass`, [`shapes`] |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) |
 //! | sheet | `sheet` (mesh, positions, masses, log and what else follows, held together) |
@@ -93,8 +93,8 @@
 
 mod attribute;
 pub mod classify;
-mod draw;
 mod edit;
+pub mod engine;
 mod exact;
 pub mod geometry;
 pub mod guide;
@@ -103,7 +103,6 @@ pub mod insert;
 mod mass;
 pub mod mend;
 mod mesh;
-pub mod pick;
 mod place;
 mod scissor;
 #[cfg(feature = "script")]
@@ -115,10 +114,8 @@ pub mod slide;
 pub mod split;
 pub mod tear;
 mod undo;
-pub mod weld;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};
-pub use draw::{DrawBuffers, DrawChanges};
 pub use edit::{
     ChildFace, Cursor, Edit, Edits, Follower, Followers, Insert, InsertedPoint, Merge, Mix,
     Renumbered, Slide, Split, TornLink, VertexOp,
@@ -136,7 +133,6 @@ pub use mesh::{
 /// The linear algebra crate that defines [`Point`] and [`Vector`], in the version used by this
 /// crate.
 pub use nalgebra;
-pub use pick::RayHit;
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{
     Cut, CutEnd, CutError, CutLayers, CutMethod, CutNeck, CutPieces, CutReport, CutTips, LayerHit,

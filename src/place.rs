@@ -119,20 +119,6 @@ impl Positions {
     pub fn as_slice(&self) -> &[Point] {
         &self.points
     }
-
-    /// Returns the positions of the vertices from index `start` on, rounded to `f32`. These are the entries
-    /// that splits and insertions append to a vertex buffer. With `start = 0` the result has all positions.
-    ///
-    /// # Panics
-    ///
-    /// If there are fewer than `start` vertices.
-    #[must_use]
-    pub fn tail_f32(&self, start: usize) -> Vec<[f32; 3]> {
-        self.points[start..]
-            .iter()
-            .map(|p| [p.x as f32, p.y as f32, p.z as f32])
-            .collect()
-    }
 }
 
 impl Place for Positions {

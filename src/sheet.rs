@@ -119,7 +119,7 @@ impl<V: Followers> Sheet<V> {
     }
 
     /// Returns mutable access to the values that follow the edits, for example to
-    /// [take the changes](crate::DrawBuffers::take_changes) of buffers.
+    /// [take the changes](crate::engine::DrawBuffers::take_changes) of buffers.
     #[must_use]
     pub fn values_mut(&mut self) -> &mut V {
         &mut self.values

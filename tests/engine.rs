@@ -3,11 +3,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use tearmesh::engine::weld::{self, WeldError};
+use tearmesh::engine::{DrawBuffers, DrawChanges, Normals};
 use tearmesh::script::{Step, World};
-use tearmesh::weld::{self, WeldError};
 use tearmesh::{
-    CutMethod, DrawBuffers, DrawChanges, HalfEdgeId, Mesh, PerCorner, Plane, Point, Positions,
-    Scissor, Vector, shapes,
+    CutMethod, HalfEdgeId, Mesh, PerCorner, Plane, Point, Positions, Scissor, Vector, VertexId,
+    shapes,
 };
 
 use crate::random::Random;
@@ -120,6 +121,50 @@ fn buffers_that_follow_are_those_made_anew() {
     assert!(edits > 10 * count && seams > 100 * count && 10 * written < all);
 }
 
+/// The mean normal of the faces of each vertex by area, times the sum of their areas.
+fn spanned(mesh: &Mesh, positions: &Positions) -> Vec<Vector> {
+    let mut sums = vec![Vector::zeros(); mesh.vertex_count()];
+    for corners in mesh.indices().as_chunks::<3>().0 {
+        let [a, b, c] = corners.map(|v| positions.as_slice()[v as usize]);
+        for v in corners {
+            sums[*v as usize] += (b - a).cross(&(c - a)) / 2.0;
+        }
+    }
+    sums
+}
+
+#[test]
+fn normals_that_follow_are_those_made_anew_and_means_by_area() {
+    let (mut edits, mut renewed, mut all) = (0, 0, 0);
+    for script in scripts() {
+        let mut beside: Option<(Normals, Positions)> = None;
+        script.run(|world: &World, step: &Step<'_>| {
+            let (mesh, at) = (&world.mesh, &world.positions);
+            let (normals, before) =
+                beside.get_or_insert_with(|| (Normals::new(mesh, at), at.clone()));
+            world.edits.replay(&mut (&mut *normals, &mut *before));
+            let has_moved = |v: &VertexId| before.at(*v) != at.at(*v);
+            normals.touch(mesh.vertices().filter(has_moved));
+            renewed += normals.update(mesh, at).len();
+            *before = at.clone();
+            let anew = Normals::new(mesh, at);
+            assert_eq!(
+                normals.as_slice(),
+                anew.as_slice(),
+                "after {step:?} of\n{script}"
+            );
+            for (normal, sum) in anew.as_slice().iter().zip(spanned(mesh, at)) {
+                let error = (normal * sum.norm() - sum).norm();
+                let is_unit = (normal.norm() - 1.0).abs() < 1e-14;
+                assert!(error < 1e-12 && (is_unit || sum.norm() < 1e-12));
+            }
+            edits += 1;
+            all += mesh.vertex_count();
+        });
+    }
+    assert!(edits > 10_000 && 4 * renewed < all, "{renewed} of {all}");
+}
+
 /// The buffers that an engine would have of a mesh: a vertex for each pair of a vertex and a value, in
 /// any order.
 fn engine_buffers(work: &Work, random: &mut Random) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
@@ -177,7 +222,8 @@ fn a_mesh_that_was_taken_apart_at_its_seams_is_welded() {
             assert_eq!(to.values().collect::<BTreeSet<_>>().len(), to.len());
             let mut next = 0;
             for (v, place) in welded.vertices.iter().zip(&places) {
-                assert_eq!(welded.positions.tail_f32(v.index())[0], *place);
+                let welded: [f64; 3] = welded.positions.at(*v).coords.into();
+                assert_eq!(welded.map(|x| x as f32), *place);
                 assert!(v.index() <= next, "in order");
                 next = next.max(v.index() + 1);
             }

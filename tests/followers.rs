@@ -4,10 +4,11 @@
 
 mod values;
 
+use tearmesh::engine::DrawBuffers;
 use tearmesh::script::{Script, Step, World};
 use tearmesh::{
-    Blend, Cursor, DrawBuffers, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix,
-    PerCorner, PerFace, PerVertex, Positions, VertexId, shapes, slide, split,
+    Blend, Cursor, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix, PerCorner,
+    PerFace, PerVertex, Positions, VertexId, shapes, slide, split,
 };
 
 use crate::foreign::panic_of;

@@ -4,7 +4,8 @@
 //! and compares distances as fractions. Rays are aimed at places inside faces, at the middles of edges
 //! and at vertices, from near and far, and along the planes of faces.
 
-use tearmesh::{Mesh, Point, Positions, Ray, Vector, VertexId, pick, shapes};
+use tearmesh::engine::pick;
+use tearmesh::{Mesh, Point, Positions, Ray, Vector, VertexId, shapes};
 
 use crate::cases::cases;
 use crate::random::Random;

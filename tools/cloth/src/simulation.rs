@@ -28,7 +28,7 @@ pub use report::{CutId, Event, Picked, Reached};
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
     Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Follower as _, Masses, Mesh, Mix,
-    PerVertex, PositionError, Positions, Scissor, VertexId, mend, pick,
+    PerVertex, PositionError, Positions, Scissor, VertexId, engine::pick, mend,
 };
 
 use self::hand::Hands;

@@ -1,6 +1,7 @@
 //! The buffers that draw a cloth, and what changed in them since they were last uploaded.
 
-use tearmesh::{Cursor, DrawBuffers, Follower, Mesh, Point};
+use tearmesh::engine::DrawBuffers;
+use tearmesh::{Cursor, Follower, Mesh, Point};
 
 /// The vertex and index buffers of a cloth, and the piece of each face.
 ///

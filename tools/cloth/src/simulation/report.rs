@@ -1,6 +1,7 @@
 //! What a simulation reports: events, how far it got, and what a pointer is on.
 
-use tearmesh::{HalfEdgeId, RayHit, VertexId};
+use tearmesh::engine::RayHit;
+use tearmesh::{HalfEdgeId, VertexId};
 
 /// The id of a cut that a [`Simulation`](super::Simulation) made. Cuts are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

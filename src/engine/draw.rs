@@ -29,7 +29,8 @@ use crate::place::Place;
 /// 20 bytes per slot.
 ///
 /// ```
-/// use tearmesh::{shapes, split, DrawBuffers, Edits, FaceId, VertexId};
+/// use tearmesh::engine::DrawBuffers;
+/// use tearmesh::{shapes, split, Edits, FaceId, VertexId};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(2, 2);
 /// let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));

@@ -46,7 +46,8 @@ pub struct RayHit {
 /// overlap, the distances agree up to rounding. A ray in the plane of a face does not meet this face.
 ///
 /// ```
-/// use tearmesh::{insert::Plan, pick, shapes, Edits, Point, Ray, Vector};
+/// use tearmesh::engine::pick;
+/// use tearmesh::{insert::Plan, shapes, Edits, Point, Ray, Vector};
 ///
 /// // Put a vertex where the mouse points.
 /// let (mut mesh, mut positions) = shapes::grid(8, 8);

@@ -4,7 +4,7 @@
 //! An engine's vertex combines a position, a texture coordinate and a normal. Where one of these
 //! differs from face to face, the buffer has several vertices at one place. A mesh with these vertices
 //! would be cut along every seam. Here vertices at one place are welded. The values that differed
-//! belong to the corners, and [`DrawBuffers`](crate::DrawBuffers) turns them back into a vertex buffer.
+//! belong to the corners, and [`DrawBuffers`](crate::engine::DrawBuffers) turns them back into a vertex buffer.
 
 use std::fmt;
 
@@ -30,7 +30,7 @@ pub struct Welded {
 /// in which their places first appear in the buffer.
 ///
 /// ```
-/// use tearmesh::{weld, DrawBuffers, PerCorner};
+/// use tearmesh::engine::{weld, DrawBuffers};
 ///
 /// // A square of two triangles, with a texture seam along the diagonal.
 /// let places = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
@@ -42,7 +42,7 @@ pub struct Welded {
 /// let uv = triangles.as_flattened().iter().map(|&i| uv[i as usize]);
 /// let buffers = DrawBuffers::new(&welded.mesh, uv.collect());
 /// assert_eq!(buffers.len(), 6);
-/// # Ok::<(), tearmesh::weld::WeldError>(())
+/// # Ok::<(), tearmesh::engine::weld::WeldError>(())
 /// ```
 ///
 /// # Errors
