@@ -279,9 +279,9 @@ fn an_interrupted_chart_ends_at_once_with_what_was_done() {
     assert!(folder.read("p.svg").contains("INTERRUPTED"));
 }
 
-/// The errors in the README's table of methods, against the marks of the recorded chart: within rounding.
+/// The README's table of methods and its seconds, against the marks of the recorded chart: within rounding.
 #[test]
-fn the_readme_has_the_errors_of_the_recorded_chart() {
+fn the_readme_has_the_errors_and_costs_of_the_recorded_chart() {
     let read = |name: &str| std::fs::read_to_string(root().join(name)).expect("a file");
     let readme = read("README.md");
     let [chart, summary] = ["svg", "txt"].map(|end| read(&format!("tools/lab/record/guide.{end}")));
@@ -290,20 +290,35 @@ fn the_readme_has_the_errors_of_the_recorded_chart() {
         let (number, _) = rest.split_once(after).expect("its end");
         number.parse().expect("a number")
     };
-    let recorded = |scene: &str, row: &str| -> f64 {
-        let solver = match row.split('`').nth(1) {
-            None => {
-                let (_, of_scene) = summary
-                    .split_once(&format!("\n{scene}: "))
-                    .expect("a scene");
-                return number(of_scene, "other diagonals of the mesh: ", " %");
-            }
-            Some("verlet") => String::new(),
-            Some(other) => format!(" --solver {other}"),
+    // The error of a method at its default in per cent, and its CPU seconds a second.
+    let recorded = |scene: &str, method: &str| -> [f64; 2] {
+        let solver = match method {
+            "verlet" => String::new(),
+            other => format!(" --solver {other}"),
         };
         let mark = format!(">tearmesh tear in.obj --scene {scene}{solver} -o out.obj: error, % ");
-        number(&chart, &mark, "<")
+        let (_, at) = chart.split_once(&mark).expect("a mark");
+        [number(at, "", ", "), number(at, ", ", " CPU s")]
     };
+    let of_the_mesh = |scene: &str| -> f64 {
+        let scene = format!("\n{scene}: ");
+        let (_, of_scene) = summary.split_once(&scene).expect("a scene");
+        number(of_scene, "other diagonals of the mesh: ", " %")
+    };
+    let is_rounded = |said: &str, known: f64| {
+        let said = said.trim_end_matches(" %");
+        let decimals = said.split_once('.').map_or(0, |(_, after)| after.len());
+        let off = said.parse::<f64>().expect("a number") - known;
+        assert!(
+            off.abs() < 0.51 * 10_f64.powi(-(decimals as i32)),
+            "{said} for {known}"
+        );
+    };
+    let second = recorded("rip", "verlet")[1];
+    let (_, said) = readme
+        .split_once("A second of `rip` takes `verlet` ")
+        .expect("said");
+    is_rounded(said.split_once(" s ").expect("seconds").0, second);
     let rows = readme
         .lines()
         .skip_while(|line| !line.starts_with("| `--solver`"));
@@ -311,18 +326,14 @@ fn the_readme_has_the_errors_of_the_recorded_chart() {
     let mut count = 0;
     for row in rows {
         let cells: Vec<&str> = row.split('|').map(str::trim).collect();
-        for (scene, cell) in ["rip", "trouser", "hang"].into_iter().zip(&cells[2..]) {
-            let said = cell.trim_end_matches(" %");
-            let decimals = said
-                .split_once('.')
-                .map_or(0, |(_, decimals)| decimals.len());
-            let unit = 10_f64.powi(-(decimals as i32));
-            let known = recorded(scene, cells[1]);
-            let off = said.parse::<f64>().expect("a number") - known;
-            assert!(
-                off.abs() < 0.51 * unit,
-                "{row} in {scene}: {said} for {known}"
-            );
+        let method = cells[1].split('`').nth(1);
+        for (scene, said) in ["rip", "trouser", "hang"].into_iter().zip(&cells[2..]) {
+            let known =
+                method.map_or_else(|| of_the_mesh(scene), |method| recorded(scene, method)[0]);
+            is_rounded(said, known);
+        }
+        if let Some(method) = method {
+            is_rounded(cells[5], recorded("rip", method)[1] / second);
         }
         count += 1;
     }

@@ -201,7 +201,8 @@ impl Section<'_> {
                 // Hollow below ten times the distance of the references.
                 let both = row.error.zip(row.error_floor);
                 mark.is_hollow = both.is_some_and(|(error, floor)| error < FLOORS * floor);
-                let hover = format!("{}: {} {}", point.command(), self.label, short(y[1], 3));
+                let (at, what, cost_s) = (short(y[1], 3), self.label, short(cost, 3));
+                let hover = format!("{}: {what} {at}, {cost_s} CPU s a second", point.command());
                 layers.extend(Layer::interval(cost, y, mark, hover));
                 if is_default {
                     let name = method.name.to_owned();
