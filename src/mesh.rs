@@ -25,6 +25,7 @@ mod diagnose;
 mod pieces;
 mod torn;
 mod walk;
+mod well_formed;
 
 use std::iter::FusedIterator;
 
