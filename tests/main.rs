@@ -34,6 +34,7 @@ mod oracle;
 mod pick;
 mod planes;
 mod polygons;
+mod proof;
 mod properties;
 #[path = "support/random.rs"]
 mod random;
