@@ -332,7 +332,7 @@ const BOUNDARY: usize = usize::MAX;
 
 /// Shows every connected oriented gluing of `triangles` triangles, up to isomorphism: for each side
 /// (three a face) the side that it is glued to, or [`BOUNDARY`].
-fn for_each_gluing(faces: usize, show: &mut impl FnMut(&[usize])) {
+pub(crate) fn for_each_gluing(faces: usize, show: &mut impl FnMut(&[usize])) {
     let mut opposite = vec![None; 3];
     decide(0, faces, &mut opposite, &mut |opposite| {
         let smallest = (1..opposite.len()).all(|root| *opposite <= *seen_from(opposite, root));
@@ -412,9 +412,8 @@ fn seen_from(opposite: &[usize], root: usize) -> Vec<usize> {
     seen
 }
 
-/// The vertices and triangles of a gluing, if they are a strict mesh whose links are those of
-/// the gluing.
-fn strict_mesh(opposite: &[usize]) -> Option<(usize, Vec<[u32; 3]>)> {
+/// The vertices and triangles of a gluing, which need not be a strict mesh.
+pub(crate) fn glued(opposite: &[usize]) -> (usize, Vec<[u32; 3]>) {
     let end = |side: usize| side / 3 * 3 + (side + 1) % 3;
     let mut joined = Vec::new();
     for (side, &other) in opposite.iter().enumerate() {
@@ -430,7 +429,13 @@ fn strict_mesh(opposite: &[usize]) -> Option<(usize, Vec<[u32; 3]>)> {
     let triangles: Vec<[u32; 3]> = (0..opposite.len() / 3)
         .map(|f| [3 * f, 3 * f + 1, 3 * f + 2].map(|corner| vertex(corner).expect("known") as u32))
         .collect();
-    let vertices = first_corners.len();
+    (first_corners.len(), triangles)
+}
+
+/// The vertices and triangles of a gluing, if they are a strict mesh whose links are those of
+/// the gluing.
+fn strict_mesh(opposite: &[usize]) -> Option<(usize, Vec<[u32; 3]>)> {
+    let (vertices, triangles) = glued(opposite);
     if !is_strict(vertices, &triangles) {
         return None;
     }

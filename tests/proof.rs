@@ -5,9 +5,11 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use tearmesh::insert::Point;
 use tearmesh::script::{Step, World};
 use tearmesh::{Edit, FaceId, HalfEdgeId, MergeRefusal, Mesh, SplitRefusal, VertexId};
 
+use crate::exhaustive::{for_each_gluing, glued};
 use crate::scripts::script;
 
 /// How many scripts are judged, and how many faces a mesh may have that is.
@@ -22,11 +24,66 @@ fn scripts_are_judged_by_the_proof() {
     let mut judge = judge.arg("judge").stdin(Stdio::piped()).spawn();
     let judge = judge.as_mut().expect("a shell");
     let mut lines = BufWriter::new(judge.stdin.take().expect("a pipe"));
+    write_builds(&mut lines).expect("the judge reads on");
     for seed in 0..SCRIPTS {
         write_script(&mut lines, seed).expect("the judge reads on");
     }
     drop(lines);
     assert!(judge.wait().expect("an end").success(), "the proof objects");
+}
+
+/// All lists of one to three triangles, up to the names of their vertices, with all of these and with one
+/// too few; and every connected gluing of up to four.
+fn write_builds(to: &mut impl Write) -> std::io::Result<()> {
+    let mut told = Ok(());
+    let mut write = |vertices: usize, triangles: &[[u32; 3]]| {
+        if told.is_ok() {
+            told = write_build(to, vertices, triangles);
+        }
+    };
+    for faces in 1..=3 {
+        for_each_naming(3 * faces, &mut Vec::new(), &mut |corners| {
+            let vertices = corners.iter().max().map_or(0, |&last| last as usize + 1);
+            write(vertices, corners.as_chunks().0);
+            write(vertices - 1, corners.as_chunks().0);
+        });
+    }
+    for faces in 1..=4 {
+        for_each_gluing(faces, &mut |opposite| {
+            let (vertices, triangles) = glued(opposite);
+            write(vertices, &triangles);
+        });
+    }
+    told
+}
+
+/// Shows all ways to name so many corners by vertices, where each vertex is met before the next one.
+fn for_each_naming(corners: usize, named: &mut Vec<u32>, show: &mut impl FnMut(&[u32])) {
+    if named.len() == corners {
+        return show(named);
+    }
+    for vertex in 0..=named.iter().max().map_or(0, |last| last + 1) {
+        named.push(vertex);
+        for_each_naming(corners, named, show);
+        named.pop();
+    }
+}
+
+fn write_build(
+    to: &mut impl Write,
+    vertices: usize,
+    triangles: &[[u32; 3]],
+) -> std::io::Result<()> {
+    let mesh = Mesh::build(vertices, triangles).ok();
+    let outcome = if mesh.is_some() {
+        "accepted"
+    } else {
+        "refused"
+    };
+    write!(to, "build {outcome} {vertices} {}", triangles.len())?;
+    write_list(to, triangles.as_flattened())?;
+    writeln!(to)?;
+    mesh.map_or(Ok(()), |mesh| write_state(to, &mesh))
 }
 
 fn write_script(to: &mut impl Write, seed: u64) -> std::io::Result<()> {
@@ -57,13 +114,17 @@ fn write_step(
             Edit::Merge(merge) => {
                 write!(to, "merge {} {}", merge.kept.index(), merge.gone.index())?;
             }
-            Edit::Insert(_) => write!(to, "insert")?,
+            Edit::Insert(_) => write!(to, "insert{}", place(step))?,
             Edit::Slide(_) => continue,
         }
         writeln!(to)?;
     }
     *seen = world.edits.cursor().number();
     write_refusal(to, mesh, step)?;
+    write_state(to, mesh)
+}
+
+fn write_state(to: &mut impl Write, mesh: &Mesh) -> std::io::Result<()> {
     write!(to, "state {} {}", mesh.face_count(), mesh.vertex_count())?;
     let links = |h| mesh.pair_or_ghost(h).map_or(-1, |g| g.index() as i64);
     write_list(to, mesh.half_edges().map(|h| mesh.origin(h).index()))?;
@@ -76,6 +137,18 @@ fn write_step(
         write_list(to, walk)?;
     }
     writeln!(to)
+}
+
+/// Where a plan puts its point, if it has one alone; the model has no plan of several.
+fn place(step: &Step<'_>) -> String {
+    let Step::Insert { plan, .. } = step else {
+        return String::new();
+    };
+    match (plan.points(), plan.chords()) {
+        (&[Point::Edge { h, .. }], []) => format!(" edge {}", h.index()),
+        (&[Point::Face { f, .. }], []) => format!(" face {}", f.index()),
+        _ => String::new(),
+    }
 }
 
 /// A split that would leave a side empty, and a merge of vertices of two roots, or of one vertex.

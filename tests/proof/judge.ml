@@ -3,11 +3,15 @@
    Standard input has the lines that tests/proof.rs writes:
 
      script                          the states that follow are those of a new mesh
+     build accepted VERTICES FACES … triangles, which were built or
+     build refused VERTICES FACES …  refused
      split OLD NEW CORNER …          corners went from one vertex to a new one
      merge KEPT GONE                 two vertices became one
      refused split V CORNER …        a split that was refused, since a side would be empty
      refused merge V W               a merge that was refused, since the roots differ or the vertices are one
-     insert                          an insertion; the next state is judged by the checker alone
+     insert face F                   a vertex was put in a face
+     insert edge H                   a vertex was put on an edge, or on both sides of a torn one
+     insert                          several were; the next state is judged by the checker alone
      state FACES VERTICES …          origins, links (-1: none), torn marks, and each vertex's walk, with its length
 
    Each state must be accepted by the checker and be the one that the model has, each walk must be the model's, in its
@@ -15,7 +19,7 @@
 open Model
 
 let states = ref 0 and edits = ref 0 and unjudged = ref 0 and refusals = ref 0 and walks = ref 0
-let largest = ref 0 and faults = ref 0 and line = ref 0
+let builds = ref 0 and accepted = ref 0 and largest = ref 0 and faults = ref 0 and line = ref 0
 
 let fault what =
   incr faults;
@@ -102,12 +106,20 @@ let judge model words =
     model in
   match words.(0), if Array.length words > 1 then words.(1) else "" with
   | "script", _ -> None
+  | "build", outcome ->
+    incr builds;
+    let origin = Array.init (3 * int 3) (fun h -> int (h + 4)) in
+    let built = build (int 2) (int 3) (fun h -> if h < Array.length origin then origin.(h) else 0) in
+    if (outcome = "accepted") <> (built <> None) then fault ("the model disagrees: " ^ outcome);
+    Option.map (fun m -> incr accepted; frozen m) built
   | "state", _ -> Some (judge_state model words)
   | "split", _ ->
     let after = edit "split" (fun m -> split m (int 1) (among 3)) in
     Option.iter (fun m -> if m.vertices <> int 2 + 1 then fault "the new vertex is not the last one") after;
     after
   | "merge", _ -> edit "merge" (fun m -> merge m (int 1) (int 2))
+  | "insert", "face" -> edit "insertion in a face" (fun m -> insert_in_face m (int 2))
+  | "insert", "edge" -> edit "insertion on an edge" (fun m -> insert_on_edge m (int 2))
   | "insert", _ -> incr edits; incr unjudged; None
   | "refused", "split" -> refusal "split" (fun m -> split m (int 2) (among 3))
   | "refused", "merge" -> refusal "merge" (fun m -> merge m (int 2) (int 3))
@@ -122,6 +134,7 @@ let () =
        model := judge !model words
      done
    with End_of_file -> ());
+  Printf.printf "%d of %d lists of triangles accepted, " !accepted !builds;
   Printf.printf "%d states of up to %d faces, %d walks, %d edits (%d of them not by the model), %d refusals: %d faults\n"
     !states !largest !walks !edits !unjudged !refusals !faults;
   exit (if !faults = 0 && !states > 0 then 0 else 1)
