@@ -2,6 +2,7 @@
 //!
 //! * [`link`]: build a mesh, split it, walk around it, cut it, and keep your own data in step.
 //! * [`paper`]: where this project differs from the paper that it implements, and why.
+//! * [`proven`]: what is proven, what is tested, and what is promised.
 //! * [`peers`]: how it compares with other software.
 //! * [`semver`]: what a version number promises.
 //!
@@ -18,6 +19,9 @@ pub mod paper {}
 #[expect(clippy::doc_markdown, reason = "names of other programs are no code")]
 #[doc = include_str!("guide/peers.md")]
 pub mod peers {}
+
+#[doc = include_str!("guide/proven.md")]
+pub mod proven {}
 
 #[doc = include_str!("guide/semver.md")]
 pub mod semver {}
