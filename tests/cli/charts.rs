@@ -67,8 +67,8 @@ fn hold(name: &str) -> (Vec<Vec<String>>, String) {
     assert!(chart.starts_with("<svg ") && chart.contains(&command));
     assert!(!chart.contains("NaN"), "{chart}");
     for (all, words) in [&chart, &said].into_iter().zip(words) {
-        for word in words.split('|') {
-            assert!(all.contains(word), "no {word}\n{all}");
+        for word in words.split('|').map(|word| word.replace("\\n", "\n")) {
+            assert!(all.contains(&word), "no {word}\n{all}");
         }
     }
     for row in rows.split('|') {
@@ -143,47 +143,10 @@ fn pareto() {
     hold("pareto");
 }
 
+/// What every failure is told by: the whole summary.
 #[test]
-fn stability_tells_every_failure_by_its_code() {
-    let (table, said) = hold("stability");
-    assert!(!said.contains(", expected "), "{said}");
-    assert!(!column(&table, "is_silent").contains(&"true"));
-    assert!(!column(&table, "agrees").contains(&"false"));
-    let [places, methods, codes] = ["where", "method", "codes"].map(|name| column(&table, name));
-    let codes = |scene: &str, method: &str| {
-        let is = |i: &usize| places[*i] == scene && methods[*i] == method;
-        let row = (0..places.len()).find(is).expect("a row");
-        let codes = codes[row].split(" | ").filter(|code| !code.is_empty());
-        codes.collect::<Vec<_>>()
-    };
-    for (scene, method, code) in [
-        ("hang", "xpbd", "W-SIM-SOFT"),
-        ("hang", "pbd", "W-SIM-RIGID"),
-        ("long steps", "pbd", "W-SIM-COARSE"),
-        ("long steps", "verlet", "E-SIM-UNSTABLE"),
-        ("short steps", "pbd", "W-SIM-RIGID"),
-        ("ringing", "implicit", "W-SIM-DAMPED"),
-        ("crushed", "provot", "W-SIM-ENERGY"),
-        ("wind", "implicit", "E-SIM-UNSTABLE"),
-        ("too far apart", "provot", "W-SIM-LIMIT"),
-    ] {
-        let codes = codes(scene, method);
-        assert!(codes.contains(&code), "{scene}, {method}: {codes:?}");
-    }
-    assert_eq!(codes("short steps", "verlet"), Vec::<&str>::new());
-    let [outcomes, codes] = ["measured", "codes"].map(|name| column(&table, name));
-    let (mut dissipated, mut all) = (0, 0);
-    for (outcome, codes) in outcomes.into_iter().zip(codes) {
-        let is_damped = codes.contains("W-SIM-DAMPED");
-        let is_dissipated = outcome == "dissipated";
-        assert!(!is_dissipated || is_damped, "{codes}");
-        assert!(!is_damped || outcome != "ok", "{codes}");
-        dissipated += usize::from(is_dissipated);
-        all += usize::from(is_damped);
-    }
-    assert!(dissipated > 5 && all > dissipated, "{dissipated} of {all}");
-    let damped = "crushed, implicit: dissipated; W-SIM-DAMPED";
-    assert!(said.contains(damped), "{said}");
+fn stability() {
+    hold("stability");
 }
 
 #[test]
@@ -203,17 +166,6 @@ fn tear() {
 }
 
 #[test]
-fn tear_without_seeds_has_strips_alone() {
-    let folder = Folder::new();
-    let line = "chart tear --strips 4,6 --seeds 0 -q --csv t.csv";
-    assert_eq!(folder.done(line), "");
-    let table = fields(&folder.read("t.csv"));
-    let mut rules = column(&table, "rule").into_iter();
-    assert_eq!(rules.len(), 4);
-    assert!(rules.all(|rule| !rule.is_empty()));
-}
-
-#[test]
 fn cut() {
     let (table, _) = hold("cut");
     let cuts = column(&table, "cuts").into_iter();
@@ -227,21 +179,6 @@ fn fig7() {
     let (table, _) = hold("fig7");
     assert_eq!(table.len(), 1 + 2 * 3 * 10);
     assert!(!column(&table, "splits").contains(&"0"));
-}
-
-#[test]
-fn files_that_are_no_table_are_refused_before_runs() {
-    let folder = Folder::new();
-    folder.done("chart fig7 --size 4 -q --csv fig7.csv");
-    let table = folder.read("fig7.csv");
-    folder.write("short.csv", &table[..table.len() - 9]);
-    folder.write("words.csv", table.replace(",ok\n", ",fine\n"));
-    for name in ["short", "words"] {
-        let said = folder.ends(&format!("chart fig7 --from {name}.csv -o x.svg"), 3);
-        assert!(said.contains("E-CHART-TABLE"), "{said}");
-        assert!(!said.contains(" runs, about "), "{said}");
-    }
-    assert!(!folder.path("x.svg").exists());
 }
 
 /// All of it would take hours.

@@ -5,32 +5,6 @@ use crate::harness::Folder;
 use crate::harness::interrupted_at;
 use crate::plain::Plain;
 
-/// Whoever follows a vertex by its number through the frames follows one vertex.
-#[test]
-fn corners_of_frames_change_only_to_new_vertices() {
-    let folder = Folder::new();
-    folder.done("tear sheet.obj --scene rip --frames f -q -o torn.obj");
-    let frames = folder.list("f");
-    let mut frames = frames
-        .iter()
-        .map(|name| Plain::read(&folder.read(&format!("f/{name}"))));
-    let (mut moved, mut before) = (0, frames.next().expect("a frame"));
-    for now in frames {
-        assert!(now.vertices.len() >= before.vertices.len());
-        let corners = before
-            .faces
-            .iter()
-            .flatten()
-            .zip(now.faces.iter().flatten());
-        for (_, is) in corners.filter(|(was, is)| was != is) {
-            moved += 1;
-            assert!(*is >= before.vertices.len(), "it was another vertex before");
-        }
-        before = now;
-    }
-    assert!(moved > 100, "{moved}");
-}
-
 #[test]
 fn frames_of_one_topology_have_the_same_corners() {
     let folder = Folder::new();

@@ -153,12 +153,17 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
     }
 
     // Mended it is what it was; cut again, what the file without a gap is.
+    let mut whole = Vec::new();
     for options in ["", " --simplify"] {
         let mend = format!("tearmesh mend -{options} -q -o -");
         let [(_, one, _), (_, other, _)] =
             [&gapped, &plain].map(|bytes| in_memory(&mend, bytes, false));
         assert!(one == other, "{name} {line}{options}");
+        whole = one;
     }
+    let miss = "tearmesh cut - --plane 1e9,0,0:1,0,0 --allow-miss -q -o -";
+    let (_, uncut, _) = in_memory(miss, mesh, false);
+    assert!(whole == uncut, "{name} {line}");
     let again = format!("tearmesh cut - {second} --gap 0 --allow-miss -q -o -");
     let [(_, one, _), (_, other, _)] =
         [&gapped, &plain].map(|bytes| in_memory(&again, bytes, false));
@@ -244,6 +249,8 @@ fn real_files_with_a_gap_are_what_they_were() {
         let slit = format!("--rays {from},{y},{above}:0,0,-1 {to},{y},{above}:0,0,-1");
         gapped_cut(&name, &bytes, &plane, ("5%", &across), &mut tally);
         gapped_cut(&name, &bytes, &slit, ("60%", &across), &mut tally);
+        let partition = plane + " --method partition";
+        gapped_cut(&name, &bytes, &partition, ("5%", &across), &mut tally);
     }
     println!("{tally:?}");
     assert!(tally.made > 40);

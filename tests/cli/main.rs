@@ -24,7 +24,6 @@ mod in_process;
 mod inputs;
 #[cfg(unix)]
 mod killed;
-mod losses;
 mod map;
 #[cfg(target_os = "linux")]
 mod memory;
@@ -37,10 +36,7 @@ mod progress;
 #[path = "../support/random.rs"]
 #[allow(dead_code, reason = "shared with other tests")]
 mod random;
-mod shell;
-mod step;
 mod tear;
-mod through;
 mod transcripts;
 mod units;
 #[path = "../support/vectors.rs"]

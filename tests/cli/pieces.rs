@@ -3,7 +3,6 @@
 //! The files are read by a few lines that share no code with the reader of the library.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 
 use tearmesh_obj::Document;
 
@@ -98,9 +97,6 @@ fn check(folder: &Folder, whole: &str, pieces: &str) -> Vec<usize> {
     sizes
 }
 
-const CROSS: &str =
-    "--rays 0.3,1,5:0,0,-1 0.3,0,5:0,0,-1 --rays 1,0.1,5:0,0,-1 0,0.1,5:0,0,-1 --through";
-
 /// A box of quads with a name for each side, texture coordinates and normals, extra numbers and seams.
 const BOX: &str = include_str!("box.obj");
 
@@ -142,79 +138,4 @@ fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
         }
     }
     assert!(fans > 0, "a vertex of several fans");
-}
-
-#[test]
-fn pieces_of_a_rerun_replace_those_of_an_earlier_run() {
-    let folder = Folder::new();
-    let cut = |options: &str, exit| {
-        let line = format!("cut flag.obj {options} --pieces p -o p.obj");
-        folder.ends(&line, exit)
-    };
-    let first = cut(CROSS, 0);
-    folder.write("p/notes.txt", "mine");
-    assert_eq!(cut(CROSS, 0), first);
-    assert_eq!(check(&folder, "p.obj", "p").len(), 4);
-    // Fewer pieces leave none of the old ones, and a run that cuts nothing leaves all.
-    let half = "--plane 0.3,0,0:1,0,0";
-    cut(half, 0);
-    assert_eq!(check(&folder, "p.obj", "p").len(), 2);
-    let left = "notes.txt piece_00000.obj piece_00001.obj pieces.json";
-    assert_eq!(folder.list("p").join(" "), left);
-    cut("--plane 0,9,0:0,1,0", 1);
-    assert_eq!(folder.list("p").join(" "), left);
-    assert_eq!(folder.read("p/notes.txt"), "mine");
-    // A piece that the list does not name is not replaced.
-    folder.write("p/piece_00002.obj", "strange");
-    let said = cut(CROSS, 2);
-    let strange = "`p/piece_00002.obj` is not of an earlier run";
-    assert!(said.contains(strange), "{said}");
-    assert_eq!(folder.read("p/piece_00002.obj"), "strange");
-}
-
-#[test]
-fn a_piece_replaces_no_other_file() {
-    let folder = Folder::new();
-    fs::create_dir(folder.path("p")).expect("a folder");
-    let line = format!("tearmesh cut flag.obj {CROSS} --pieces");
-    folder.write("p/piece_00001.obj", folder.read("flag.obj"));
-    folder.write("p/piece_00002.obj", "0,2,5:0,0,-1 0,-2,5:0,0,-1\n");
-    let of_piece = line.replace("flag.obj", "p/piece_00001.obj");
-    let of_file = "tearmesh cut flag.obj --rays-file p/piece_00002.obj --pieces";
-    for (line, options, what) in [
-        (&*line, "p -o p/piece_00003.obj", "the output"),
-        (&line, "p -o x.obj --report p/pieces.json", "the report"),
-        (&line, "p -o x.obj --seam p/piece_00000.obj", "the seam"),
-        (&line, "p -o x.obj --map p/piece_00000.obj", "the map"),
-        (&of_piece, "p -o x.obj", "the input"),
-        (of_file, "p -o x.obj", "the rays"),
-    ] {
-        let said = folder.ends(&format!("{line} {options}"), 2);
-        assert!(
-            said.contains(&format!("a piece would replace {what}")),
-            "{said}"
-        );
-    }
-    folder.ends(&format!("{line} - -o x.obj"), 2);
-    for (options, is_there) in [("--dry-run", false), ("-o x.obj", true)] {
-        folder.done(&format!("{line} new {options}"));
-        assert_eq!(folder.path("new").is_dir(), is_there);
-    }
-    // Neither is one that no list of ours names, nor a list that is none of ours.
-    fs::create_dir(folder.path("q")).expect("a folder");
-    let list = r#"{"schema": "tearmesh.pieces/1", "pieces": [{"file": "piece_00001.obj"}]}"#;
-    for (to, list, strange) in [
-        ("p", "{}", "piece_00001.obj"),
-        ("p", list, "piece_00002.obj"),
-        ("q", "{}", "pieces.json"),
-    ] {
-        folder.write(&format!("{to}/pieces.json"), list);
-        let said = folder.ends(&format!("{line} {to} -o x.obj"), 2);
-        let message = format!("`{to}/{strange}` is not of an earlier run of --pieces");
-        assert!(said.contains(&message), "{said}");
-        assert_eq!(folder.read(&format!("{to}/pieces.json")), list);
-    }
-    assert_eq!(folder.read("p/piece_00001.obj"), folder.read("flag.obj"));
-    folder.ends("cut flag.obj --plane 0,9,0:0,1,0 --pieces none -o x.obj", 1);
-    assert!(!folder.path("none").exists(), "nothing was cut");
 }

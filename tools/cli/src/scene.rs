@@ -143,16 +143,6 @@ mod tests {
         }
     }
 
-    /// So that whoever mends one finds no other behind it.
-    #[test]
-    fn all_faults_of_a_table_are_found() {
-        let text = "[fabric]\nstretch_n_per_m = 0\nwarp = 3\nwoof = 1\n[[cut]]\nat_s = -1\nrays = [\"1\"]\n";
-        let codes = ["RANGE", "TYPE", "KEY", "RANGE"].map(|code| format!("E-SCENE-{code}"));
-        let mut found = read(text).expect_err("faults");
-        assert_eq!(found.pop(), Some("E-RAY-SYNTAX"));
-        assert_eq!(found, codes);
-    }
-
     #[test]
     fn garbage_is_refused_and_never_panics() {
         let good = [
