@@ -3,9 +3,8 @@
 
 use tearmesh::{Point, mend};
 
-use super::random::Random;
 use super::tables::{APART, whole};
-use super::work::{Work, assert_is_read_again, files};
+use super::work::Work;
 use super::{read, rewritten, text};
 
 /// A vertex with two fans, as a finite cut leaves it, is two `v`: both stand apart.
@@ -39,51 +38,6 @@ fn copies_stand_where_their_vertex_does() {
         let bytes = rewritten(moved.as_bytes());
         assert_eq!(rewritten(&bytes), bytes);
     }
-}
-
-/// Random cuts with vertices that stand apart at random, cut on and mended in another session.
-#[test]
-fn a_gap_changes_nothing_but_what_is_written() {
-    let mut apart = 0;
-    for (name, bytes) in files() {
-        for seed in 0..6 {
-            let mut random = Random(seed);
-            let document = read(&bytes);
-            let mut work = Work::on(&document);
-            work.tear(&mut random, 12, true);
-            work.torn.next_cut();
-            let plain = work.written();
-            let mut points = work.positions.as_slice().to_vec();
-            for point in &mut points {
-                let height = random.next();
-                point.z += if height < 0.4 { 0.01 + height } else { 0.0 };
-            }
-            work.torn.set_apart(points);
-            let written = work.written();
-            let name = format!("{name} {seed}");
-            apart += text(&written).matches("#~ apart ").count();
-            let again = read(&written);
-            assert_eq!(again.diagnostics(), read(&plain).diagnostics(), "{name}");
-            assert_eq!(again.positions(), read(&plain).positions(), "{name}");
-            assert_is_read_again(&work, &again, &name);
-            assert_eq!(rewritten(&written), written, "{name}");
-            // The same is done to both, and then all is sewn and what was inserted taken out.
-            let plain = read(&plain);
-            let [one, other] = [&again, &plain].map(|document| {
-                let mut random = Random(seed + 100);
-                let mut work = Work::on(document);
-                work.tear(&mut random, 6, true);
-                let written = work.written();
-                assert_eq!(rewritten(&written), written, "{name}");
-                work.sew_apart(&mend::stitches(&work.mesh, |_| true), 1.0);
-                let simple = read(work.simplified().0.as_bytes());
-                (simple.positions().to_vec(), simple.triangles().to_vec())
-            });
-            assert_eq!(one, other, "{name}");
-        }
-    }
-    println!("{apart} vertices apart");
-    assert!(apart > 1000, "{apart}");
 }
 
 /// What is merged stands where it is; a simulation that moves vertices leaves none apart.

@@ -13,6 +13,7 @@ mod corpus;
 mod differential;
 #[path = "../support/digest.rs"]
 mod digest;
+mod digits;
 mod edited;
 mod fuzz;
 #[path = "../support/inputs.rs"]

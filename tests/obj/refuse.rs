@@ -63,14 +63,6 @@ fn the_place_of_a_forward_reference_outlives_its_text() {
 }
 
 #[test]
-fn an_empty_file_has_no_face() {
-    check(
-        b"",
-        "E-OBJ-EMPTY 1:1+0 this file has no face |  | a cut needs faces",
-    );
-}
-
-#[test]
 fn twenty_megabytes_on_one_line() {
     let million = |start: &str| start.to_owned() + &" 1".repeat(10 << 20);
     let too_many = "E-OBJ-COUNT 1:35+1 a vertex has at most 16 numbers | one too many";

@@ -3,15 +3,15 @@
 use std::collections::BTreeMap;
 
 use tearmesh::insert::Plan;
-use tearmesh::{CutMethod, HalfEdgeId, Point, Ray, Scissor, Vector, mend};
+use tearmesh::{HalfEdgeId, Point, mend};
 use tearmesh_obj::Document;
 
 use super::random::Random;
-use super::work::{Work, assert_is_read_again, file_of, files, undone_later};
+use super::work::{Work, assert_is_read_again, files};
 use super::{read, rewritten, text};
 
 /// What must hold of a mesh that is written, read and written again.
-fn survives(work: &Work<'_>, name: &str) -> Vec<u8> {
+pub(crate) fn survives(work: &Work<'_>, name: &str) -> Vec<u8> {
     let written = work.written();
     let again = read(&written);
     // No quad is left when a document is written.
@@ -30,28 +30,6 @@ fn survives(work: &Work<'_>, name: &str) -> Vec<u8> {
     assert_eq!(followed.joined(), work.joined(), "{name}");
     assert_eq!(text(&followed.written()), text(&written), "{name}");
     written
-}
-
-#[test]
-fn random_edits_survive_files_and_add_to_earlier_ones() {
-    for (name, bytes) in files() {
-        for seed in 0..if name == "late" { 60 } else { 6 } {
-            let mut random = Random(seed);
-            let mut bytes = bytes.clone();
-            // Each file is cut again: its record is read, extended and written.
-            for round in 0..3 {
-                let name = format!("{name}, seed {seed}, round {round}");
-                let document = read(&bytes);
-                let mut work = Work::on(&document);
-                for _ in 0..3 {
-                    work.tear(&mut random, 12, true);
-                    work.torn.next_cut();
-                }
-                assert!(work.mesh.check().is_empty(), "{name}");
-                bytes = survives(&work, &name);
-            }
-        }
-    }
 }
 
 #[test]
@@ -168,56 +146,4 @@ vt 6 6\nvn 1 0 0\nvn 0 1 0\nf 1/1/1 2/2/1 3/3/2\nf 3/3/2 2/2/1 4/4/2\nf 3/5/2 4/
             "2 corners of one face and 3 of the other"
         );
     }
-}
-
-/// A hundred meshes: cut straight or along edges, written, read, cut again across the first cut,
-/// written, read, mended, simplified: the bytes of the mesh that was never cut.
-#[test]
-fn a_hundred_meshes_are_cut_twice_through_files_and_undone() {
-    let shapes = [
-        tearmesh::shapes::grid(8, 7),
-        tearmesh::shapes::fan(9, true),
-        tearmesh::shapes::tube(9, 6),
-        tearmesh::shapes::torus(11, 8),
-        tearmesh::shapes::octahedron(),
-    ];
-    let (mut torn_twice, mut slid) = (0, 0);
-    for (mesh, at) in &shapes {
-        let file = text(&rewritten(file_of(mesh, at).as_bytes()));
-        for seed in 0..21 {
-            let mut random = Random(seed);
-            let mut bytes = file.clone().into_bytes();
-            let mut cuts = 0;
-            for i in 0..2 {
-                let document = read(&bytes);
-                let mut work = Work::on(&document);
-                let points = work.positions.as_slice();
-                let mut near = || {
-                    let [x, y, z] = [(); 3].map(|()| random.next() - 0.5);
-                    points[random.below(points.len())] + Vector::new(x, y, z) * 0.9
-                };
-                let [eye, p, q] = [near() + Vector::new(0.0, 0.0, 3.0), near(), near()];
-                let rays = [p, q].map(|p| Ray::new(eye, p - eye).expect("a ray"));
-                let scissor = Scissor::new(rays[0], rays[1]).expect("a plane");
-                let method = match (seed + i) % 3 {
-                    0 => CutMethod::Partition,
-                    _ => CutMethod::Exact,
-                };
-                let slides = seed % 4 < 2 && method == CutMethod::Exact;
-                let snap = if slides { 0.3 } else { Scissor::SNAP };
-                let scissor = scissor.through(seed % 2 == 0).snap(snap).snap_move(slides);
-                let splits = work.edit(|mesh, positions, edits| {
-                    let cut = scissor.cut_measured(method, mesh, positions, edits);
-                    cut.expect("positions are in step").1.splits
-                });
-                slid += work.slid();
-                cuts += usize::from(splits > 0);
-                bytes = work.written();
-            }
-            assert_eq!(undone_later(&bytes), file, "seed {seed}");
-            torn_twice += usize::from(cuts == 2);
-        }
-    }
-    println!("105 meshes, {torn_twice} of them cut twice, and {slid} vertices that slid");
-    assert!(torn_twice >= 60 && slid > 50, "{torn_twice} {slid}");
 }

@@ -94,19 +94,6 @@ fn concave_shapes_are_covered_without_overlap() {
 }
 
 #[test]
-fn a_convex_polygon_is_a_fan_from_its_first_corner() {
-    let hexagon = polygon("2 0, 1 2, -1 2, -2 0, -1 -2, 1 -2");
-    let fan: Vec<[u32; 3]> = (1..5).map(|i| [0, i, i + 1]).collect();
-    let flat = |[u, v]: [f64; 2]| [u, v, 0.0];
-    let turned = |[u, v]: [f64; 2]| [v, u, 0.0];
-    let both: [Vec<_>; 2] = [
-        hexagon.iter().copied().map(flat).collect(),
-        hexagon.iter().copied().map(turned).collect(),
-    ];
-    assert_eq!(both.map(|placed| triangles(&placed)), [fan.clone(), fan]);
-}
-
-#[test]
 fn the_largest_polygon_takes_no_time_even_at_its_worst() {
     // A saw whose every other corner is reflex, and every triangle of three neighbours
     // full of others: the teeth lean over each other.
@@ -142,22 +129,7 @@ fn untangle(polygon: &mut [[f64; 2]]) {
     }
 }
 
-/// Two quads on the same three vertices in a row: 4 is a vertex of these two faces alone, and one of them is
-/// cut along its other diagonal.
-#[test]
-fn quads_sharing_two_edges_get_different_diagonals() {
-    let faces = "f 1 2 3 4\nf 1 4 3 5\n";
-    // The first is a dart, whose other diagonal lies outside, so the second gives way.
-    let dart = "v 0 0 0\nv 4 -2 0\nv 1 0 0\nv 4 2 0\nv -1.25 -1 0\n";
-    let document = read(format!("{dart}{faces}").as_bytes());
-    assert_eq!(
-        document.triangles(),
-        [[0, 1, 2], [0, 2, 3], [0, 3, 4], [3, 2, 4]]
-    );
-    assert_eq!(document.mesh().map(|mesh| mesh.face_count()), Ok(4));
-}
-
-/// Such quads, and one whose usual diagonal is an edge of two triangles, wherever in a file they stand.
+/// Quads on the same three vertices in a row, and one whose usual diagonal is an edge of two triangles, wherever in a file they stand.
 #[test]
 fn every_colliding_diagonal_is_found_under_any_numbers() {
     let groups = 200;

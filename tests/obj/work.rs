@@ -5,8 +5,8 @@ use std::path::Path;
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    CutMethod, Edit, Edits, FaceId, HalfEdgeId, Mesh, Point, Positions, Ray, Scissor, Vector,
-    VertexId, mend, slide, split,
+    CutMethod, Edits, FaceId, HalfEdgeId, Mesh, Point, Positions, Ray, Scissor, Vector, VertexId,
+    mend, slide, split,
 };
 use tearmesh_obj::{Document, TornDocument};
 
@@ -245,12 +245,6 @@ impl<'d> Work<'d> {
             self.slide(ends[0].index(), ends[1].index(), t);
         }
         is_alone
-    }
-
-    /// How many vertices have slid.
-    pub(crate) fn slid(&self) -> usize {
-        let edits = self.edits.iter();
-        edits.filter(|edit| matches!(edit, Edit::Slide(_))).count()
     }
 
     /// What is written once all is taken out that can be; and how many vertices stay for edits since they

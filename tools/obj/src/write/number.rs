@@ -34,32 +34,3 @@ pub(super) fn write_integer(out: &mut Vec<u8>, mut number: u64) {
     }
     out.extend_from_slice(&digits[start..]);
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn text(number: f64) -> String {
-        let mut out = Vec::new();
-        write_number(&mut out, number);
-        String::from_utf8(out).expect("digits are ASCII")
-    }
-
-    #[test]
-    fn numbers_read_back_as_the_same_bits() {
-        let mut bits = 1_u64;
-        for _ in 0..200_000 {
-            bits = bits
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            // Random bits, and numbers of a size that models have.
-            let small = ((bits >> 40) as f64 - 8e6) / 1e6 * [1.0, 1e-6, 1e9][(bits % 3) as usize];
-            for number in [f64::from_bits(bits), small] {
-                if number.is_finite() {
-                    let back: f64 = text(number).parse().expect("a number");
-                    assert_eq!(back.to_bits(), number.to_bits(), "{number:e}");
-                }
-            }
-        }
-    }
-}
