@@ -45,10 +45,13 @@ fn cast(mesh: &Mesh, points: &[Point], eye: Point, direction: Vector) -> Answer 
     }
 }
 
+/// Nearly upward, and aslant.
+const UP: Vector = Vector::new(0.1, 1.0, 0.2);
+
 /// The direction through the middle of a pixel, by angles.
 fn direction(eye: &Eye, [width, height]: [f64; 2], [x, y]: [f64; 2]) -> Vector {
     let forward = (eye.at - eye.eye).normalize();
-    let right = forward.cross(&Vector::y()).normalize();
+    let right = forward.cross(&UP).normalize();
     let up = right.cross(&forward);
     let half = (eye.degrees.to_radians() / 2.0).tan();
     let across = (2.0 * (x + 0.5) / width - 1.0) * half * width / height;
@@ -59,7 +62,7 @@ fn direction(eye: &Eye, [width, height]: [f64; 2], [x, y]: [f64; 2]) -> Vector {
 /// Compares all pixels; gives how many there were, and for how many rounding may decide.
 fn compare(mesh: &Mesh, positions: &Positions, eye: &Eye) -> Result<[usize; 2], TestCaseError> {
     let size = PictureSize::new(23, 17).expect("a size");
-    let camera = Camera::new([eye.eye, eye.at], Vector::y(), eye.degrees, size.as_f64());
+    let camera = Camera::new([eye.eye, eye.at], UP, eye.degrees, size.as_f64());
     let Ok(camera) = camera else {
         return Ok([0, 0]); // It looks straight up or down.
     };
@@ -68,6 +71,9 @@ fn compare(mesh: &Mesh, positions: &Positions, eye: &Eye) -> Result<[usize; 2], 
     for (at, &face) in seen.iter().enumerate() {
         let place = [at % 23, at / 23].map(|x| x as f64);
         let direction = direction(eye, size.as_f64(), place);
+        let ray = camera.ray(place.map(|x| x + 0.5)).expect("a ray");
+        let off = ray.direction().normalize() - direction.normalize();
+        prop_assert!(ray.origin() == eye.eye && off.norm() < 1e-12, "{:?}", off);
         let answer = cast(mesh, positions.as_slice(), eye.eye, direction);
         counts[usize::from(answer == Answer::Close)] += 1;
         if let Answer::Face(expected) = answer {

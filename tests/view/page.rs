@@ -2,6 +2,7 @@
 
 use std::io::Read as _;
 
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use proptest::prelude::*;
 use serde_json::Value;
 use tearmesh::{CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
@@ -38,7 +39,7 @@ fn read(html: &str) -> Read {
         .expect("data");
     let (packed, _) = after.split_once("</script>").expect("an end");
     let mut bytes = Vec::new();
-    let packed = from_base64(packed);
+    let packed = BASE64_STANDARD.decode(packed).expect("base 64");
     flate2::read::ZlibDecoder::new(&packed[..])
         .read_to_end(&mut bytes)
         .expect("zlib");
@@ -52,24 +53,6 @@ fn read(html: &str) -> Read {
 
 fn count(value: &Value) -> usize {
     value.as_u64().expect("a count") as usize
-}
-
-fn from_base64(text: &str) -> Vec<u8> {
-    let six = |c: u8| match c {
-        b'A'..=b'Z' => c - b'A',
-        b'a'..=b'z' => c - b'a' + 26,
-        b'0'..=b'9' => c - b'0' + 52,
-        b'+' => 62,
-        _ => 63,
-    };
-    let mut bytes = Vec::new();
-    for four in text.trim_end_matches('=').as_bytes().chunks(4) {
-        let bits = (0..4).fold(0u32, |bits, i| {
-            bits << 6 | u32::from(four.get(i).map_or(0, |&c| six(c)))
-        });
-        bytes.extend(&bits.to_be_bytes()[1..four.len()]);
-    }
-    bytes
 }
 
 fn unfolded(x: u64) -> i64 {

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::surface::{Cut, Flat, Surface, bits, cross, length, minus, on_the_way};
+use super::surface::{Cut, Flat, Surface, cross, length, minus, on_the_way};
 use crate::oracle::joined_sets;
 
 /// How far a generic cut stays away from every special case, in edges.
@@ -216,32 +216,4 @@ fn is_inside(before: &Surface, face: &[u32; 3], p: [f64; 3], margin: f64) -> boo
         let across = cross(minus(b, a), minus(p, a));
         length(across) > margin * length(minus(b, a))
     })
-}
-
-#[test]
-fn both_faces_of_an_edge_find_the_same_point() {
-    let before = Surface {
-        points: vec![
-            [0.1, 0.0, 0.3],
-            [0.0, 0.7, 0.1],
-            [1.1, 0.9, 0.0],
-            [1.0, 0.0, 0.2],
-        ],
-        faces: vec![[0, 2, 1], [0, 3, 2]],
-    };
-    let cut = Cut {
-        plane: Flat::new([0.37, 0.41, 0.0], [1.0, 0.9, 0.3]),
-        sides: Vec::new(),
-    };
-    let slits: Vec<_> = before
-        .faces
-        .iter()
-        .filter_map(|face| Slit::of(&before, &cut, face))
-        .collect();
-    let points: Vec<_> = slits
-        .iter()
-        .flat_map(|slit| slit.ends.map(|(_, p)| bits(&p)))
-        .collect();
-    let common = (0..2).filter(|&i| points[2..].contains(&points[i]));
-    assert_eq!(common.count(), 1);
 }

@@ -177,51 +177,6 @@ mod tests {
         }
     }
 
-    /// The matrices of a graphics library, by angles of turning: another way to the same picture.
-    #[test]
-    fn a_ray_goes_through_the_pixel_that_shows_its_points() {
-        let (eye, at) = (Point::new(1.0, 2.0, 5.0), Point::new(0.5, -1.0, 0.25));
-        let (up, degrees, [width, height]) = (Vector::new(0.1, 1.0, 0.2), 40.0_f64, [640.0, 480.0]);
-        let camera = Camera::new([eye, at], up, degrees, [width, height]).expect("a camera");
-        let view = look_at(eye, at, up);
-        let focal = 1.0 / (degrees.to_radians() / 2.0).tan();
-        for [x, y] in [
-            [0.0, 0.0],
-            [320.0, 240.0],
-            [640.0, 480.0],
-            [17.0, 401.5],
-            [-80.0, 700.0],
-        ] {
-            let ray = camera.ray([x, y]).expect("a ray");
-            for far in [0.5, 3.0, 40.0] {
-                let p = ray.origin() + ray.direction() * far;
-                let [px, py, pz] = [0, 1, 2].map(|row| {
-                    let [a, b, c, d]: [f64; 4] = view[row];
-                    a * p.x + b * p.y + c * p.z + d
-                });
-                let clip = [focal * height / width * px / -pz, focal * py / -pz];
-                let seen = [
-                    (clip[0] + 1.0) / 2.0 * width,
-                    (1.0 - clip[1]) / 2.0 * height,
-                ];
-                let off = (seen[0] - x).abs().max((seen[1] - y).abs());
-                assert!(off < 1e-9, "{x} {y}: {seen:?}");
-                let shown = camera.seen(p);
-                let off = [shown.x / shown.z - clip[0], shown.y / shown.z - clip[1]];
-                assert!(off.iter().all(|x| x.abs() < 1e-11), "{x} {y}: {shown:?}");
-                assert!((shown.z + pz).abs() < 1e-12);
-            }
-        }
-    }
-
-    /// The rows of the matrix of gluLookAt: s, u and −f, each with the eye taken off.
-    fn look_at(eye: Point, at: Point, up: Vector) -> [[f64; 4]; 3] {
-        let f = (at - eye).normalize();
-        let s = f.cross(&up).normalize();
-        let u = s.cross(&f);
-        [s, u, -f].map(|row| [row.x, row.y, row.z, -row.dot(&eye.coords)])
-    }
-
     #[test]
     fn what_is_no_camera_is_refused() {
         let eye = Point::new(0.0, 0.0, 5.0);

@@ -349,23 +349,3 @@ fn position_error(played: &Played, reference: &Played) -> f64 {
     }
     (error / displacement).sqrt()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The reference shares no code with Verlet's method.
-    #[test]
-    fn verlet_moves_as_the_reference_does() {
-        for (name, error_max) in [("hang", 0.01), ("ringing", 0.03)] {
-            let trial = TRIALS.iter().find(|trial| trial.name == name);
-            let [verlet, reference] = [Some(Method::Verlet), None].map(|method| {
-                let played = trial.and_then(|trial| trial.play(method, &|| false));
-                let played = played.filter(|played| played.failure.is_none());
-                played.expect("it reaches its end")
-            });
-            let error = position_error(&verlet, &reference);
-            assert!(error < error_max, "{name}: {error}");
-        }
-    }
-}
