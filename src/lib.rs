@@ -114,6 +114,7 @@ pub mod slide;
 pub mod split;
 pub mod tear;
 mod undo;
+pub mod unshare;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};
 pub use edit::{

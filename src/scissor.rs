@@ -20,7 +20,6 @@ mod partition;
 mod pieces;
 mod seam;
 mod strip;
-mod unshare;
 mod way;
 mod words;
 

@@ -19,6 +19,7 @@ mod figures;
 mod followers;
 mod foreign;
 mod fuzz;
+mod garment;
 mod geometry;
 mod house;
 mod hub;

@@ -3,7 +3,8 @@
 //! A torn mesh is a manifold whose corners were relabelled (`invariants.md`), so its triangles
 //! and the root of each vertex are all there is to know: the triangles with each vertex
 //! replaced by its root build that manifold, and a link is torn where its ends differ.
-//! This is how a torn mesh comes back from a file.
+//! This is how a torn mesh comes back from a file, and how a garment begins: its panels, not yet
+//! sewn, are the torn mesh, and a vertex of a seam has the root of its counterpart.
 
 use std::fmt;
 
@@ -16,6 +17,11 @@ impl Mesh {
     /// it. It is `v` itself if `v` was never split.
     ///
     /// If each vertex is its own root, the result is that of [`Mesh::build`].
+    ///
+    /// Panels of a garment become one mesh so: the vertices that a seam will join share a root, the
+    /// seam is torn from the start, and [`mend::merge`](crate::mend::merge) sews it. Sewn whole, the
+    /// panels must be a manifold. So a seam of three panels, or one whose ends would meet in a
+    /// bow-tie, is refused, with the faces and the root vertices.
     ///
     /// # Errors
     ///

@@ -34,7 +34,6 @@ mod tracer;
 
 use super::outcome::{Judged, Outcome, Sides, faces_at};
 use super::pieces::{Census, Pinch};
-use super::unshare;
 use super::way::Way;
 use crate::edit::{Cursor, Edit, Edits};
 use crate::geometry::{Point, between};
@@ -42,6 +41,7 @@ use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::insert::{InsertRefusal, Plan};
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use crate::unshare;
 use label::Patches;
 use planner::Planner;
 pub(super) use trace::Trace;

@@ -15,7 +15,6 @@ use std::collections::{BTreeSet, VecDeque};
 
 use super::offsets::Offsets;
 use super::outcome::{Judged, Outcome, faces_at};
-use super::unshare;
 use super::way::Way;
 use crate::classify;
 use crate::edit::Edits;
@@ -23,6 +22,7 @@ use crate::geometry::{Point, Side};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use crate::unshare;
 
 /// The rule for where a finite cut by the method `partition` ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -1,4 +1,4 @@
-//! Giving each side of a seam its own vertices.
+//! Giving each side of a seam its own vertices: how a slit opens, and how a seam is unpicked.
 //!
 //! At each vertex of the seam, faces that are joined through edges that are not seam stay
 //! together: a *fan*. The fan with the smallest half-edge keeps the vertex, every other one gets
@@ -14,8 +14,35 @@ use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::split;
 
-/// Splits these vertices, in this order, by the edges for which `is_cut` holds.
-pub(super) fn by_fan(
+/// Splits these vertices, in this order, by the edges for which `is_cut` holds for either half-edge.
+/// Fans of such a vertex that shared no edge before come apart as well.
+///
+/// ```text
+///   o-----a-----o            o----a a----o
+///   | \   #   / |            | \  | |  / |
+///   |   \ # /   |            |   \| |/   |
+///   o-----v-----o     ->     o----v v----o    The edges # are cut. The mesh ends at a, so a comes
+///   |   / # \   |            |   / V \   |    apart; v does, where two edges are cut; w stays.
+///   | /   #   \ |            | /  / \  \ |
+///   o-----w-----o            o-----w-----o
+/// ```
+///
+/// # Panics
+///
+/// If a vertex is not in this mesh (I2).
+///
+/// ```
+/// use tearmesh::{Edits, HalfEdgeId, Mesh, VertexId, unshare};
+///
+/// // Two triangles, sewn along the edge 1-2.
+/// let mut mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
+/// let seam = [1, 2].map(|v| VertexId::new(v).unwrap());
+/// let is_seam = |h: HalfEdgeId| [1, 3].contains(&h.index());
+/// unshare::by_fan(&mut mesh, &seam, is_seam, &mut Edits::new());
+/// assert_eq!(mesh.indices(), [0, 1, 2, 5, 4, 3]);
+/// # Ok::<(), tearmesh::BuildError>(())
+/// ```
+pub fn by_fan(
     mesh: &mut Mesh,
     vertices: &[VertexId],
     is_cut: impl Fn(HalfEdgeId) -> bool,
@@ -27,7 +54,7 @@ pub(super) fn by_fan(
     for &v in vertices {
         corners.clear();
         fans.clear();
-        let joined = |h: HalfEdgeId| mesh.pair(h).filter(|_| !is_cut(h));
+        let joined = |h: HalfEdgeId| mesh.pair(h).filter(|&g| !is_cut(h) && !is_cut(g));
         let mut before = None;
         for first in mesh.corners_of(v) {
             let before = before.replace(first);
