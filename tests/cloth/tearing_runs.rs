@@ -121,7 +121,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 8] {
             // Blown up, and said so: the last good state is kept, and the cloth laid out anew.
             counts[7] += 1;
             assert_eq!(cloth.positions(), began);
-            let rest = cloth.rest_positions().as_slice().to_vec();
+            let rest = cloth.rest_positions();
             let (x, v) = cloth.system_mut().state_mut();
             x.copy_from_slice(&rest);
             v.fill(Vector::zeros());

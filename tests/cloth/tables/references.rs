@@ -260,7 +260,7 @@ fn relaxed_sheet(sheet: &Cloth) -> Vec<Point> {
     } = weave();
     let e = warp.normalize();
     let f = Vector::new(-e.y, e.x, 0.0);
-    let rest = sheet.rest_positions().as_slice();
+    let rest = sheet.rest_positions();
     // By face: corners, area, and how w_u and w_v change with each corner.
     let faces: Vec<_> = sheet
         .indices()

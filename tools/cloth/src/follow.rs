@@ -44,8 +44,14 @@ impl Cloth {
             let copied = stretch.add_with(copy, stretch.memory(id));
             self.stretch_of.join([link.stayed; 2], id);
             self.stretch_of.join([link.moved; 2], copied);
-            self.measure_membrane(id);
-            self.measure_membrane(copied);
+            let lengths = [link.stayed, link.moved].map(|h| self.side_length(h));
+            if lengths[0] != lengths[1] {
+                let stretch = &mut self.system.model.stretch;
+                stretch.set_rest_length(id, lengths[0]);
+                stretch.set_rest_length(copied, lengths[1]);
+            }
+            self.measure(id);
+            self.measure(copied);
             self.unbend(link.stayed);
         }
         for &corner in split.corners {
@@ -94,20 +100,14 @@ impl Cloth {
             }
         }
         join_particles(&mut self.system, kept, gone, merge.share);
-        // Copies that slid apart have different places at rest, and meet between.
-        let apart = self.rest.at(merge.kept) != self.rest.at(merge.gone);
         self.pass_on(edit);
         self.reweigh(kept);
         // Across a seam: between particles that are neither of the two.
         for link in merge.sewn {
             self.bend_across([link.stayed, link.moved]);
         }
-        if apart {
-            self.measure_again(kept);
-        } else {
-            for link in merge.sewn {
-                self.measure_membrane(self.stretch(link.stayed));
-            }
+        for link in merge.sewn {
+            self.measure(self.stretch(link.stayed));
         }
     }
 
@@ -128,7 +128,8 @@ impl Cloth {
         for &id in &ids {
             let before = self.system.model.stretch.get(id);
             let shortest = before.rest_length_m * f64::EPSILON;
-            let rest_length_m = self.rest_length(before.ends).max(shortest);
+            let edge = self.stretch_of.edges[id.index()];
+            let rest_length_m = self.rest_length(edge).max(shortest);
             let stretch = &mut self.system.model.stretch;
             if rest_length_m != before.rest_length_m {
                 let k = before.stiffness_n_per_m * (before.rest_length_m / rest_length_m);
@@ -140,7 +141,7 @@ impl Cloth {
         for id in ids.iter().map(|id| id.index()) {
             let around = self.stretch_of.edges[id].map(|h| [h, h.next(), h.prev()]);
             for &h in around.as_flattened() {
-                self.measure_membrane(self.stretch(h));
+                self.measure(self.stretch(h));
                 self.measure_bend(h);
             }
         }
@@ -192,7 +193,7 @@ impl Cloth {
         }
         for child in insert.children {
             for h in child.face.half_edges() {
-                self.measure_membrane(self.stretch(h));
+                self.measure(self.stretch(h));
             }
             self.weave_face(child.face);
         }
@@ -238,18 +239,17 @@ impl Cloth {
         let piece = &edge[0];
         // A part that rounding left no length for has next to none.
         let shortest = piece.length * f64::EPSILON;
-        let rest_length_m = self.rest_length(piece.ends).max(shortest);
+        let sides = [edge[0].half_edge, edge[edge.len() - 1].half_edge];
+        let rest_length_m = self.rest_length(sides).max(shortest);
         let constraint = Constraint {
             ends: piece.ends,
             rest_length_m,
             stiffness_n_per_m: piece.stiffness_by_length / rest_length_m,
         };
         let id = self.system.model.stretch.add(constraint);
-        if let [one, other] = edge {
-            self.stretch_of.join([one.half_edge, other.half_edge], id);
-            self.bend_across([one.half_edge, other.half_edge]);
-        } else {
-            self.stretch_of.join([piece.half_edge; 2], id);
+        self.stretch_of.join(sides, id);
+        if sides[0] != sides[1] {
+            self.bend_across(sides);
         }
     }
 

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use tearmesh::geometry::{Point, Vector, cross, length};
+use tearmesh::geometry::{Point, Vector, cross, dot, length};
 use tearmesh::{
-    Cursor, FaceId, Follower as _, HalfEdgeId, MassError, Masses, Mesh, Positions, VertexId,
+    Cursor, FaceId, Follower as _, HalfEdgeId, MassError, Masses, Mesh, PerCorner, Positions,
+    VertexId,
 };
 
 use crate::constraint::{Constraint, ConstraintId};
@@ -26,7 +27,9 @@ use crate::system::{SettingError, System};
 /// * **Insertion**: the edges of a divided membrane are measured anew. Between springs of one
 ///   stiffness, each part of a divided edge has that of the edge divided by the part's share of its
 ///   length, and stiffness times length of a new edge inside a face is the mean of the face's edges.
-/// * **Merge**: the inverse of a split; velocities are joined by mass.
+/// * **Merge**: the inverse of a split; velocities are joined by mass. Each face keeps its own shape at
+///   rest. Where the two faces of an edge disagree on its length, it is as long at rest as two springs
+///   side by side are, one of each face: Σ k L / Σ k.
 /// * **Slide**: the particle moves along its edge, at rest as well; it keeps its velocity, so
 ///   momentum is exact. A membrane is measured anew around it; other springs keep stiffness times
 ///   length.
@@ -68,8 +71,9 @@ use crate::system::{SettingError, System};
 pub struct Cloth {
     pub(super) system: System,
     pub(super) masses: Masses,
-    /// Where the vertices are at rest.
-    pub(super) rest: Positions,
+    /// Where the corners of faces are at rest: those of one vertex apart where panels meet that were
+    /// drawn apart.
+    pub(super) rest: PerCorner<Point>,
     pub(super) fabric: Fabric,
     /// Of stretch constraints, one for each edge.
     pub(super) stretch_of: EdgeMap,
@@ -132,11 +136,32 @@ impl Cloth {
         masses: Masses,
         fabric: Fabric,
     ) -> Result<Cloth, ClothError> {
+        let rest = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
+        Cloth::with_rest(mesh, positions, rest.collect(), masses, fabric)
+    }
+
+    /// Creates a cloth of which each corner has a position at rest of its own, by half-edge, such as panels
+    /// that are sewn already and were drawn flat ([`rest_corners`](Cloth::rest_corners)).
+    ///
+    /// # Errors
+    ///
+    /// [`ClothError`], as of [`Cloth::new`].
+    ///
+    /// # Panics
+    ///
+    /// If there is not one mass and one position for each vertex, and one at rest for each corner.
+    pub fn with_rest(
+        mesh: &Mesh,
+        positions: &Positions,
+        rest: Vec<Point>,
+        masses: Masses,
+        fabric: Fabric,
+    ) -> Result<Cloth, ClothError> {
         fabric.check().map_err(ClothError::Number)?;
         let count = mesh.vertex_count();
         assert_eq!(
-            (masses.len(), positions.len()),
-            (count, count),
+            (masses.len(), positions.len(), rest.len()),
+            (count, count, mesh.half_edge_count()),
             "masses and positions are those of the mesh"
         );
         let of_vertex = |v| mesh.half_edge_of(v).map_or(0.0, |_| weight(&masses, v));
@@ -148,7 +173,7 @@ impl Cloth {
         let mut cloth = Cloth {
             system,
             masses: masses.starting_at(seen),
-            rest: positions.clone(),
+            rest: PerCorner::new(rest).starting_at(seen),
             fabric,
             stretch_of: EdgeMap::default(),
             bend_of: EdgeMap::default(),
@@ -159,14 +184,14 @@ impl Cloth {
         for h in mesh.edges() {
             let ends = [mesh.origin(h), mesh.target(h)];
             let edge = [h, mesh.pair(h).unwrap_or(h)];
-            let rest_length_m = cloth.checked_length(ends)?;
+            let rest_length_m = checked_length(ends, cloth.rest_length(edge))?;
             let id = cloth.system.model.stretch.add(Constraint {
                 ends: ends.map(VertexId::index),
                 rest_length_m,
                 stiffness_n_per_m: fabric.stretch_n_per_m() * fabric.share(mesh, h),
             });
             cloth.stretch_of.join(edge, id);
-            cloth.measure_membrane(id);
+            cloth.measure(id);
         }
         if let Some(bend) = fabric.bend {
             if let Bending::Buckling { law, .. } = bend {
@@ -175,7 +200,7 @@ impl Cloth {
             for h in mesh.edges() {
                 if let Some(pair) = mesh.pair(h) {
                     let apexes = [h, pair].map(|h| mesh.origin(h.prev()));
-                    cloth.checked_length(apexes)?;
+                    checked_length(apexes, cloth.rest_across([h, pair]))?;
                     let id = cloth.bend_across([h, pair]);
                     let (field, given) = bend.number();
                     let made = SettingError::unless(id.is_some(), field, given, "less");
@@ -187,21 +212,12 @@ impl Cloth {
         Ok(cloth)
     }
 
-    /// The length of a constraint between two vertices.
-    fn checked_length(&self, ends: [VertexId; 2]) -> Result<f64, ClothError> {
-        let given = self.rest_length(ends.map(VertexId::index));
-        let is_usable = given > 0.0 && given.is_finite();
-        let error = ClothError::Length { ends, given };
-        is_usable.then_some(given).ok_or(error)
-    }
-
     /// Makes room for all splits that can follow, of which each leaves every vertex a face, so that
     /// neither they allocate nor a step by a method that keeps its room in the system: all but
     /// [`Implicit`](crate::Implicit). (Only a colour beyond those that the present valence of vertices
     /// needs would take room of its own.) Costs some hundred bytes per face.
     pub(crate) fn reserve(&mut self, splits: usize, corners: usize) {
         self.masses.reserve(splits);
-        self.rest.reserve(splits);
         room_for(&mut self.stretch_of.edges, corners);
         room_for(&mut self.scratch.ids, self.bend_of.edges.len());
         self.system.reserve(corners, corners);
@@ -241,10 +257,22 @@ impl Cloth {
         self.system.positions()
     }
 
-    /// Returns the positions of the vertices at rest, which give the rest lengths of constraints.
+    /// Returns the position at rest of each corner of each face, by half-edge. Lengths and areas at rest are
+    /// those of the faces. The corners of a vertex differ where panels are sewn that were drawn apart.
     #[must_use]
-    pub fn rest_positions(&self) -> &Positions {
-        &self.rest
+    pub fn rest_corners(&self) -> &[Point] {
+        self.rest.as_slice()
+    }
+
+    /// Returns the positions of the vertices at rest. A vertex at which panels are sewn is where the one with
+    /// the lowest face has it, and a vertex without a face where it is now. Linear.
+    #[must_use]
+    pub fn rest_positions(&self) -> Vec<Point> {
+        let mut places = self.positions().to_vec();
+        for (&v, &at) in self.indices().iter().zip(self.rest_corners()).rev() {
+            places[v as usize] = at; // The one written last is that of the lowest corner.
+        }
+        places
     }
 
     /// Returns the exact masses of the vertices.
@@ -280,24 +308,69 @@ impl Cloth {
         self.stretch_of.edges[id.index()][0]
     }
 
-    pub(super) fn rest_length(&self, [a, b]: [usize; 2]) -> f64 {
-        let rest = self.rest.as_slice();
-        length(rest[b] - rest[a])
+    /// The length of a half-edge in its own face.
+    pub(crate) fn side_length(&self, h: HalfEdgeId) -> f64 {
+        length(self.rest_along(h))
+    }
+
+    /// The way along a half-edge in its own face at rest.
+    pub(super) fn rest_along(&self, h: HalfEdgeId) -> Vector {
+        *self.rest.at(h.next()) - *self.rest.at(h)
+    }
+
+    /// The length of an edge, given by its two half-edges, or twice the same.
+    pub(super) fn rest_length(&self, edge: [HalfEdgeId; 2]) -> f64 {
+        let [one, other] = edge.map(|h| self.side_length(h));
+        if one == other {
+            return one;
+        }
+        let [a, b] = [self.share(edge[0], one), self.share(edge[1], other)];
+        let balanced = (a * one + b * other) / (a + b);
+        let is_usable = balanced > 0.0 && balanced.is_finite();
+        if is_usable {
+            balanced
+        } else {
+            0.5 * (one + other)
+        }
+    }
+
+    /// The distance across an edge at rest. Where its faces rest apart, as panels do, they are laid side by
+    /// side in a plane, the middles of their edges together.
+    fn rest_across(&self, edge: [HalfEdgeId; 2]) -> f64 {
+        let sides = edge.map(|h| [h, h.next(), h.prev()].map(|h| *self.rest.at(h)));
+        let [[a, b, apex], [c, d, other]] = sides;
+        if (a, b) == (d, c) {
+            return length(other - apex);
+        }
+        let [one, two] = sides.map(|[a, b, apex]| {
+            let (along, up) = (b - a, apex - a);
+            let base = length(along);
+            Vector::new(
+                dot(up, along) / base - 0.5 * base,
+                length(cross(along, up)) / base,
+                0.0,
+            )
+        });
+        length(one + two) // Both edges run forward, and so both x: once along, once against.
     }
 
     /// Gives an edge of a membrane the stiffness that its faces have at rest now, and the force that it
-    /// remembers in proportion. Does nothing without a membrane.
-    pub(super) fn measure_membrane(&mut self, id: ConstraintId) {
+    /// remembers in proportion; and an edge on whose length its faces disagree its own between both.
+    pub(super) fn measure(&mut self, id: ConstraintId) {
+        let edge = self.stretch_of.edges[id.index()];
+        let mut lengths = edge.map(|h| self.side_length(h));
+        if lengths[0] == lengths[1] {
+            lengths = [self.system.model.stretch.get(id).rest_length_m; 2];
+        } else {
+            let between = self.rest_length(edge);
+            self.system.model.stretch.set_rest_length(id, between);
+        }
         let Stretch::Membrane { modulus_n_per_m } = self.fabric.stretch else {
             return;
         };
-        let length = self.system.model.stretch.get(id).rest_length_m;
-        // The share of a face: E A / l².
-        let share = |h| modulus_n_per_m * (self.rest_area(h) / length / length);
-        let [one, other] = self.stretch_of.edges[id.index()];
-        let mut stiffness = share(one);
-        if other != one {
-            stiffness += share(other);
+        let mut stiffness = modulus_n_per_m * self.share(edge[0], lengths[0]);
+        if edge[0] != edge[1] {
+            stiffness += modulus_n_per_m * self.share(edge[1], lengths[1]);
         }
         // Faces without area have no stiffness, but a compliance must be finite.
         let stiffness = stiffness.max(modulus_n_per_m * f64::EPSILON);
@@ -307,9 +380,14 @@ impl Cloth {
         }
     }
 
+    /// What a face adds to the stiffness of its edge of this length, over the modulus: A / l².
+    fn share(&self, h: HalfEdgeId, length: f64) -> f64 {
+        self.rest_area(h) / length / length
+    }
+
     /// The area at rest of a half-edge's face.
     fn rest_area(&self, h: HalfEdgeId) -> f64 {
-        let [a, b, c] = self.rest_corners(h.face());
+        let [a, b, c] = self.rest_face(h.face());
         0.5 * length(cross(b - a, c - a))
     }
 
@@ -329,9 +407,9 @@ impl Cloth {
         if id == NO_BEND {
             return;
         }
-        let ends = self.system.model.bend.get(id).ends;
-        let rest_length_m = self.rest_length(ends).max(f64::MIN_POSITIVE);
-        let stiffness = self.bend_stiffness(self.bend_of.edges[id.index()], rest_length_m);
+        let edge = self.bend_of.edges[id.index()];
+        let rest_length_m = self.rest_across(edge).max(f64::MIN_POSITIVE);
+        let stiffness = self.bend_stiffness(edge, rest_length_m);
         let bend = &mut self.system.model.bend;
         bend.set_rest_length(id, rest_length_m);
         bend.set_stiffness(id, stiffness.unwrap_or(0.0));
@@ -341,8 +419,8 @@ impl Cloth {
     /// Adds the bend constraint across an edge, unless there is no distance across it.
     pub(super) fn bend_across(&mut self, edge: [HalfEdgeId; 2]) -> Option<ConstraintId> {
         let apexes = edge.map(|h| self.system.model.faces[h.prev().index()] as usize);
-        let rest_length_m = self.rest_length(apexes);
-        if rest_length_m <= 0.0 {
+        let rest_length_m = self.rest_across(edge);
+        if rest_length_m.is_nan() || rest_length_m <= 0.0 {
             return None;
         }
         let stiffness_n_per_m = self.bend_stiffness(edge, rest_length_m)?;
@@ -355,6 +433,13 @@ impl Cloth {
         self.system.touched();
         Some(id)
     }
+}
+
+/// The length of a constraint between two vertices, if it is one.
+fn checked_length(ends: [VertexId; 2], given: f64) -> Result<f64, ClothError> {
+    let is_usable = given > 0.0 && given.is_finite();
+    let error = ClothError::Length { ends, given };
+    is_usable.then_some(given).ok_or(error)
 }
 
 /// What the particle of a vertex with a face weighs: its exact mass, but a unit at least. What

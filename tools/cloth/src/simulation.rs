@@ -396,8 +396,8 @@ impl Simulation {
             return;
         };
         let own = self.strengths.as_slice().iter();
-        let rest = self.cloth.rest_positions().as_slice();
-        let gripped = own.zip(rest).map(|(own, at)| own * self.hands.grip(*at));
+        let rest = self.cloth.rest_positions();
+        let gripped = own.zip(rest).map(|(own, at)| own * self.hands.grip(at));
         let mut strengths: Vec<f64> = gripped.map(|by| by.min(UNTEARABLE)).collect();
         for v in self.healing.guarded(&self.mesh) {
             strengths[v.index()] = UNTEARABLE;
@@ -458,7 +458,7 @@ impl Simulation {
         if !(radius_m >= 0.0 && radius_m.is_finite()) {
             return Err(InputError::Number("radius_m", radius_m));
         }
-        let centre = self.cloth.rest_positions().at(vertex);
+        let centre = self.cloth.rest_positions()[vertex.index()];
         let hand = self.hands.grab(vertex, centre, radius_m);
         self.cloth.system_mut().hold(vertex.index());
         self.strengthen();

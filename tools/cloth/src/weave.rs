@@ -25,7 +25,7 @@ impl Cloth {
             return Ok(());
         };
         for f in (0..self.indices().len() / 3).filter_map(FaceId::new) {
-            let triangle = material(self.rest_corners(f), warp)
+            let triangle = material(self.rest_face(f), warp)
                 .and_then(|material| self.triangle_of(f, material))
                 .ok_or(ClothError::Face { face: f, warp })?;
             self.system.push_triangle(triangle);
@@ -106,15 +106,14 @@ impl Cloth {
     /// warp has no projection the axis of cloths without names takes its place. `None` where
     /// there is no area at rest.
     fn material(&self, f: FaceId) -> Option<[[f64; 2]; 3]> {
-        let rest = self.rest_corners(f);
+        let rest = self.rest_face(f);
         let warp = self.fabric.weave.map(|weave| weave.warp);
         let named = warp.and_then(|warp| material(rest, warp));
         named.or_else(|| material(rest, default_warp(rest)))
     }
 
-    pub(super) fn rest_corners(&self, f: FaceId) -> [Point; 3] {
-        let at = |v: u32| self.rest.as_slice()[v as usize];
-        self.face_vertices(f).map(at)
+    pub(super) fn rest_face(&self, f: FaceId) -> [Point; 3] {
+        f.half_edges().map(|h| *self.rest.at(h))
     }
 }
 

@@ -88,12 +88,8 @@ const LINES: usize = 4;
 
 /// The largest ratio of an edge's length to its length at rest.
 fn largest_stretch(run: &Run) -> f64 {
-    let (mesh, now) = (run.mesh(), run.cloth().positions());
-    let rest = run.cloth().rest_positions().as_slice();
-    let ratio = |h| {
-        let [a, b] = [mesh.origin(h), mesh.target(h)].map(tearmesh::VertexId::index);
-        length(now[b] - now[a]) / length(rest[b] - rest[a])
-    };
-    let ratios = mesh.edges().map(ratio).filter(|x| x.is_finite());
+    let cloth = run.cloth();
+    let ratio = |h| cloth.system().stretch_ratio(cloth.stretch(h));
+    let ratios = run.mesh().edges().map(ratio).filter(|x| x.is_finite());
     ratios.fold(0.0, f64::max)
 }

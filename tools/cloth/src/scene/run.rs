@@ -471,13 +471,9 @@ impl Run {
     /// Returns the length at rest of all torn edges, each counted once, in metres.
     #[must_use]
     pub fn torn_length_m(&self) -> f64 {
-        let (mesh, rest) = (self.mesh(), self.cloth().rest_positions().as_slice());
-        let torn = mesh.half_edges().filter_map(|h| {
-            mesh.ghost_pair(h)?;
-            let [a, b] = [mesh.origin(h), mesh.target(h)];
-            Some(length(rest[b.index()] - rest[a.index()]))
-        });
-        torn.sum::<f64>() / 2.0
+        let torn = |h: &_| self.mesh().ghost_pair(*h).is_some();
+        let torn = self.mesh().half_edges().filter(torn);
+        torn.map(|h| self.cloth().side_length(h)).sum::<f64>() / 2.0
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use tearmesh::Point;
 use tearmesh::geometry::{Vector, between, length};
+use tearmesh::{HalfEdgeId, Point, VertexId};
 
 use super::HeldVertices;
 use super::run::Run;
@@ -132,11 +132,9 @@ impl TearLog {
             return;
         };
         let (mesh, cloth) = (run.mesh(), run.cloth());
-        let rest = cloth.rest_positions().as_slice();
-        let middle = |x: &[Point]| {
-            let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| x[v.index()]);
-            between(a, b, 0.5)
-        };
+        let middle = |x: &[Point], ends: [usize; 2]| between(x[ends[0]], x[ends[1]], 0.5);
+        let ends = [mesh.origin(edge), mesh.target(edge)].map(VertexId::index);
+        let corners = [edge, edge.next()].map(HalfEdgeId::index);
         if self.events.is_empty() && self.first_n.is_some() {
             let total_s: f64 = self.recent.iter().map(|(seconds, _)| seconds).sum();
             let mean = |hold: usize| {
@@ -150,8 +148,8 @@ impl TearLog {
             time_s: run.elapsed_s(),
             splits: tear.splits,
             torn_m: tear.tear_length_m,
-            place: middle(cloth.positions()),
-            place_at_rest: middle(rest),
+            place: middle(cloth.positions(), ends),
+            place_at_rest: middle(cloth.rest_corners(), corners),
             load,
         });
     }

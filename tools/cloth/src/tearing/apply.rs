@@ -242,7 +242,7 @@ impl Tear {
         due.clear();
         let judge = |edge: HalfEdgeId| {
             let load = self.tearing.threshold.edge_load(mesh, cloth, edge)?;
-            let along = at_rest(mesh, cloth, edge);
+            let along = cloth.rest_along(edge);
             let ends = [mesh.origin(edge), mesh.target(edge)];
             let [a, b] = ends.map(|v| self.strength_along(v, along));
             let severity = load / a.min(b);
@@ -270,7 +270,7 @@ impl Tear {
 
     /// The vertex that the rule splits, of those that do not bear the load.
     fn candidate(&self, mesh: &Mesh, cloth: &Cloth, due: &Due) -> Option<(VertexId, Plane)> {
-        let along = at_rest(mesh, cloth, due.edge);
+        let along = cloth.rest_along(due.edge);
         let mass = |v: VertexId| {
             let bears = due.load < self.strength_along(v, along);
             let is_held = cloth.system.is_held(v.index());
@@ -288,7 +288,7 @@ impl Tear {
         edge: HalfEdgeId,
         (vertex, plane): (VertexId, Plane),
     ) -> f64 {
-        let across = at_rest(mesh, cloth, edge);
+        let across = cloth.rest_along(edge);
         let is_whole = mesh
             .corners_of(vertex)
             .flat_map(|h| [h, h.prev()])
@@ -300,7 +300,8 @@ impl Tear {
         self.ahead.clear();
         for link in split.torn {
             let ends = [mesh.origin(link.stayed), mesh.target(link.stayed)];
-            length_m += cloth.rest_length(ends.map(VertexId::index));
+            let stretch = cloth.stretch(link.stayed);
+            length_m += cloth.system().stretches().get(stretch).rest_length_m;
             self.ahead.push(ends[usize::from(ends[0] == vertex)]);
         }
         edits.replay(&mut (&mut *cloth, &mut *self));
@@ -337,12 +338,6 @@ fn energy_j(cloth: &Cloth, edge: HalfEdgeId) -> f64 {
     let spring = system.stretches().get(id);
     let extension = strain(system, id) * spring.rest_length_m;
     0.5 * spring.stiffness_n_per_m * extension * extension
-}
-
-/// The way from one end of an edge to the other, at rest.
-fn at_rest(mesh: &Mesh, cloth: &Cloth, edge: HalfEdgeId) -> Vector {
-    let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(|v| cloth.rest_positions().at(v));
-    b - a
 }
 
 /// The neighbours of a vertex that lie best along a plane through it: one, and another one on the

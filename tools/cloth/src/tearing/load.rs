@@ -167,10 +167,7 @@ fn strain_borne(toughness: f64, modulus: f64, length: f64) -> f64 {
 /// The warp is the axis as seen in the plane of the edge's face: on a curved cloth it
 /// follows the surface.
 fn runs_along(cloth: &Cloth, h: HalfEdgeId, axis: Vector) -> Option<bool> {
-    let corners = [h, h.next(), h.prev()].map(|h| {
-        let v = cloth.indices()[h.index()] as usize;
-        cloth.rest_positions().as_slice()[v]
-    });
+    let corners = [h, h.next(), h.prev()].map(|h| cloth.rest_corners()[h.index()]);
     let edge = corners[1] - corners[0];
     let normal = cross(edge, corners[2] - corners[0]);
     let weft = cross(normal, axis);
