@@ -30,6 +30,7 @@ mod reaction;
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod rk4;
 mod scenes;
+mod sewing;
 mod simulation;
 mod statistics;
 mod stiff;

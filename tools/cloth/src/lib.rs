@@ -58,6 +58,7 @@ mod motion;
 mod pair;
 mod provot;
 pub mod scene;
+mod seam;
 mod sheet;
 mod simulation;
 mod solver;
@@ -83,6 +84,7 @@ pub use implicit::Implicit;
 pub use load::{Collider, Loads, Path, Wind};
 pub use method::{FRAME_S, Method, Softness};
 pub use provot::{Limiter, Provot};
+pub use seam::{Seam, SeamError};
 pub use sheet::{Cloth, ClothError};
 pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,

@@ -25,6 +25,7 @@ use tearmesh::{Mesh, Scissor, ScissorError, VertexId};
 use crate::fabric::Fabric;
 use crate::load::{Collider, Wind};
 use crate::method::Method;
+use crate::seam::Seam;
 use crate::system::error::SettingError;
 
 /// The plan of a simulation: the fabric, the method, and the timed events.
@@ -52,6 +53,8 @@ pub struct Scene {
     pub colliders: Vec<Collider>,
     /// The vertices that are held or led.
     pub holds: Vec<HeldVertices>,
+    /// The seams of a garment, whose panels are the mesh. They are sewn from the beginning.
+    pub seams: Vec<Seam>,
     /// The cuts, in ascending order of their times.
     pub cuts: Vec<TimedCut>,
     /// The rule by which edges tear; `None` if they never tear by themselves.

@@ -136,8 +136,9 @@ impl Cloth {
         masses: Masses,
         fabric: Fabric,
     ) -> Result<Cloth, ClothError> {
-        let rest = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
-        Cloth::with_rest(mesh, positions, rest.collect(), masses, fabric)
+        let at = |&v: &u32| positions.as_slice().get(v as usize).copied();
+        let rest = mesh.indices().iter().filter_map(at).collect();
+        Cloth::with_rest(mesh, positions, rest, masses, fabric)
     }
 
     /// Creates a cloth of which each corner has a position at rest of its own, by half-edge, such as panels

@@ -21,6 +21,7 @@ pub use buffers::{BufferChanges, ClothBuffers};
 pub use definition::SimulationDef;
 pub use error::{InputError, ReplayError, SimulationError};
 pub use hand::HandId;
+pub(crate) use hand::rename;
 pub use heal::Wounds;
 pub use log::{InputLog, LogError};
 pub use report::{CutId, Event, Picked, Reached};
@@ -28,7 +29,7 @@ pub use report::{CutId, Event, Picked, Reached};
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
     Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Follower as _, Masses, Mesh, Mix,
-    PerVertex, PositionError, Positions, Scissor, VertexId, engine::pick, mend,
+    PerVertex, PositionError, Positions, Scissor, VertexId, engine::pick, mend, unshare,
 };
 
 use self::hand::Hands;
@@ -58,7 +59,6 @@ use crate::tearing::{Tear, TearReport};
 /// let picked = sim.pick(&ray(0.5, 0.5)?).ok_or("the pointer is on the cloth")?;
 /// let hand = sim.grab(picked.vertex, Simulation::GRIP_RADIUS_M)?;
 /// sim.lead(hand, Point::new(0.5, 0.5, 0.1))?;
-/// sim.advance(0.1, 1000)?;
 /// sim.release(hand)?;
 ///
 /// // Slit it, and let it heal.
@@ -95,18 +95,20 @@ pub struct Simulation {
 
 impl Simulation {
     /// Creates the simulation of a cloth that is at rest where it is. Takes linear time. If the cloth may
-    /// tear, room is reserved for all that can: three vertices per face, some kilobytes each.
+    /// tear, room is reserved for all that can: three vertices per face, some kilobytes each. The panels of a
+    /// garment are at rest as they lie, and begin to be sewn as [`heal`](Simulation::heal) sews.
     ///
     /// # Errors
     ///
     /// [`SimulationError`] if the definition is not valid, or does not fit the mesh.
     pub fn new(
-        mut mesh: Mesh,
+        mesh: Mesh,
         positions: &Positions,
         mut def: SimulationDef,
     ) -> Result<Simulation, SimulationError> {
         let is_recorded = std::mem::take(&mut def.is_recorded);
         let digest = is_recorded.then(|| log::digest(&mesh, positions, &def));
+        let (mut mesh, seams) = Seams::open(mesh, def.seams)?;
         let seen = positions.seen();
         let mut edits = Edits::starting_at(seen);
         let masses = Masses::area(&mesh, positions, def.density_kg_per_m2);
@@ -132,8 +134,6 @@ impl Simulation {
             return Err(SimulationError::Step(step_s));
         }
         let mut buffers = ClothBuffers::new(&mesh, cloth.positions(), seen);
-        let mut seams = Seams::default();
-        seams.cut_of.resize(mesh.half_edge_count(), 0);
         let mut strengths = PerVertex::new(strengths).starting_at(seen);
         let mut events = Vec::new();
         if let Some(tear) = &mut tear {
@@ -148,7 +148,7 @@ impl Simulation {
             buffers.draw.reserve(splits);
             events.reserve(splits);
         }
-        Ok(Simulation {
+        let mut sim = Simulation {
             mesh,
             edits,
             cloth,
@@ -165,7 +165,12 @@ impl Simulation {
             events,
             log: InputLog::new(digest.unwrap_or_default()),
             is_recorded,
-        })
+        };
+        let (links, system) = (sim.seams.links(|[_, seam]| seam > 0), sim.cloth.system());
+        if sim.healing.begin(links.into_iter(), &sim.mesh, system) > 0 {
+            sim.strengthen();
+        }
+        Ok(sim)
     }
 
     /// Repeats what a log says, with the mesh and the definition of the simulation that was
@@ -174,22 +179,6 @@ impl Simulation {
     ///
     /// For followers of its edits, `follow` is given the edits of the steps before each input, and then those of
     /// the input and whether it is a cut.
-    ///
-    /// ```
-    /// use tearmesh_cloth::{InputLog, Simulation, SimulationDef};
-    /// use tearmesh::{VertexId, shapes};
-    ///
-    /// let (mesh, positions) = shapes::grid(4, 4);
-    /// let def = SimulationDef { is_recorded: true, ..SimulationDef::default() };
-    /// let mut sim = Simulation::new(mesh.clone(), &positions, def.clone())?;
-    /// sim.hold(VertexId::new(24))?;
-    /// sim.advance(0.1, 1000)?;
-    ///
-    /// let log: InputLog = sim.log().ok_or("it is recorded")?.to_string().parse()?;
-    /// let again = Simulation::replayed(mesh, &positions, def, &log, |_, _| {})?;
-    /// assert_eq!(again.cloth().positions(), sim.cloth().positions());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     ///
     /// # Errors
     ///
@@ -252,6 +241,8 @@ impl Simulation {
             ("cut", words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
             ("heal", &[]) => drop(self.heal(Wounds::All)?),
             ("heal", &[cut]) => drop(self.heal(Wounds::Cut(CutId(number(cut)?)))?),
+            ("sew", &[seam]) => drop(self.heal(Wounds::Seam(number(seam)?))?),
+            ("unpick", &[seam]) => drop(self.unpick(&self.seams.name(seam).ok_or(None)?)?),
             ("wind", &[]) => self.set_wind(None)?,
             ("wind", &[x, y, z, coefficient]) => self.set_wind(Some(Wind {
                 velocity_m_per_s: floats([x, y, z]).into(),
@@ -346,7 +337,7 @@ impl Simulation {
     }
 
     /// Draws the open pairs together, leaves those whose time is over, and sews those that met.
-    fn heal_step(&mut self) {
+    pub(crate) fn heal_step(&mut self) {
         if self.healing.open.is_empty() {
             return;
         }
@@ -396,8 +387,8 @@ impl Simulation {
             return;
         };
         let own = self.strengths.as_slice().iter();
-        let rest = self.cloth.rest_positions();
-        let gripped = own.zip(rest).map(|(own, at)| own * self.hands.grip(at));
+        let own = own.zip(self.cloth.rest_positions());
+        let gripped = own.map(|(own, at)| own * self.hands.grip(at));
         let mut strengths: Vec<f64> = gripped.map(|by| by.min(UNTEARABLE)).collect();
         for v in self.healing.guarded(&self.mesh) {
             strengths[v.index()] = UNTEARABLE;
@@ -556,21 +547,41 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// [`InputError::NoCut`] if there was no such cut.
+    /// [`InputError::NoCut`] or [`InputError::NoSeam`] if there was no such cut, or is no such seam.
     pub fn heal(&mut self, wounds: Wounds) -> Result<usize, InputError> {
         let (mesh, system) = (&self.mesh, self.cloth.system());
-        let (opened, number) = match wounds {
-            Wounds::All => (self.healing.begin(mesh.half_edges(), mesh, system), None),
-            Wounds::Cut(cut) => {
-                let torn = self.seams.torn_by(cut).ok_or(InputError::NoCut(cut))?;
-                (self.healing.begin(torn, mesh, system), Some(cut.0.into()))
-            }
+        let (links, verb, number) = match wounds {
+            Wounds::All => (mesh.half_edges().collect(), "heal", None),
+            Wounds::Cut(cut) => (self.seams.of_cut(cut)?, "heal", Some(cut.0.into())),
+            Wounds::Seam(seam) => (self.seams.of_seam(seam)?, "sew", Some(seam.into())),
         };
+        let opened = self.healing.begin(links.into_iter(), mesh, system);
         if opened > 0 {
             self.strengthen();
         }
-        self.note("heal", number);
+        self.note(verb, number);
         Ok(opened)
+    }
+
+    /// Unpicks the seams of this name: tears the cloth along them, as far as they are sewn, and ends their sewing.
+    /// Returns the number of vertices that were split. What tore or was cut otherwise stays so. A vertex that other
+    /// seams or the cloth beyond the end of a seam hold together stays one.
+    ///
+    /// # Errors
+    ///
+    /// [`InputError::NoSeam`] if no seam has this name.
+    pub fn unpick(&mut self, name: &str) -> Result<usize, InputError> {
+        let (number, links) = self.seams.named(name)?;
+        self.edits.clear();
+        self.healing.end(&links, &self.mesh);
+        let ends = |&h: &_| [self.mesh.origin(h), self.mesh.target(h)];
+        let ends: Vec<VertexId> = links.iter().flat_map(ends).collect();
+        let is_cut = |h| links.binary_search(&h).is_ok();
+        unshare::by_fan(&mut self.mesh, &ends, is_cut, &mut self.edits);
+        self.follow();
+        self.strengthen();
+        self.note("unpick", [number]);
+        Ok(self.edits.iter().count())
     }
 
     /// Has another wind blow from now on, or none. Other loads stay.
@@ -631,8 +642,8 @@ impl Simulation {
         &self.cloth
     }
 
-    /// Returns the edits that the last call of [`advance`](Simulation::advance) or
-    /// [`cut`](Simulation::cut) made. A follower of the caller's replays them after each.
+    /// Returns the edits that the last call of [`advance`](Simulation::advance), [`cut`](Simulation::cut) or
+    /// [`unpick`](Simulation::unpick) made. A follower of the caller's replays them after each.
     #[must_use]
     pub fn edits(&self) -> &Edits {
         &self.edits

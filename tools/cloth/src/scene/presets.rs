@@ -39,6 +39,7 @@ impl Scene {
             wind: None,
             colliders: Vec::new(),
             holds: Vec::new(),
+            seams: Vec::new(),
             cuts: Vec::new(),
             tearing: Some(Tearing::new(Threshold::Stretch(Scene::STRETCH_RATIO))),
             strengths: Vec::new(),

@@ -116,6 +116,7 @@ impl Run {
             method: scene.solver.clone(),
             tearing: scene.tearing,
             strengths: strengths(&scene, &mesh, points, frame)?,
+            seams: scene.seams.clone(),
             loads,
             step_s: scene.step_s,
             // A step of our own choice is not refused because of what tore since.
@@ -273,6 +274,7 @@ impl Run {
         self.measure_moves(step_s / f64::from(substeps));
         let is_frame = self.tally.steps.is_multiple_of(self.watch.every);
         let tear = self.tear_overstretched();
+        self.sew();
         if is_frame || tear.overstretched > 0 || self.is_over() {
             // Splits move nothing: edges are as long as they were before.
             let system = self.sim.cloth.system();
@@ -337,6 +339,16 @@ impl Run {
             self.compare(&before);
         }
         report
+    }
+
+    /// Draws seams together, and sews them where they meet. Held sides give momentum, as hands do.
+    fn sew(&mut self) {
+        if self.sim.open_pairs() > 0 {
+            let before_j = Measured::of(self.cloth()).energy_j;
+            self.sim.heal_step();
+            let made_j = Measured::of(self.cloth()).energy_j - before_j;
+            self.balance.add_edits(made_j);
+        }
     }
 
     /// Notes what edits made of momentum and energy.

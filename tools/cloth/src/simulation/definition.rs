@@ -5,6 +5,7 @@ use tearmesh::Vector;
 use crate::fabric::Fabric;
 use crate::load::Loads;
 use crate::method::Method;
+use crate::seam::Seam;
 use crate::system::Unstable;
 use crate::tearing::Tearing;
 
@@ -23,6 +24,8 @@ pub struct SimulationDef {
     /// The strength of each vertex, as a multiple of the threshold; empty, as by default, for 1
     /// everywhere.
     pub strengths: Vec<f64>,
+    /// The seams of a garment, whose panels are the mesh; none by default.
+    pub seams: Vec<Seam>,
     /// The loads: by default gravity along −y, and the drag of still air.
     pub loads: Loads,
     /// The length of a step, in seconds; `None`, as by default, for one that suits the method, the
@@ -42,6 +45,7 @@ impl Default for SimulationDef {
             method: Method::Verlet,
             tearing: Some(Tearing::default()),
             strengths: Vec::new(),
+            seams: Vec::new(),
             loads: Loads {
                 gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
                 drag_per_s: Some(0.5),

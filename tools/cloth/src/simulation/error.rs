@@ -7,6 +7,7 @@ use tearmesh::{PositionError, VertexId};
 
 use super::hand::HandId;
 use super::report::CutId;
+use crate::seam::SeamError;
 use crate::sheet::ClothError;
 use crate::solver::StepError;
 use crate::system::SettingError;
@@ -18,6 +19,8 @@ use crate::tearing::TearingError;
 pub enum SimulationError {
     /// The mesh, the density or the fabric makes no cloth.
     Cloth(ClothError),
+    /// The seams cannot be sewn.
+    Seams(SeamError),
     /// A load cannot be used.
     Loads(SettingError),
     /// The rules for tearing, or the strengths of vertices, cannot be used.
@@ -30,6 +33,7 @@ impl fmt::Display for SimulationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SimulationError::Cloth(error) => error.fmt(f),
+            SimulationError::Seams(error) => error.fmt(f),
             SimulationError::Loads(error) => error.fmt(f),
             SimulationError::Tearing(error) => error.fmt(f),
             SimulationError::Step(s) => write!(f, "a step of {s} s is not positive and finite"),
@@ -53,6 +57,8 @@ pub enum InputError {
     NoHand(HandId),
     /// There was no such cut.
     NoCut(CutId),
+    /// There is no seam of this name, or of this number.
+    NoSeam(String),
     /// A number of this name is not finite, is too large, or is a negative radius.
     Number(&'static str, f64),
     /// The scissor continues another cut, which a simulation does not support.
@@ -69,6 +75,7 @@ impl fmt::Display for InputError {
             InputError::InHand(v, hand) => write!(f, "{v} is in hand {}", hand.0),
             InputError::NoHand(hand) => write!(f, "hand {} does not hold anything", hand.0),
             InputError::NoCut(cut) => write!(f, "cut {} was not made", cut.0),
+            InputError::NoSeam(seam) => write!(f, "there is no seam `{seam}`"),
             InputError::Number(name, given) => write!(f, "{name} cannot be {given}"),
             InputError::Continued => f.write_str("the scissor continues another cut"),
             InputError::Positions(error) => error.fmt(f),

@@ -86,15 +86,18 @@ impl Hands {
         for Hand { vertices, .. } in &mut self.hands {
             match edit {
                 Edit::Split(split) if vertices.contains(&split.old) => vertices.push(split.new),
-                Edit::Merge(merge) => {
-                    vertices.iter_mut().for_each(|v| *v = now(*v, merge));
-                    vertices.sort_unstable();
-                    vertices.dedup();
-                }
+                Edit::Merge(merge) => rename(vertices, merge),
                 Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
             }
         }
     }
+}
+
+/// Gives vertices the ids that they have after a merge.
+pub(crate) fn rename(vertices: &mut Vec<VertexId>, merge: &Merge<'_>) {
+    vertices.iter_mut().for_each(|v| *v = now(*v, merge));
+    vertices.sort_unstable();
+    vertices.dedup();
 }
 
 /// The id that a vertex has after a merge.

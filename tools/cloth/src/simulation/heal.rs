@@ -25,6 +25,8 @@ pub enum Wounds {
     All,
     /// What a cut tore, and nothing that tore beside it.
     Cut(CutId),
+    /// A seam of the definition, by its number from 0, as far as it is open.
+    Seam(u32),
 }
 
 /// The speed at which copies are drawn together, in m/s.
@@ -142,6 +144,12 @@ impl Healing {
                 v[end] += faster * share;
             }
         }
+    }
+
+    /// Ends the sewing of the pairs on both sides of these links.
+    pub(super) fn end(&mut self, links: &[HalfEdgeId], mesh: &Mesh) {
+        let ended: BTreeSet<_> = links.iter().flat_map(|&h| apart(mesh, h)).collect();
+        self.open.retain(|pair| !ended.contains(&pair.ends));
     }
 
     /// The vertices within two rings of an open pair, which do not tear.

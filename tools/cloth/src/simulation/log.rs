@@ -19,6 +19,22 @@ use tearmesh::{Mesh, Positions};
 
 /// The inputs of a [`Simulation`](super::Simulation), and the number of steps that it took.
 /// [`Display`](fmt::Display) writes the log as text, and [`FromStr`] reads it.
+///
+/// ```
+/// use tearmesh_cloth::{InputLog, Simulation, SimulationDef};
+/// use tearmesh::{VertexId, shapes};
+///
+/// let (mesh, positions) = shapes::grid(4, 4);
+/// let def = SimulationDef { is_recorded: true, ..SimulationDef::default() };
+/// let mut sim = Simulation::new(mesh.clone(), &positions, def.clone())?;
+/// sim.hold(VertexId::new(24))?;
+/// sim.advance(0.1, 1000)?;
+///
+/// let log: InputLog = sim.log().ok_or("it is recorded")?.to_string().parse()?;
+/// let again = Simulation::replayed(mesh, &positions, def, &log, |_, _| {})?;
+/// assert_eq!(again.cloth().positions(), sim.cloth().positions());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputLog {
     /// Of the mesh and the definition.
@@ -37,8 +53,8 @@ pub(super) struct Record {
 }
 
 /// All inputs, and steps that failed, which leave their mark on what a method remembers.
-const VERBS: [&str; 9] = [
-    "hold", "free", "grab", "lead", "release", "cut", "heal", "wind", "failed",
+const VERBS: [&str; 11] = [
+    "hold", "free", "grab", "lead", "release", "cut", "heal", "sew", "unpick", "wind", "failed",
 ];
 
 const HEAD: &str = "tearmesh inputs 1 digest ";

@@ -10,6 +10,7 @@ use super::error::RunError;
 use crate::balance::Balance;
 use crate::load::Path;
 use crate::scene::{Frame, HeldVertices, Region};
+use crate::simulation::rename;
 use crate::system::System;
 
 /// A hold, and its vertices.
@@ -141,13 +142,15 @@ impl Held {
         })
     }
 
-    /// The copies of held vertices are held as well.
+    /// The copies of held vertices are held as well, and what is sewn to one of them.
     pub(super) fn follow(&mut self, edits: &Edits) {
         for edit in edits.iter() {
-            if let Edit::Split(split) = edit
-                && self.vertices.contains(&split.old)
-            {
-                self.vertices.push(split.new);
+            match edit {
+                Edit::Split(split) if self.vertices.contains(&split.old) => {
+                    self.vertices.push(split.new);
+                }
+                Edit::Merge(merge) => rename(&mut self.vertices, &merge),
+                Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
             }
         }
     }

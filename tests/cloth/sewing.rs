@@ -1,0 +1,386 @@
+//! Panels that are sewn, unpicked, slit across a seam, and refused.
+
+use std::collections::BTreeMap;
+
+use tearmesh::{Mesh, Point, Positions, Ray, Scissor, Vector};
+use tearmesh_cloth::{
+    Bending, Event, Fabric, InputError, Loads, Seam, SeamError, Simulation, SimulationDef,
+    SimulationError, Wounds,
+};
+
+use crate::follow::{check, check_anew};
+use crate::parts::v;
+
+/// Panels as they are drawn: points and faces.
+#[derive(Clone, Default)]
+struct Panels {
+    points: Vec<[f64; 3]>,
+    faces: Vec<[u32; 3]>,
+}
+
+impl Panels {
+    /// Adds a panel with these columns and rows. One that is turned over shows its other side.
+    fn add(mut self, columns: &[f64], rows: &[f64], z: f64, is_turned: bool) -> Panels {
+        let (first, width) = (self.points.len() as u32, columns.len() as u32);
+        for &y in rows {
+            self.points.extend(columns.iter().map(|&x| [x, y, z]));
+        }
+        for row in 0..rows.len() as u32 - 1 {
+            for a in (0..width - 1).map(|column| first + row * width + column) {
+                let cell = [[a, a + 1, a + width], [a + width, a + 1, a + width + 1]];
+                let turned = cell.map(|[a, b, c]| [a, c, b]);
+                self.faces.extend(if is_turned { turned } else { cell });
+            }
+        }
+        self
+    }
+
+    fn mesh(&self) -> Mesh {
+        Mesh::build(self.points.len(), &self.faces).expect("panels")
+    }
+
+    fn positions(&self) -> Positions {
+        Positions::new(self.points.iter().copied()).expect("finite")
+    }
+
+    fn sim(&self, seams: Vec<Seam>) -> Result<Simulation, SimulationError> {
+        Simulation::new(self.mesh(), &self.positions(), def(seams))
+    }
+}
+
+fn seam(
+    name: &str,
+    one: impl IntoIterator<Item = usize>,
+    other: impl IntoIterator<Item = usize>,
+) -> Seam {
+    Seam {
+        name: name.to_owned(),
+        one: one.into_iter().map(v).collect(),
+        other: other.into_iter().map(v).collect(),
+    }
+}
+
+const BEND: Bending = Bending::Spring {
+    stiffness_n_per_m: 0.5,
+};
+
+fn fabric() -> Fabric {
+    Fabric {
+        bend: Some(BEND),
+        ..Fabric::default()
+    }
+}
+
+fn def(seams: Vec<Seam>) -> SimulationDef {
+    SimulationDef {
+        fabric: fabric(),
+        tearing: None,
+        loads: Loads::default(),
+        seams,
+        ..SimulationDef::default()
+    }
+}
+
+/// A front of four columns and a back of five, both of five rows, and their side seams: the back's are a tenth longer.
+fn shirt() -> (Panels, Vec<Seam>) {
+    let front = Panels::default().add(
+        &[0.0, 0.1, 0.2, 0.3],
+        &[0.0, 0.1, 0.2, 0.3, 0.4],
+        0.03,
+        false,
+    );
+    let back = front.add(
+        &[0.0, 0.08, 0.15, 0.22, 0.3],
+        &[0.0, 0.12, 0.22, 0.33, 0.44],
+        -0.03,
+        true,
+    );
+    let left = seam(
+        "left",
+        (0..5).map(|row| 4 * row),
+        (0..5).map(|row| 20 + 5 * row),
+    );
+    let right = seam(
+        "right",
+        (0..5).map(|row| 4 * row + 3),
+        (0..5).map(|row| 24 + 5 * row),
+    );
+    (back, vec![left, right])
+}
+
+/// Lets time pass until all seams are sewn.
+fn sew(sim: &mut Simulation) {
+    for _ in 0..60 {
+        if sim.open_pairs() > 0 {
+            sim.advance(1.0 / 60.0, 1000).expect("a step");
+        }
+    }
+    let healed = sim
+        .events()
+        .filter(|event| matches!(event, Event::Healed { left: 0, .. }));
+    assert_eq!((healed.count(), sim.open_pairs()), (1, 0));
+    verify(sim);
+}
+
+/// What holds of a cloth at all times: lengths, stiffnesses and bends are those of its faces at rest.
+fn verify(sim: &Simulation) {
+    assert_eq!(sim.mesh().check(), []);
+    check(sim.mesh(), sim.cloth(), true);
+    check_anew(sim.mesh(), sim.cloth(), fabric(), true);
+}
+
+/// The corners of faces are at rest where the panels were drawn, to the bit.
+fn rests_as_drawn(sim: &Simulation, panels: &Panels) {
+    let drawn = panels.faces.as_flattened().iter();
+    let drawn = drawn.map(|&v| Point::from(panels.points[v as usize]));
+    assert!(drawn.eq(sim.cloth().rest_corners().iter().copied()));
+}
+
+/// The mesh is that of the panels, up to numbers of vertices.
+fn is_as_drawn(sim: &Simulation, panels: &Panels) {
+    let (mesh, drawn) = (sim.mesh(), panels.mesh());
+    let mut names = [BTreeMap::new(), BTreeMap::new()];
+    for h in drawn.half_edges() {
+        let (one, other) = (drawn.origin(h), mesh.origin(h));
+        assert_eq!(*names[0].entry(one).or_insert(other), other);
+        assert_eq!(*names[1].entry(other).or_insert(one), one);
+        assert_eq!(mesh.pair(h), drawn.pair(h));
+    }
+    assert_eq!(mesh.components().count(), drawn.components().count());
+}
+
+#[test]
+fn sewn_panels_weigh_and_rest_as_they_were_drawn_until_they_are_unpicked() {
+    let (panels, seams) = shirt();
+    let recorded = SimulationDef {
+        is_recorded: true,
+        ..def(seams.clone())
+    };
+    let (mesh, positions) = (panels.mesh(), panels.positions());
+    let sim = Simulation::new(mesh.clone(), &positions, recorded.clone());
+    let mut sim = sim.expect("a garment");
+    let total = sim.cloth().masses().total();
+    assert_eq!((sim.open_pairs(), sim.mesh().components().count()), (10, 2));
+    verify(&sim);
+    sew(&mut sim);
+    rests_as_drawn(&sim, &panels);
+    assert_eq!(
+        (sim.mesh().components().count(), sim.mesh().vertex_count()),
+        (1, 35)
+    );
+    assert_eq!(sim.cloth().masses().total(), total);
+
+    // Each part of an edge of the seam keeps its own length, and both balance: .1 m and .12 m.
+    let shared = sim.mesh().edges().find(|&h| {
+        let sides = [Some(h), sim.mesh().pair(h)].map(|h| {
+            h.map_or(0.0, |h| {
+                let rest = sim.cloth().rest_corners();
+                (rest[h.next().index()] - rest[h.index()]).norm()
+            })
+        });
+        (sides[0] - 0.1).abs() < 1e-9 && (sides[1] - 0.12).abs() < 1e-9
+    });
+    let shared = shared.expect("the lowest edge of a side");
+    let springs = sim.cloth().system().stretches();
+    let spring = springs.get(sim.cloth().stretch(shared));
+    assert!(0.1 < spring.rest_length_m && spring.rest_length_m < 0.12);
+
+    assert_eq!(sim.unpick("left").expect("a seam"), 5);
+    verify(&sim);
+    assert_eq!(sim.mesh().components().count(), 1);
+    assert_eq!(sim.unpick("left").expect("a seam"), 0);
+    sim.heal(Wounds::Seam(0)).expect("a seam");
+    sew(&mut sim);
+    sim.heal(Wounds::Seam(0)).expect("a seam");
+    let unpicked = ["right", "left"].map(|name| sim.unpick(name).expect("a seam"));
+    assert_eq!(unpicked, [5, 5]);
+    verify(&sim);
+    is_as_drawn(&sim, &panels);
+    rests_as_drawn(&sim, &panels);
+    assert_eq!(sim.cloth().masses().total(), total);
+    let none = sim.unpick("collar");
+    assert_eq!(none, Err(InputError::NoSeam("collar".to_owned())));
+
+    let log = sim.log().expect("it is recorded").to_string().parse();
+    let again = Simulation::replayed(mesh, &positions, recorded, &log.expect("a log"), |_, _| {});
+    let again = again.expect("the same");
+    assert_eq!(again.cloth().positions(), sim.cloth().positions());
+    assert_eq!(again.mesh(), sim.mesh());
+}
+
+#[test]
+fn a_slit_across_a_seam_leaves_each_part_its_seam() {
+    let (panels, seams) = shirt();
+    let mut sim = panels.sim(seams).expect("a garment");
+    let total = sim.cloth().masses().total();
+    sew(&mut sim);
+    let ray = |x: f64| Ray::new(Point::new(x, 0.21, 1.0), Vector::new(0.0, 0.0, -1.0));
+    let rays = [-0.1, 0.13].map(|x| ray(x).expect("a ray"));
+    sim.cut(&Scissor::new(rays[0], rays[1]).expect("a plane"))
+        .expect("a cut");
+    assert_eq!(sim.mesh().components().count(), 1);
+    verify(&sim);
+    for name in ["left", "right"] {
+        assert!(sim.unpick(name).expect("a seam") >= 5);
+        verify(&sim);
+    }
+    // Front and back again, each with its slit, and nothing of one on the other.
+    let parts = sim.mesh().components();
+    assert_eq!(parts.count(), 2);
+    let (rest, mut areas) = (sim.cloth().rest_corners(), [0.0_f64; 2]);
+    for f in sim.mesh().faces() {
+        let [a, b, c] = f.half_edges().map(|h| rest[h.index()]);
+        assert!(a.z == b.z && b.z == c.z);
+        areas[usize::from(a.z < 0.0)] += 0.5 * (b - a).cross(&(c - a)).norm();
+        assert_eq!(parts.of(f), usize::from(a.z < 0.0));
+    }
+    assert!((areas[0] - 0.3 * 0.4).abs() < 1e-15 && (areas[1] - 0.3 * 0.44).abs() < 1e-15);
+    assert_eq!(sim.cloth().masses().total(), total);
+}
+
+#[test]
+fn a_dart_is_a_seam_within_a_panel() {
+    // Two rings of five around a tip, open by a sixth.
+    let mut panels = Panels::default();
+    panels.points.push([0.0; 3]);
+    for radius in [0.1, 0.2] {
+        let angles = (0..5).map(|i| f64::from(i) * 75.0_f64.to_radians());
+        panels
+            .points
+            .extend(angles.map(|a| [radius * a.cos(), radius * a.sin(), 0.0]));
+    }
+    for i in 1..5 {
+        panels
+            .faces
+            .extend([[0, i, i + 1], [i, i + 5, i + 1], [i + 1, i + 5, i + 6]]);
+    }
+    let mut sim = panels
+        .sim(vec![seam("dart", [6, 1, 0], [10, 5, 0])])
+        .expect("a dart");
+    sew(&mut sim);
+    assert_eq!(
+        (sim.mesh().vertex_count(), sim.mesh().boundary_loops().len()),
+        (9, 1)
+    );
+    let around = sim.mesh().corners_of(v(0)).flat_map(|h| [h, h.prev()]);
+    assert!(
+        around.into_iter().all(|h| sim.mesh().pair(h).is_some()),
+        "its tip is inside"
+    );
+    rests_as_drawn(&sim, &panels);
+    assert_eq!(sim.unpick("dart").expect("a seam"), 2);
+    is_as_drawn(&sim, &panels);
+    verify(&sim);
+}
+
+#[test]
+fn seams_that_cannot_meet_are_refused_with_their_vertices() {
+    let (panels, seams) = shirt();
+    let panels = panels.add(&[0.5, 0.6], &[0.0, 0.1, 0.2, 0.3, 0.4], 0.0, false);
+    let refusal = |seams: Vec<Seam>| match panels.sim(seams) {
+        Err(SimulationError::Seams(error)) => error,
+        other => panic!("it was not refused for its seams: {other:?}"),
+    };
+    let [left, right] = [&seams[0], &seams[1]];
+    let of = |one: &[usize], other: &[usize]| seam("", one.iter().copied(), other.iter().copied());
+    for (seams, error, text) in [
+        (
+            vec![left.clone(), of(&[3, 7, 11], &[24, 29])],
+            SeamError::Counts {
+                seam: 1,
+                counts: [3, 2],
+            },
+            "seam 2: one side of the seam has 3 vertices, the other 2",
+        ),
+        (
+            vec![of(&[3], &[24])],
+            SeamError::Counts {
+                seam: 0,
+                counts: [1, 1],
+            },
+            "seam 1: a side of a seam has two vertices or more",
+        ),
+        (
+            vec![of(&[3, 7], &[24, 77])],
+            SeamError::NoVertex {
+                seam: 0,
+                vertex: v(77),
+            },
+            "seam 1: the mesh has no vertex v77",
+        ),
+        (
+            vec![of(&[3, 7, 3], &[24, 29, 34])],
+            SeamError::Repeated {
+                seam: 0,
+                vertex: v(3),
+            },
+            "seam 1: a side of the seam names the vertex v3 twice",
+        ),
+        (
+            vec![of(&[3, 11], &[24, 29])],
+            SeamError::NoBoundary {
+                seam: 0,
+                ends: [v(3), v(11)],
+            },
+            "seam 1: v3-v11 is no edge at the boundary of a panel",
+        ),
+        (
+            // Along an edge inside.
+            vec![of(&[5, 9], &[24, 29])],
+            SeamError::NoBoundary {
+                seam: 0,
+                ends: [v(5), v(9)],
+            },
+            "seam 1: v5-v9 is no edge at the boundary of a panel",
+        ),
+        (
+            // What lies between two seams.
+            vec![of(&[0, 4], &[20, 25]), of(&[8, 12], &[30, 35])],
+            SeamError::Unnamed {
+                seam: 0,
+                ends: [v(8), v(4)],
+            },
+            "seam 1: v8-v4 would be sewn as well, since both its ends are, and no seam names it",
+        ),
+    ] {
+        let found = refusal(seams);
+        assert_eq!((found.to_string(), found), (text.to_owned(), error));
+    }
+    // A third panel at the side of two, whichever seam comes first.
+    let third = seam(
+        "",
+        (0..5).map(|row| 4 * row),
+        (0..5).map(|row| 45 + 2 * row),
+    );
+    for seams in [
+        vec![left.clone(), third.clone()],
+        vec![third, right.clone(), left.clone()],
+    ] {
+        let error = refusal(seams);
+        let (seam, vertices) = error.place();
+        assert_eq!((seam, vertices), (0, vec![v(0), v(4)]));
+        assert!(
+            error
+                .to_string()
+                .contains("3 faces would meet at the edge v0-v4"),
+            "{error}"
+        );
+    }
+    for (seams, text) in [
+        (
+            vec![of(&[0, 4], &[45, 47])],
+            "both panels run along v4-v0 the same way: one lies face down",
+        ),
+        (
+            vec![of(&[0, 4], &[20, 25]), of(&[8, 12], &[25, 30])],
+            "a face would have the vertex v4 twice",
+        ),
+    ] {
+        let error = refusal(seams);
+        assert!(
+            matches!(error, SeamError::Sewn { seam: 0, .. }),
+            "{error:?}"
+        );
+        assert_eq!(error.to_string(), format!("seam 1: {text}"));
+    }
+}

@@ -1,0 +1,241 @@
+//! Seams: which edges of panels are to be sewn to each other.
+//!
+//! A garment is a torn mesh that is not yet mended. The panels of it are the components of a mesh; each seam
+//! gives vertices of one side their counterparts on the other, and a vertex and its counterpart are two copies
+//! of one vertex, as if a cut had parted them. So a seam is a torn link from the start, and sewing it is what
+//! mends any tear. Both sides have equally many vertices; their lengths may differ, which is *ease*. Both may be
+//! of one panel: a dart, or the seam that makes a sleeve a tube.
+
+use std::fmt;
+
+use tearmesh::{Defect, DisjointSets, HalfEdgeId, Mesh, TornError, VertexId};
+
+/// A seam between two sides, each a chain of boundary edges.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Seam {
+    /// The name by which it is unpicked. Seams that share a name are unpicked together.
+    pub name: String,
+    /// The vertices of one side, along the boundary.
+    pub one: Vec<VertexId>,
+    /// The counterpart of each: the vertex with which it becomes one. The tip of a dart is its own.
+    pub other: Vec<VertexId>,
+}
+
+/// The reason why seams were refused. Seams are numbered from 0.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SeamError {
+    /// The sides have different numbers of vertices, or fewer than two.
+    Counts {
+        /// The seam.
+        seam: usize,
+        /// The numbers of vertices of both sides.
+        counts: [usize; 2],
+    },
+    /// A side names a vertex that the mesh does not have.
+    NoVertex {
+        /// The seam.
+        seam: usize,
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// A side names a vertex twice.
+    Repeated {
+        /// The seam.
+        seam: usize,
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// Two vertices that follow each other are not the ends of an edge at the boundary.
+    NoBoundary {
+        /// The seam.
+        seam: usize,
+        /// The two vertices.
+        ends: [VertexId; 2],
+    },
+    /// Both ends of a boundary edge are sewn to those of another, so that these edges become one although no seam
+    /// has them.
+    Unnamed {
+        /// The first seam that names one of the ends.
+        seam: usize,
+        /// The ends of the edge.
+        ends: [VertexId; 2],
+    },
+    /// Sewn whole, the panels would be no oriented manifold: three of them share an edge, or two a vertex and no
+    /// edge beside it. The defect names a vertex by the lowest that it would be one with.
+    Sewn {
+        /// The first seam that names one of its vertices.
+        seam: usize,
+        /// What would be wrong.
+        defect: Defect,
+    },
+}
+
+impl SeamError {
+    /// Returns the number of the seam, and the vertices concerned.
+    #[must_use]
+    pub fn place(&self) -> (usize, Vec<VertexId>) {
+        match *self {
+            SeamError::Counts { seam, .. } => (seam, Vec::new()),
+            SeamError::NoVertex { seam, vertex } | SeamError::Repeated { seam, vertex } => {
+                (seam, vec![vertex])
+            }
+            SeamError::NoBoundary { seam, ends } | SeamError::Unnamed { seam, ends } => {
+                (seam, ends.to_vec())
+            }
+            SeamError::Sewn { seam, ref defect } => (seam, vertices_of(defect)),
+        }
+    }
+
+    /// Returns the reason in words, in which each vertex has a name such as its number in a file.
+    #[must_use]
+    pub fn text(&self, name: impl Fn(VertexId) -> String) -> String {
+        let (_, vertices) = self.place();
+        let names: Vec<String> = vertices.into_iter().map(name).collect();
+        let edge = names.join("-");
+        match self {
+            SeamError::Counts {
+                counts: [0 | 1, _], ..
+            } => "a side of a seam has two vertices or more".to_owned(),
+            SeamError::Counts {
+                counts: [one, other],
+                ..
+            } => {
+                format!("one side of the seam has {one} vertices, the other {other}")
+            }
+            SeamError::NoVertex { .. } => format!("the mesh has no vertex {edge}"),
+            SeamError::Repeated { .. } => {
+                format!("a side of the seam names the vertex {edge} twice")
+            }
+            SeamError::NoBoundary { .. } => format!("{edge} is no edge at the boundary of a panel"),
+            SeamError::Unnamed { .. } => {
+                format!(
+                    "{edge} would be sewn as well, since both its ends are, and no seam names it"
+                )
+            }
+            SeamError::Sewn { defect, .. } => match defect {
+                Defect::CrowdedEdge { faces, .. } => {
+                    format!("{} faces would meet at the edge {edge}", faces.len())
+                }
+                Defect::FlippedFace { .. } => {
+                    format!("both panels run along {edge} the same way: one lies face down")
+                }
+                Defect::BowTie { .. } => {
+                    format!("panels would meet in the vertex {edge} and in no edge beside it")
+                }
+                Defect::RepeatedVertex { .. } => {
+                    format!("a face would have the vertex {edge} twice")
+                }
+                _ => format!("two faces would have the same vertices {edge}"),
+            },
+        }
+    }
+}
+
+impl fmt::Display for SeamError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (seam, _) = self.place();
+        write!(f, "seam {}: {}", seam + 1, self.text(|v| v.to_string()))
+    }
+}
+
+impl std::error::Error for SeamError {}
+
+/// The panels as one mesh that is torn along the seams; and by half-edge the number of its seam, from 1, or 0.
+pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), SeamError> {
+    let mut sets = DisjointSets::new(panels.vertex_count() as u32);
+    (0..)
+        .zip(panels.roots())
+        .for_each(|(v, root)| sets.join(v, root));
+    let mut labels = vec![0; panels.half_edge_count()];
+    for (number, seam) in seams.iter().enumerate() {
+        seam.check(number, panels)?;
+        for side in [&seam.one, &seam.other] {
+            for ends in side.array_windows() {
+                let h = boundary(panels, *ends);
+                let h = h.ok_or(SeamError::NoBoundary {
+                    seam: number,
+                    ends: *ends,
+                })?;
+                labels[h.index()] = number as u32 + 1;
+            }
+        }
+        for (&one, &other) in seam.one.iter().zip(&seam.other) {
+            sets.join(one.into(), other.into());
+        }
+    }
+    let roots = sets.leaders();
+    // The seam that names one of these vertices, or a copy of it.
+    let first = |of: &[VertexId]| {
+        let root = |v: &VertexId| roots[v.index()];
+        let is_of = |seam: &Seam| {
+            seam.one
+                .iter()
+                .any(|v| of.iter().any(|w| root(v) == root(w)))
+        };
+        seams.iter().position(is_of).unwrap_or(0)
+    };
+    let faces = panels.indices().as_chunks().0;
+    let built = Mesh::build_torn(faces, roots);
+    let mesh = built.map_err(|error| {
+        let TornError::Build(error) = error else {
+            unreachable!(
+                "a vertex with a counterpart has an edge, and the leader of a set is the lowest"
+            );
+        };
+        let defect = error.defects()[0].clone();
+        let seam = first(&vertices_of(&defect));
+        SeamError::Sewn { seam, defect }
+    })?;
+    let is_unnamed = |h: &HalfEdgeId| {
+        let [before, now] = [panels, &mesh].map(|mesh| mesh.pair_or_ghost(*h));
+        before != now && labels[h.index()] == 0
+    };
+    if let Some(h) = mesh.half_edges().find(is_unnamed) {
+        let ends = [mesh.origin(h), mesh.target(h)];
+        return Err(SeamError::Unnamed {
+            seam: first(&ends),
+            ends,
+        });
+    }
+    Ok((mesh, labels))
+}
+
+impl Seam {
+    fn check(&self, seam: usize, panels: &Mesh) -> Result<(), SeamError> {
+        let counts = [self.one.len(), self.other.len()];
+        if counts[0] != counts[1] || counts[0] < 2 {
+            return Err(SeamError::Counts { seam, counts });
+        }
+        for side in [&self.one, &self.other] {
+            let mut sorted = side.clone();
+            sorted.sort_unstable();
+            if let Some(&vertex) = sorted.last().filter(|v| v.index() >= panels.vertex_count()) {
+                return Err(SeamError::NoVertex { seam, vertex });
+            }
+            if let Some(&[vertex, _]) = sorted.array_windows().find(|[a, b]| a == b) {
+                return Err(SeamError::Repeated { seam, vertex });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The half-edge at the boundary between two vertices, either way.
+fn boundary(mesh: &Mesh, [a, b]: [VertexId; 2]) -> Option<HalfEdgeId> {
+    let joins = |&h: &HalfEdgeId| mesh.origin(h) == b || mesh.target(h) == b;
+    let around = mesh.corners_of(a).flat_map(|h| [h, h.prev()]);
+    around.filter(joins).find(|&h| mesh.pair(h).is_none())
+}
+
+fn vertices_of(defect: &Defect) -> Vec<VertexId> {
+    match *defect {
+        Defect::RepeatedVertex { vertex, .. } | Defect::BowTie { vertex, .. } => vec![vertex],
+        Defect::CrowdedEdge { ends, .. } => ends.to_vec(),
+        Defect::FlippedFace { from, to, .. } => vec![from, to],
+        Defect::DuplicateFaces { vertices, .. } | Defect::Pillow { vertices, .. } => {
+            vertices.to_vec()
+        }
+        _ => Vec::new(),
+    }
+}
