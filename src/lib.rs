@@ -63,7 +63,7 @@
 //! |---|---|
 //! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (which of these can be taken back), [`slide`], [`classify`], `place` (positions), `attribute`, [`engine`] (an engine's buffers, picking, normals), `mass`, [`shapes`] |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (which of these can be taken back), [`slide`], [`classify`], `place` (positions), `attribute`, [`engine`] (an engine's buffers, picking, normals), [`gap`], [`unshare`], `mass`, [`shapes`] |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) |
 //! | sheet | `sheet` (mesh, positions, masses, log and what else follows, held together) |
@@ -96,6 +96,7 @@ pub mod classify;
 mod edit;
 pub mod engine;
 mod exact;
+pub mod gap;
 pub mod geometry;
 pub mod guide;
 mod id;

@@ -95,7 +95,7 @@ fn planted_circles_are_seen_and_no_others() {
 const FLOORS: [&str; 5] = [
     "id geometry exact sets",
     "mesh edit",
-    "split mend insert slide classify place attribute undo unshare engine mass shapes",
+    "split mend insert slide classify place attribute undo unshare engine gap mass shapes",
     "scissor tear",
     "sheet script",
 ];

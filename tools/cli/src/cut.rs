@@ -1,6 +1,5 @@
 //! The verb `cut`.
 
-pub(crate) mod gap;
 mod map;
 pub(crate) mod no_op;
 mod pieces;
@@ -14,6 +13,7 @@ use std::time::Instant;
 
 use tearmesh::{
     Cursor, Cut, CutEnd, CutLayers, CutMethod, CutTips, Edit, Edits, Masses, Positions, Scissor,
+    gap,
 };
 use tearmesh_obj::TornDocument;
 

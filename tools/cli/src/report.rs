@@ -1,6 +1,7 @@
 //! The JSON report. Others rely on these names: add more, rename none.
 
 use serde::Serialize;
+use tearmesh::gap::Gapped;
 use tearmesh::{CutMethod, CutReport, Mesh, Point, Ray, Scissor, Vector};
 use tearmesh_cloth::Quality;
 use tearmesh_cloth::scene::ensemble::{Ensemble, Quantity};
@@ -9,7 +10,6 @@ use tearmesh_cloth::statistics::Comparison;
 use tearmesh_obj::Location;
 
 use crate::choice::Choice as _;
-use crate::cut::gap::Gapped;
 use crate::say::Fault;
 
 #[derive(Debug, Default, Serialize)]

@@ -137,6 +137,34 @@ impl Document {
             Err(error) => Err(CoincidentError::Mesh(error)),
         }
     }
+
+    /// Returns this document, with the record that cut 1 split each vertex from its root, and its mesh.
+    /// `roots` are as [`Mesh::roots`] lists them.
+    ///
+    /// # Errors
+    ///
+    /// For the same reasons as [`Document::torn_at`].
+    ///
+    /// # Panics
+    ///
+    /// If the document has a record, or if `roots` are not those of a mesh with its triangles.
+    ///
+    /// ```
+    /// use tearmesh_obj::Document;
+    ///
+    /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 1 0 0\nf 1 2 3\nf 3 5 4\n";
+    /// let (torn, mesh) = Document::read(&file[..])?.torn_from(&[0, 1, 2, 3, 1])?;
+    /// assert_eq!((torn.has_record(), mesh.roots()), (true, vec![0, 1, 2, 3, 1]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn torn_from(self, roots: &[u32]) -> Result<(Document, Mesh), CoincidentError> {
+        let split = |(vertex, &from): (u32, &u32)| {
+            let cut = 1;
+            (from != vertex).then_some(SplitOff { vertex, from, cut })
+        };
+        let splits = (0..).zip(roots).filter_map(split).collect();
+        self.torn_at(&Coincident { edges: 0, splits })
+    }
 }
 
 /// The reason why coincident edges cannot be sewn.

@@ -1,8 +1,8 @@
 //! The summary of a cut and its gap, and the warnings about them.
 
+use tearmesh::gap::Gapped;
 use tearmesh::{Cut, CutReport};
 
-use super::gap::Gapped;
 use super::no_op::NoOpReason;
 use crate::measure::Bounds;
 use crate::report;

@@ -1,25 +1,28 @@
-//! The gap of `cut --gap`: pieces and the sides of slits, moved apart to be seen, and to stay apart
-//! in programs that merge coincident points.
+//! A gap between the sides of a cut, so that it can be seen, and so that programs that merge coincident points
+//! leave it open.
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-use tearmesh::{Components, FaceId, HalfEdgeId, Mesh, Point, Positions, Vector, VertexId};
+use crate::geometry::{Point, Vector};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::mesh::{Components, Mesh};
+use crate::place::Positions;
 
-use crate::measure::Edges;
-
-/// How far apart the sides of cuts are written.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Gapped {
-    pub(crate) length: f64,
-    pub(crate) vertices_moved: usize,
-    /// Those that moved less than half the gap.
-    pub(crate) vertices_clamped: usize,
-    /// The pieces that moved rigidly.
-    pub(crate) pieces_moved: usize,
-    /// The vertices on cut sides that moved within their piece.
-    #[serde(skip)]
-    pub(crate) side_vertices: usize,
+/// How far apart the sides of cuts are: the report of [`gapped`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Gapped {
+    /// The gap that was asked for.
+    pub length: f64,
+    /// The number of vertices that moved.
+    pub vertices_moved: usize,
+    /// The number of vertices that moved by less than half the gap, so that no face flips.
+    pub vertices_clamped: usize,
+    /// The number of pieces that moved rigidly.
+    pub pieces_moved: usize,
+    /// The number of vertices on cut sides that moved within their piece.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub side_vertices: usize,
 }
 
 /// How often the way of a vertex is halved before the vertex stays in place.
@@ -36,7 +39,8 @@ const STRAIGHTNESS_MIN: f64 = 0.5;
 /// meet, the shifts that any two of them need can differ.
 const GAP_MIN: f64 = 0.9;
 
-/// Moves everything that is torn `gap` apart, and gives the place of each vertex.
+/// Moves everything that is torn `gap` apart, and returns the new position of each vertex. The mesh and its
+/// positions stay as they are.
 ///
 /// Two pieces that a seam separates move rigidly, each by half the gap. Where both sides of a seam
 /// are of one piece (a slit), or the seam goes around a piece, the vertices of each side move by
@@ -44,17 +48,31 @@ const GAP_MIN: f64 = 0.9;
 /// at it. A vertex of both sides, such as the tip of a slit, stays in place. Where a face would
 /// flip or lose nearly all of its area, the ways of its vertices are halved until it does not.
 /// Takes linear time: only the faces around such vertices are tested again, and each vertex has at
-/// most [`HALVINGS`].
-pub(crate) fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> (Gapped, Vec<Point>) {
+/// forty halvings.
+///
+/// ```
+/// use tearmesh::{gap, shapes, CutMethod, Edits, Plane, Point, Scissor, Vector};
+///
+/// let (mut mesh, mut positions) = shapes::grid(8, 8);
+/// let plane = Plane::new(Point::new(0.3, 0.0, 0.0), Vector::x())?;
+/// let mut edits = Edits::new();
+/// Scissor::by_plane(plane).cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
+/// let (report, points) = gap::gapped(&mesh, &positions, 0.1);
+/// assert_eq!((report.pieces_moved, points.len()), (2, mesh.vertex_count()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn gapped(mesh: &Mesh, positions: &Positions, gap: f64) -> (Gapped, Vec<Point>) {
     let pieces = Pieces::new(mesh, positions);
     let away = directions(mesh, positions, &pieces);
     let wanted = gap / 2.0;
-    let far = wanted.min(Edges::of(mesh, positions).longest);
+    let lengths = mesh.edges().map(|h| edge(mesh, positions, h).norm());
+    let far = wanted.min(lengths.fold(0.0, f64::max));
     let mut halvings = vec![0_u32; away.len()];
     let at = |v: VertexId, halvings: &[u32]| {
         let part = match halvings[v.index()] {
             HALVINGS => 0.0,
-            times => far * 0.5_f64.powi(times as i32),
+            times => (0..times).fold(far, |far, _| far / 2.0),
         };
         away[v.index()].map_or(positions.at(v), |away| positions.at(v) + away * part)
     };
@@ -126,7 +144,7 @@ impl Pieces {
             let Some(across) = across.filter(|&across| across != piece) else {
                 continue;
             };
-            let edge_m = (positions.at(mesh.target(h)) - positions.at(mesh.origin(h))).norm();
+            let edge_m = edge(mesh, positions, h).norm();
             let normal = inward(mesh, positions, h) * edge_m;
             let seam = seams.entry([piece.min(across), piece.max(across)]);
             let (sum, length) = seam.or_insert((Vector::zeros(), 0.0));
@@ -229,7 +247,7 @@ fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option
     let is_end = |h: &HalfEdgeId| mesh.pair(*h).is_none() && pieces.across(mesh, *h).is_none();
     for h in mesh.half_edges().filter(is_end) {
         let [a, b] = [mesh.origin(h), mesh.target(h)];
-        let edge = positions.at(b) - positions.at(a);
+        let edge = edge(mesh, positions, h);
         for (v, edge) in [(a, edge), (b, -edge)] {
             if is_side[v.index()] {
                 along[v.index()] += unit(edge);
@@ -243,6 +261,11 @@ fn directions(mesh: &Mesh, positions: &Positions, pieces: &Pieces) -> Vec<Option
         (is_side[v] && !is_shared[v] && direction != Vector::zeros()).then_some(direction)
     };
     (0..away.len()).map(direction).collect()
+}
+
+/// The way along a half-edge.
+fn edge(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> Vector {
+    positions.at(mesh.target(h)) - positions.at(mesh.origin(h))
 }
 
 /// The unit vector in the plane of a face, square to one of its edges and pointing inward.
