@@ -17,6 +17,7 @@ pub(super) fn agrees(mesh: &Mesh, soup: &Soup) {
     let corners = soup.corners_by_vertex();
     the_walk_lists_exactly_the_corners(mesh, &corners);
     the_fans_are_those_joined_by_edges(mesh, soup);
+    the_boundary_loops_run_along_all_that_has_no_pair(mesh);
     the_torn_links_are_those_whose_ends_differ(mesh, soup);
     the_roots_give_the_whole_back(mesh, soup);
     triangles_and_roots_are_all_there_is(mesh);
@@ -54,6 +55,23 @@ fn the_fans_are_those_joined_by_edges(mesh: &Mesh, soup: &Soup) {
             assert!(truth.contains(&fan(h)), "the fan of {h}");
         }
     }
+}
+
+/// I18: the boundary loops list each half-edge without a pair once, and each starts where the one before
+/// ends.
+fn the_boundary_loops_run_along_all_that_has_no_pair(mesh: &Mesh) {
+    let mut listed = Vec::new();
+    for start in mesh.boundary_loops() {
+        let around: Vec<HalfEdgeId> = mesh.boundary_loop(start).collect();
+        for (i, &h) in around.iter().enumerate() {
+            let next = around[(i + 1) % around.len()];
+            assert_eq!(mesh.target(h), mesh.origin(next), "{next} after {h}");
+        }
+        listed.extend(around);
+    }
+    listed.sort_unstable();
+    let lone = mesh.half_edges().filter(|&h| mesh.pair(h).is_none());
+    assert!(lone.eq(listed), "half-edges without a pair");
 }
 
 /// I4 to I7, I15: what is joined in the whole is a pair where the ends agree, and else a
