@@ -199,7 +199,7 @@ fn wind_works_on_who_is_free() {
 #[test]
 fn an_impact_takes_motion() {
     for substeps in [1, 4] {
-        let ground = Collider::Plane(plane([0.0, 0.0, -1.0], -DOWN));
+        let ground = Collider::plane(plane([0.0, 0.0, -1.0], -DOWN));
         let mut row = Observed::new(row([0.0, 1.0, 2.0], onto(ground, &pulled(DOWN, 0.0))));
         row.take(&mut Xpbd::new(substeps, 1), 0.01, 100);
         let balance = row.now();
@@ -211,10 +211,7 @@ fn an_impact_takes_motion() {
     }
     // By Verlet a fall is exact, and so is what a push out of the ground gives back. What is left is what
     // damping took from the spring between them, which the ball crushes.
-    let ball = Collider::Sphere {
-        centre: Point::new(0.65, 0.2, -2.0),
-        radius_m: 1.5,
-    };
+    let ball = Collider::sphere(Point::new(0.65, 0.2, -2.0), 1.5);
     let mut stones = Observed::new(row([0.0, 1.3], onto(ball, &pulled(DOWN, 0.0))));
     stones.take(&mut Verlet::new(), 1e-4, 10_000);
     let balance = stones.now();

@@ -54,15 +54,14 @@ fn a_pin_stays_and_a_led_particle_is_on_its_path() {
 /// Contact takes the velocity into the body; what that was a step before is no reason to bounce.
 #[test]
 fn what_falls_on_a_plane_or_a_ball_stays_on_it() {
-    let ground = Collider::Plane(plane([0.0, 0.0, -0.3], Vector::z()));
-    let ball = Collider::Sphere {
-        centre: Point::new(0.0, 0.0, -1.0),
-        radius_m: 0.75,
-    };
+    let ground = Collider::plane(plane([0.0, 0.0, -0.3], Vector::z()));
+    let ball = Collider::sphere(Point::new(0.0, 0.0, -1.0), 0.75);
     for (body, height) in [(ground, -0.3), (ball, -0.25)] {
         for name in METHODS {
             let mut weight = on_a_line([0.0], 1.0);
-            weight.set_loads(onto(body, &gravity(0.0))).expect("loads");
+            weight
+                .set_loads(onto(body.clone(), &gravity(0.0)))
+                .expect("loads");
             let mut landed = false;
             take(&mut weight, &mut *method(name, 10), 200, |weight| {
                 let z = weight.positions()[0].z;

@@ -6,6 +6,7 @@ mod air;
 mod allocation;
 mod balance;
 mod bending;
+mod bodies;
 mod damping;
 mod defaults;
 mod ensemble;

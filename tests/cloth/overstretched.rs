@@ -18,7 +18,7 @@ fn pulled_about(seed: u64) -> (Torn, f64) {
     let mut loads = pulled(Vector::y() * (-150.0 * random.next()), 1.0);
     if seed.is_multiple_of(3) {
         let floor = plane([0.0, -0.02, 0.0], Vector::y());
-        loads.colliders.push(Collider::Plane(floor));
+        loads.colliders.push(Collider::plane(floor));
     }
     let down = Vector::y() * (-2.0 * random.next());
     let row = cells as usize + 1;

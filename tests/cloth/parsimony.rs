@@ -59,8 +59,8 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
         let each = windy.wind_evaluations * faces;
         assert!(wind >= each && wind % faces == 0, "{name}");
 
-        let floor = Collider::Plane(plane([0.0, -1e3, 0.0], Vector::y()));
-        let (_, above) = cost(method, |scene| scene.colliders.push(floor));
+        let floor = Collider::plane(plane([0.0, -1e3, 0.0], Vector::y()));
+        let (_, above) = cost(method, |scene| scene.colliders.push(floor.clone()));
         let visits = above.features;
         let each = above.substeps * run.mesh().vertex_count() as u64;
         assert_eq!(visits.collider, each, "{name}");
@@ -150,7 +150,7 @@ fn a_collider_that_nothing_meets_changes_no_bit_of_a_step() {
     system.set_loads(gravity_along_y(1.0)).expect("loads");
     (156..169).for_each(|top| system.hold(top));
     let mut above = free.clone();
-    let floor = Collider::Plane(plane([0.0, -1e3, 0.0], Vector::y()));
+    let floor = Collider::plane(plane([0.0, -1e3, 0.0], Vector::y()));
     let loads = onto(floor, &gravity_along_y(1.0));
     above.system_mut().set_loads(loads).expect("loads");
     for _ in 0..20 {

@@ -225,10 +225,7 @@ fn a_ball_under_a_falling_cloth_is_not_entered() {
     let floor = plane([0.0, 0.0, -0.9], Vector::z());
     let scene = Scene {
         duration_s: 1.0,
-        colliders: vec![
-            Collider::Sphere { centre, radius_m },
-            Collider::Plane(floor),
-        ],
+        colliders: vec![Collider::sphere(centre, radius_m), Collider::plane(floor)],
         tearing: None,
         ..Scene::fall(Axis::Z)
     };

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 
+use crate::body::Body;
 use crate::system::error::SettingError;
 
 /// The external loads on the particles. By default there are none.
@@ -40,10 +41,30 @@ pub struct Wind {
     pub coefficient: f64,
 }
 
-/// An obstacle that particles cannot enter. A contact removes the velocity towards the obstacle,
-/// and has no friction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Collider {
+/// An obstacle that particles cannot enter. A contact removes the velocity towards the obstacle;
+/// friction takes some of the velocity along it.
+///
+/// ```
+/// use tearmesh::{Plane, Point, Vector};
+/// use tearmesh_cloth::{Collider, Loads};
+///
+/// let floor = Plane::new(Point::origin(), Vector::y())?;
+/// let colliders = vec![Collider::plane(floor).with_friction(0.4)];
+/// let loads = Loads { colliders, ..Loads::default() };
+/// # Ok::<(), tearmesh::PlaneError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Collider {
+    /// The obstacle itself.
+    pub shape: ColliderShape,
+    /// Coulomb's coefficient μ of friction; 0 for none. What rests on the obstacle stays where it is
+    /// while the force along it is at most μ times the one into it.
+    pub friction: f64,
+}
+
+/// The shape of a [`Collider`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum ColliderShape {
     /// The half-space behind a plane, on the side away from its normal.
     Plane(Plane),
     /// A ball.
@@ -52,6 +73,14 @@ pub enum Collider {
         centre: Point,
         /// The radius of the ball, in metres.
         radius_m: f64,
+    },
+    /// A body of triangles.
+    Body {
+        /// The body, shared by all who collide with it.
+        body: Arc<Body>,
+        /// How far vertices stay from its skin, in metres: at least the [largest
+        /// error](Body::error_worst_m) of its grid.
+        thickness_m: f64,
     },
 }
 
@@ -70,12 +99,28 @@ impl Loads {
             SettingError::unless_positive("wind.coefficient", wind.coefficient)?;
         }
         for collider in &self.colliders {
-            if let Collider::Sphere { centre, radius_m } = *collider {
-                finite("colliders.centre", centre.coords)?;
-                SettingError::unless_positive("colliders.radius_m", radius_m)?;
+            SettingError::unless_positive("colliders.friction", collider.friction)?;
+            match &collider.shape {
+                ColliderShape::Plane(_) => {}
+                ColliderShape::Sphere { centre, radius_m } => {
+                    finite("colliders.centre", centre.coords)?;
+                    SettingError::unless_positive("colliders.radius_m", *radius_m)?;
+                }
+                ColliderShape::Body { body, thickness_m } => {
+                    let (given, setting) = (*thickness_m, "colliders.thickness_m");
+                    let holds = given >= body.error_worst_m() && given.is_finite();
+                    let allowed = "at least the largest error of the body's grid";
+                    SettingError::unless(holds, setting, given, allowed)?;
+                }
             }
         }
         Ok(())
+    }
+
+    /// Whether contact asks where substeps begin.
+    pub(crate) fn has_close_contact(&self) -> bool {
+        let mut colliders = self.colliders.iter();
+        colliders.any(|collider| collider.friction > 0.0 || collider.is_body())
     }
 }
 
@@ -107,21 +152,55 @@ impl Wind {
 }
 
 impl Collider {
-    /// Where a particle inside comes out, and its velocity then; `None` for one outside.
-    pub(crate) fn pushed(&self, x: Point, v: Vector) -> Option<(Point, Vector)> {
-        // The way out: a unit vector, and how far.
-        let (normal, depth) = match *self {
-            Collider::Plane(plane) => (plane.normal(), -plane.distance(x)),
-            Collider::Sphere { centre, radius_m } => {
+    /// Creates the half-space behind a plane, without friction.
+    #[must_use]
+    pub fn plane(plane: Plane) -> Collider {
+        Collider::of(ColliderShape::Plane(plane))
+    }
+
+    /// Creates a ball without friction.
+    #[must_use]
+    pub fn sphere(centre: Point, radius_m: f64) -> Collider {
+        Collider::of(ColliderShape::Sphere { centre, radius_m })
+    }
+
+    /// Creates a body without friction, with a thickness of twice the largest error of its grid.
+    #[must_use]
+    pub fn body(body: Arc<Body>) -> Collider {
+        let thickness_m = 2.0 * body.error_worst_m();
+        Collider::of(ColliderShape::Body { body, thickness_m })
+    }
+
+    pub(crate) fn is_body(&self) -> bool {
+        matches!(self.shape, ColliderShape::Body { .. })
+    }
+
+    fn of(shape: ColliderShape) -> Collider {
+        let friction = 0.0;
+        Collider { shape, friction }
+    }
+
+    /// Sets Coulomb's coefficient of friction.
+    #[must_use]
+    pub fn with_friction(self, friction: f64) -> Collider {
+        Collider { friction, ..self }
+    }
+}
+
+impl ColliderShape {
+    /// The way out of a plane or a ball: a unit vector, and how deep inside a particle is. A body is none of them.
+    pub(crate) fn way_out(&self, x: Point) -> (Vector, f64) {
+        match *self {
+            ColliderShape::Plane(plane) => (plane.normal(), -plane.distance(x)),
+            ColliderShape::Sphere { centre, radius_m } => {
                 let d = x - centre;
                 let distance = length(d);
                 let is_centre = distance <= 0.0;
                 let normal = if is_centre { Vector::z() } else { d / distance };
                 (normal, radius_m - distance)
             }
-        };
-        let into = dot(normal, v).min(0.0);
-        (depth > 0.0).then(|| (x + normal * depth, v - normal * into))
+            ColliderShape::Body { .. } => (Vector::z(), f64::NEG_INFINITY),
+        }
     }
 }
 

@@ -91,6 +91,21 @@ impl Hessian {
         *sum += if i < j { *block } else { block.transpose() };
     }
 
+    /// Makes a particle this many times as stiff along a direction as it is, its inertia included. Returns the
+    /// stiffness that was added.
+    pub(crate) fn stiffen(
+        &mut self,
+        particle: usize,
+        along: Vector,
+        inertia: f64,
+        times: f64,
+    ) -> f64 {
+        let block = &mut self.diagonal[particle];
+        let stiffness = times * (inertia + block.trace().max(0.0));
+        *block += outer(along, along) * stiffness;
+        stiffness
+    }
+
     /// Returns the sum of the diagonal, which is no less than the largest eigenvalue unless one is negative.
     pub(crate) fn trace(&self) -> f64 {
         self.diagonal.iter().map(Block::trace).sum()

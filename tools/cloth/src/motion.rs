@@ -3,8 +3,8 @@
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::collide::{move_out, push_out};
 use crate::crush::Crush;
-use crate::energy;
 use crate::system::{Model, System};
 
 /// Takes the accelerations now, with wind at the velocities of now or at those that were
@@ -117,12 +117,15 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
     }
 }
 
-/// Takes as velocity what was moved.
+/// Takes as velocity what was moved, also by close contact.
 pub(crate) fn finish(system: &mut System, dt_s: f64) {
     let per_s = 1.0 / dt_s;
     let moves = system.positions.iter().zip(&system.scratch.before);
     for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
         *v = (x - before) * per_s;
+    }
+    if system.model.loads.has_close_contact() {
+        move_out(system, per_s);
     }
 }
 
@@ -144,35 +147,6 @@ pub(crate) fn finish_and_predict(system: &mut System, dt_s: f64) {
         *before = *x;
         *x += moved(v, gravity, w);
     }
-}
-
-/// Pushes the particles out of the colliders. Where someone keeps a balance of energy, what that
-/// makes is summed up, which takes the valence of each particle in contact.
-pub(crate) fn push_out(system: &mut System) {
-    system.keep();
-    let mut made_j = 0.0;
-    for i in 0..system.model.loads.colliders.len() {
-        system.counters.collider_passes += 1;
-        system.counters.features.collider += system.positions.len() as u64;
-        for particle in 0..system.positions.len() {
-            if system.model.inverse_masses[particle] <= 0.0 {
-                continue;
-            }
-            let (x, v) = (system.positions[particle], system.velocities[particle]);
-            let Some((x, v)) = system.model.loads.colliders[i].pushed(x, v) else {
-                continue;
-            };
-            let energy_j = |system: &System| match system.contact_j {
-                Some(_) => energy::at_j(system, particle),
-                None => 0.0,
-            };
-            made_j -= energy_j(system);
-            system.positions[particle] = x;
-            system.velocities[particle] = v;
-            made_j += energy_j(system);
-        }
-    }
-    system.contact_j = system.contact_j.map(|sum| sum + made_j);
 }
 
 /// How far a particle moves in a substep without constraints, by its velocity, acceleration and inverse mass.

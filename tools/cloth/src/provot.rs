@@ -65,7 +65,7 @@ impl Provot {
         let (model, scratch) = (&mut system.model, &mut system.scratch);
         let (positions, counters) = (&mut system.positions, &mut system.counters);
         scratch.is_fresh = false;
-        scratch.before.clone_from(positions);
+        scratch.unlimited.clone_from(positions);
         for colour in &mut model.stretch.colours {
             spring::ratios(colour, positions);
         }
@@ -86,7 +86,7 @@ impl Provot {
             passes += 1;
         }
         if has_shortened {
-            let moved = positions.iter().zip(&scratch.before);
+            let moved = positions.iter().zip(&scratch.unlimited);
             for (v, (x, before)) in system.velocities.iter_mut().zip(moved) {
                 *v += (x - before) / dt_s;
             }

@@ -154,6 +154,11 @@ pub enum Failure {
     BlowUp,
     /// An implicit method found no state that solves its equation within the tolerance.
     Implicit(implicit::StepError),
+    /// A particle went so far that it may have passed through a body. The step is then divided.
+    TooFar {
+        /// The index of the particle.
+        particle: usize,
+    },
 }
 
 impl Failure {
@@ -219,6 +224,14 @@ pub enum StepError {
         /// [`source`](std::error::Error::source).
         error: implicit::StepError,
     },
+    /// A particle may pass through a [body](crate::Body), even in a sixty-fourth of the step: it would go
+    /// farther than the thickness and a cell of the grid.
+    TooFar {
+        /// The simulated time of the last good state, in seconds. The system is in that state.
+        elapsed_s: f64,
+        /// The index of the particle.
+        particle: usize,
+    },
 }
 
 /// What sets the stability limit of a step.
@@ -238,7 +251,9 @@ impl StepError {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
-            StepError::Unstable { .. } | StepError::Substeps { .. } => "E-SIM-UNSTABLE",
+            StepError::Unstable { .. } | StepError::Substeps { .. } | StepError::TooFar { .. } => {
+                "E-SIM-UNSTABLE"
+            }
             StepError::Implicit { .. } => "E-SIM-UNSOLVED",
             StepError::Setting(_) => "E-SCENE-RANGE",
             _ => "E-SIM-BLOWUP",
@@ -288,6 +303,13 @@ impl fmt::Display for StepError {
             }
             StepError::Implicit { elapsed_s, error } => format!(
                 "an implicit step failed after {elapsed_s} s: {error}; the last good state is kept"
+            ),
+            StepError::TooFar {
+                elapsed_s,
+                particle,
+            } => format!(
+                "particle {particle} is too fast for a collider after {elapsed_s} s, and may pass through it; \
+                 the last good state is kept"
             ),
         };
         f.write_str(&text)

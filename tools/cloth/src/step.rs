@@ -3,21 +3,22 @@
 //! [`System::step`] is the only way to advance a system. It checks the stability limit of an
 //! explicit method before the step and looks for blow-up after it. If anything fails, the last good
 //! state is kept. Nothing is copied for that as a step begins: explicit methods write where particles
-//! go beside where they were ([`kick_and_drift`](motion::kick_and_drift)), and for all others, whoever
+//! go beside where they were ([`kick_and_drift`](crate::motion::kick_and_drift)), and for all others, whoever
 //! changes the state first copies it ([`System::keep`]).
 
 use tearmesh::geometry::{Point, Vector};
 
 use crate::balance::Balance;
 use crate::blow_up::{BlowUpSite, first, is_beyond};
-use crate::motion;
+use crate::collide;
 use crate::solver::{Failure, Solver, StepError};
 use crate::stability::admit;
 use crate::system::{Model, Recorded, SettingError, System};
 
 impl System {
     /// Advances the system by `dt_s` seconds, and returns the number of substeps into which the stability check
-    /// divided the step: 1 unless [`Unstable::Substep`](crate::Unstable::Substep) is set.
+    /// divided the step, or into which it was divided because a particle might have passed through a
+    /// [body](crate::Body) otherwise.
     ///
     /// # Errors
     ///
@@ -41,6 +42,24 @@ impl System {
         check(self, solver, dt_s)?;
         let admitted = admit(self, solver, dt_s);
         let substeps = admitted.map_err(|error| unless_broken(self, error))?;
+        let mut parts = substeps;
+        loop {
+            let taken = self.take(solver, dt_s, parts, balance.as_deref_mut());
+            match taken.map_err(|failure| (failure, go_back(self, failure))) {
+                Err((Failure::TooFar { .. }, _)) if parts < PARTS_MAX * substeps => parts *= 2,
+                taken => return taken.map(|()| parts).map_err(|(_, error)| error),
+            }
+        }
+    }
+
+    /// Takes a step in so many substeps.
+    fn take(
+        &mut self,
+        solver: &mut dyn Solver,
+        dt_s: f64,
+        substeps: u32,
+        mut balance: Option<&mut Balance>,
+    ) -> Result<(), Failure> {
         // Positions and velocities are kept once the method changes them; those who are led are given new
         // velocities before that.
         self.scratch.is_beginning = true;
@@ -60,13 +79,16 @@ impl System {
                 if let Some((balance, work)) = balance.zip(work) {
                     balance.work = work;
                 }
-                return Err(go_back(self, failure));
+                return Err(failure);
             }
         }
         self.elapsed_s = began_s + dt_s;
-        Ok(substeps)
+        Ok(())
     }
 }
+
+/// A step in which a particle may pass through a body is divided in two as often as makes this.
+const PARTS_MAX: u32 = 64;
 
 /// Whether a method can take such a step of such a system at all.
 fn check(system: &System, solver: &dyn Solver, dt_s: f64) -> Result<(), StepError> {
@@ -106,8 +128,10 @@ fn advance(
     if let Some(balance) = balance.as_deref_mut() {
         balance.before(system);
     }
+    collide::begin(system);
     solver.advance(system, substep_s)?;
-    motion::push_out(system);
+    collide::push_out(system);
+    collide::check(system)?;
     Failure::unless(is_finite(system))?;
     if let Some(balance) = balance {
         // Methods without a stability limit move particles by the forces at the end of a substep.
@@ -153,10 +177,15 @@ fn go_back(system: &mut System, failure: Failure) -> StepError {
             at: blow_up_site(&system.model, &[began, now]),
         },
         Failure::Implicit(error) => StepError::Implicit { elapsed_s, error },
+        Failure::TooFar { particle } => StepError::TooFar {
+            elapsed_s,
+            particle,
+        },
     };
     std::mem::swap(&mut system.positions, &mut system.scratch.positions);
     std::mem::swap(&mut system.velocities, &mut system.scratch.velocities);
     system.scratch.is_fresh = false;
+    system.scratch.lose_contact();
     system.model.recorded = Recorded::Nothing;
     error
 }

@@ -17,6 +17,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::bend::Buckling;
 use crate::constraint::{Constraint, ConstraintId, Constraints};
+use crate::contact::{Contact, Looks, Pressed};
 use crate::guard::Guard;
 use crate::incidence::room_for;
 use crate::load::{Loads, Path};
@@ -85,10 +86,25 @@ pub(crate) struct Scratch {
     pub(crate) led: Vec<(u32, Vector)>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
+    /// The contacts of the last substep, and how the particles were pressed in it, if any were.
+    pub(crate) contacts: Vec<Contact>,
+    pub(crate) pressed: Vec<Pressed>,
+    /// How far particles are from bodies.
+    pub(crate) looks: Looks,
+    /// Where a limiter found the particles.
+    pub(crate) unlimited: Vec<Point>,
     /// The velocities that wind blows at, where they are predicted.
     pub(crate) predicted: Vec<Vector>,
     /// The area of the faces of each particle, where there is wind.
     pub(crate) areas: Vec<f64>,
+}
+
+impl Scratch {
+    /// Has everything looked at again for contact, since particles were moved or renamed.
+    pub(crate) fn lose_contact(&mut self) {
+        self.looks.forget();
+        self.contacts.clear();
+    }
 }
 
 /// How a system treats a step beyond the stability limit of an explicit method.
@@ -175,6 +191,9 @@ impl System {
         room_for(&mut scratch.velocities, particles);
         room_for(&mut scratch.accelerations, particles);
         room_for(&mut scratch.before, particles);
+        room_for(&mut scratch.unlimited, particles);
+        room_for(&mut scratch.contacts, particles);
+        room_for(&mut scratch.pressed, particles);
         room_for(&mut scratch.predicted, particles);
         room_for(&mut scratch.areas, particles);
         room_for(&mut model.masses, particles);
@@ -331,6 +350,7 @@ impl System {
     /// Notes that masses or constraints have changed.
     pub(crate) fn touched(&mut self) {
         self.scratch.is_fresh = false;
+        self.scratch.lose_contact();
         self.guard.is_known = false;
     }
 
@@ -402,6 +422,7 @@ impl System {
     pub fn set_loads(&mut self, loads: Loads) -> Result<(), SettingError> {
         loads.check()?;
         self.scratch.is_fresh = false;
+        self.scratch.lose_contact();
         self.model.loads = loads;
         Ok(())
     }
@@ -458,6 +479,7 @@ impl System {
     pub fn state_mut(&mut self) -> (&mut [Point], &mut [Vector]) {
         self.keep();
         self.scratch.is_fresh = false;
+        self.scratch.lose_contact();
         self.model.recorded = Recorded::Nothing;
         (&mut self.positions, &mut self.velocities)
     }

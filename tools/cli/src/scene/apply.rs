@@ -1,16 +1,21 @@
 //! The scene that a scene file describes.
 
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+
 use serde::Deserialize;
 use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{
     Axis, Frame, HeldVertices, Preset, Region, Scene, SwayingWind, TimedCut,
 };
-use tearmesh_cloth::{Collider, Method, Tearing, Threshold};
+use tearmesh_cloth::{Body, BodyError, Collider, ColliderShape, Method, Tearing, Threshold};
 
 use super::kinds::set;
 use super::read::{SceneFile, Table, none_of};
 use crate::exit::Stop;
-use crate::say::Fault;
+use crate::input::Input;
+use crate::say::{Fault, two_digits};
 
 impl SceneFile {
     /// Which way is up.
@@ -94,17 +99,65 @@ impl SceneFile {
     }
 
     fn collider(&self, table: &Table) -> Result<Collider, Fault> {
-        let groups: [&[_]; 2] = [&["point", "normal"], &["centre", "radius_m"]];
+        let groups: [&[_]; 3] = [
+            &["point", "normal"],
+            &["centre", "radius_m"],
+            &["body", "thickness_m", "cell_m"],
+        ];
         let group = self.one_of(table, "a collider", &groups)?;
-        if let (Some(point), Some(normal)) = (point(table, "point"), vector(table, "normal")) {
-            let wrong = |why: String| self.fault(table, "normal", "E-SCENE-RANGE", why);
-            let plane = Plane::new(point, normal).map_err(|error| wrong(error.to_string()))?;
-            return Ok(Collider::Plane(plane));
+        let lacks = || self.lacks(table, group);
+        let collider = match group[0] {
+            "body" => self.body(table, &table.get::<String>("body").ok_or_else(lacks)?)?,
+            "point" => {
+                let point = point(table, "point").ok_or_else(lacks)?;
+                let normal = vector(table, "normal").ok_or_else(lacks)?;
+                let plane = Plane::new(point, normal).map_err(|error| error.to_string());
+                let wrong = |why| self.fault(table, "normal", "E-SCENE-RANGE", why);
+                Collider::plane(plane.map_err(wrong)?)
+            }
+            _ => {
+                let centre = point(table, "centre").ok_or_else(lacks)?;
+                Collider::sphere(centre, table.get("radius_m").ok_or_else(lacks)?)
+            }
+        };
+        Ok(collider.with_friction(table.get("friction").unwrap_or(0.0)))
+    }
+
+    /// The body in a file, whose place is given as from the scene file.
+    fn body(&self, table: &Table, file: &str) -> Result<Collider, Fault> {
+        let path = Path::new(self.name()).with_file_name(file);
+        let read = Input::find(&path, &mut io::empty()).and_then(|input| input.document());
+        let document = read.map_err(|stop| {
+            let found = stop.faults.into_iter().next().expect("a reason");
+            match found.location {
+                Some(_) => found,
+                None => self.fault(table, "body", found.code, found.message.clone()),
+            }
+        })?;
+        let (points, faces) = (document.positions(), document.triangles());
+        let body = Body::new(points, faces, table.get("cell_m")).map_err(|error| {
+            let key = match error {
+                BodyError::Cell { .. } => "cell_m",
+                _ => "body",
+            };
+            let fault = self.fault(table, key, "E-SCENE-BODY", error.to_string());
+            fault.help("a body is closed, but for one edge in forty, and is in metres")
+        })?;
+        let worst_m = body.error_worst_m();
+        let thickness_m = table.get("thickness_m").unwrap_or(2.0 * worst_m);
+        if thickness_m < worst_m {
+            let worst = two_digits(worst_m);
+            let message = format!("`thickness_m` is below {worst}, the error of the body's grid");
+            let fault = self.fault(table, "thickness_m", "E-SCENE-BODY", message);
+            return Err(fault.help("a larger thickness, or a smaller `cell_m`"));
         }
-        match (point(table, "centre"), table.get("radius_m")) {
-            (Some(centre), Some(radius_m)) => Ok(Collider::Sphere { centre, radius_m }),
-            _ => Err(self.lacks(table, group)),
-        }
+        Ok(Collider {
+            shape: ColliderShape::Body {
+                body: Arc::new(body),
+                thickness_m,
+            },
+            friction: 0.0,
+        })
     }
 
     fn hold(&self, table: &Table) -> Result<HeldVertices, Fault> {

@@ -12,7 +12,7 @@ const RANGE: &str = "E-SCENE-RANGE";
 type Check = fn(&Value) -> Result<(), &'static str>;
 
 /// Each kind, an example where one helps, and what it admits.
-const KINDS: [(&str, &str, Check); 13] = [
+const KINDS: [(&str, &str, Check); 14] = [
     ("true or false", "", |value| of::<bool>(value).map(drop)),
     ("a number above 0", "", |value| number(value, |x| x > 0.0)),
     ("a number from 0 up", "", |value| {
@@ -29,6 +29,9 @@ const KINDS: [(&str, &str, Check); 13] = [
         }
     }),
     ("a whole number from 1 up", "", whole),
+    ("a file", r#""body.obj""#, |value| {
+        of(value).and_then(|name: String| within(!name.is_empty()))
+    }),
     ("two numbers", "[0.5, 1]", |value| row::<2>(value).map(drop)),
     ("three numbers", "[0, 1.5, 0]", |value| {
         row::<3>(value).map(drop)

@@ -124,6 +124,19 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             );
             (message, "a finer mesh, or a larger ball".into())
         }
+        Warning::InsideBody {
+            collider,
+            vertices,
+            first,
+        } => {
+            let (number, first) = (collider + 1, number(first));
+            let vertices = count(vertices, "vertex begins", "vertices begin");
+            let message = format!(
+                "{vertices} inside of the body of collider {number}, such as {first}: from deep inside \
+                 there is no way out"
+            );
+            (message, "move the mesh or the body in its file".into())
+        }
         Warning::Strong(least) => {
             let vertices = count(run.mesh().vertex_count(), "vertex", "vertices");
             let least = short(least);

@@ -3,7 +3,7 @@
 use super::run::EnergyGain;
 use super::{Frame, Run};
 use crate::guard::Frequency;
-use crate::load::Collider;
+use crate::load::ColliderShape;
 use crate::method::{Method, Softness, speed_m_per_s};
 use crate::solver::{LimiterStats, Quality};
 use crate::stability::frequency_bound;
@@ -65,6 +65,15 @@ pub enum Warning {
         /// The rest length of the longest edge, in metres.
         longest_m: f64,
     },
+    /// Vertices begin inside a body.
+    InsideBody {
+        /// The index of the collider, from 0.
+        collider: usize,
+        /// The number of such vertices.
+        vertices: usize,
+        /// The first of them.
+        first: usize,
+    },
     /// All vertices are stronger than the cloth.
     /// The least strength of a vertex is given.
     Strong(f64),
@@ -104,6 +113,7 @@ impl Warning {
             Warning::Rigid => "W-SIM-RIGID",
             Warning::Pinned { .. } => "W-SIM-PIN",
             Warning::SmallBall { .. } | Warning::PassedBall { .. } => "W-SIM-COLLIDER",
+            Warning::InsideBody { .. } => "W-SIM-INSIDE",
             Warning::Strong(_) => "W-SIM-STRONG",
             Warning::Limiter(_) => "W-SIM-LIMIT",
             Warning::Energy(_) => "W-SIM-ENERGY",
@@ -146,6 +156,7 @@ impl Warning {
             radius_m,
             longest_m,
         }));
+        warnings.extend(inside(run));
         warnings.extend(strong(run));
         warnings
     }
@@ -198,9 +209,29 @@ fn late(run: &Run) -> impl Iterator<Item = Warning> {
 /// The balls of a scene, by the indices of colliders, and their radii in metres.
 fn balls(run: &Run) -> impl Iterator<Item = (usize, f64)> {
     let colliders = run.scene().colliders.iter().enumerate();
-    colliders.filter_map(|(index, collider)| match *collider {
-        Collider::Sphere { radius_m, .. } => Some((index, radius_m)),
-        Collider::Plane(_) => None,
+    colliders.filter_map(|(index, collider)| match collider.shape {
+        ColliderShape::Sphere { radius_m, .. } => Some((index, radius_m)),
+        _ => None,
+    })
+}
+
+/// The vertices in bodies.
+fn inside(run: &Run) -> impl Iterator<Item = Warning> {
+    let colliders = run.scene().colliders.iter().enumerate();
+    colliders.filter_map(|(collider, one)| {
+        let ColliderShape::Body { body, .. } = &one.shape else {
+            return None;
+        };
+        let points = run.cloth().positions().iter();
+        let mut within = points
+            .enumerate()
+            .filter(|(_, x)| body.distance_m(**x) < 0.0);
+        let (first, _) = within.next()?;
+        Some(Warning::InsideBody {
+            collider,
+            vertices: 1 + within.count(),
+            first,
+        })
     })
 }
 

@@ -394,7 +394,7 @@ fn definition(scene: &Scene, settings: &Settings, frame: &Frame, is_loose: bool)
     let floor = || {
         let below = frame.point([0.0; 3]) - frame.up.vector() * (0.5 * frame.size_m());
         let plane = Plane::new(below, frame.up.vector()).ok();
-        plane.map(Collider::Plane)
+        plane.map(Collider::plane)
     };
     let threshold = settings.threshold.map(Threshold::Stretch);
     SimulationDef {

@@ -1,0 +1,275 @@
+//! Contact of particles with colliders, at the end of each substep.
+//!
+//! A particle inside an obstacle is moved out by the shortest way, and loses its velocity into it. Friction
+//! then shortens the slip of the substep by up to μ times that way, and the velocity along the obstacle by
+//! up to μ times the velocity that was lost. Both are needed: a step of Verlet from rest moves a particle in
+//! by g Δt²/2 and gives it the velocity g Δt, one of symplectic Euler moves it by g Δt². So each method
+//! slides by its own rule for a steady acceleration g (sin φ − μ cos φ), and what sticks does not creep.
+//!
+//! Cloth keeps a distance from a [body](crate::Body), its *thickness*, at vertices; and the error of the grid at
+//! the middles of faces, so that no face is drawn through a ridge. A middle that is nearer moves its corners.
+//!
+//! A look at a body says how far a particle may go before it has to be looked at again. So what is far away,
+//! or rests in a fold, costs a comparison. And a particle that goes farther in a substep than the thickness
+//! and a cell may come out at the other side of a limb of two cells, which are the thinnest that a grid shows: the
+//! step is then divided.
+
+use tearmesh::geometry::{Point, Vector, dot, length};
+
+use crate::body::Body;
+use crate::contact::{Contact, Corners, Look, Looks, Pressed};
+use crate::energy;
+use crate::load::{Collider, ColliderShape};
+use crate::solver::Failure;
+use crate::system::System;
+
+/// The particles that were in contact in the last substep, with the normals of obstacles.
+pub(crate) fn touching(system: &System) -> impl Iterator<Item = (usize, Vector)> + '_ {
+    let contacts = system.scratch.contacts.iter();
+    contacts.filter_map(|contact| Some((contact.corners.particle()?, contact.normal)))
+}
+
+/// Notes where a substep begins, if a collider asks for it.
+pub(crate) fn begin(system: &mut System) {
+    let looks = &mut system.scratch.looks;
+    (looks.is_out, looks.too_far) = (false, None);
+    system.scratch.pressed.clear();
+    if system.model.loads.has_close_contact() {
+        system.scratch.before.clone_from(&system.positions);
+    }
+}
+
+/// Fails if a particle went so far in the last substep that it may have passed through a body.
+pub(crate) fn check(system: &System) -> Result<(), Failure> {
+    let too_far = system.scratch.looks.too_far;
+    too_far.map_or(Ok(()), |particle| Err(Failure::TooFar { particle }))
+}
+
+/// Moves the particles out of the colliders if that was not done yet in this substep, and takes their
+/// velocity inward. Where someone keeps a balance of energy, what that makes is summed up, which takes the
+/// valence of each particle in contact.
+pub(crate) fn push_out(system: &mut System) {
+    system.keep();
+    if !system.scratch.looks.is_out {
+        move_out(system, 0.0);
+    }
+    system.scratch.looks.is_out = false;
+    let contacts = std::mem::take(&mut system.scratch.contacts);
+    for contact in &contacts {
+        let v = contact.corners.mean(|corner| system.velocities[corner]);
+        let taken = contact.taken(v);
+        change(system, contact.corners, |_, v, share| *v -= taken * share);
+    }
+    system.scratch.contacts = contacts;
+}
+
+/// Moves the particles out of the colliders, in a method that goes on from where they are then, and adds what
+/// they move in a second times `per_s` to their velocities. All else of velocities is done at the end of the
+/// substep.
+pub(crate) fn move_out(system: &mut System, per_s: f64) {
+    let colliders = std::mem::take(&mut system.model.loads.colliders);
+    let mut looks = std::mem::take(&mut system.scratch.looks);
+    looks.is_out = true;
+    system.scratch.contacts.clear();
+    if colliders.iter().any(Collider::is_body) {
+        looks.gone_m += farthest_m(system);
+        looks.at.resize_with(colliders.len(), Look::default);
+    }
+    for (i, collider) in colliders.iter().enumerate() {
+        system.counters.collider_passes += 1;
+        if let ColliderShape::Body { body, thickness_m } = &collider.shape {
+            let solid = Solid {
+                body,
+                thickness_m: *thickness_m,
+                friction: collider.friction,
+                per_s,
+            };
+            solid.move_out(i, &mut looks, system);
+            continue;
+        }
+        system.counters.features.collider += system.positions.len() as u64;
+        for particle in 0..system.positions.len() {
+            if system.model.inverse_masses[particle] <= 0.0 {
+                continue;
+            }
+            let (normal, depth) = collider.shape.way_out(system.positions[particle]);
+            let corners = Corners::of_particle(particle);
+            let pressed = pressed(system, corners);
+            if depth + pressed.depth_m > 0.0 {
+                let contact = Contact {
+                    corners,
+                    normal,
+                    friction: collider.friction,
+                    pressed,
+                };
+                take_out(system, &contact, depth, per_s);
+                system.scratch.contacts.push(contact);
+            }
+        }
+    }
+    (system.model.loads.colliders, system.scratch.looks) = (colliders, looks);
+}
+
+/// How far a particle went in this substep, at most.
+fn farthest_m(system: &System) -> f64 {
+    let ways = system.positions.iter().zip(&system.scratch.before);
+    let squares = ways.map(|(x, before)| dot(x - before, x - before));
+    squares.fold(0.0, f64::max).sqrt()
+}
+
+/// A body that keeps cloth away.
+struct Solid<'a> {
+    body: &'a Body,
+    thickness_m: f64,
+    friction: f64,
+    per_s: f64,
+}
+
+impl Solid<'_> {
+    /// The looks at a point that is pushed out: one for each cell on its way, as a rule.
+    const LOOKS: u32 = 4;
+
+    /// Looks at particles, and then at the middles of faces, where that is due.
+    fn move_out(&self, collider: usize, looks: &mut Looks, system: &mut System) {
+        let look = &mut looks.at[collider];
+        let (particles, faces) = (system.positions.len(), system.model.faces.len() / 3);
+        if look.until_m.len() != particles + faces {
+            look.until_m.clear();
+            let room = system.positions.capacity() + system.model.faces.capacity() / 3;
+            look.until_m.reserve(room);
+            look.until_m.resize(particles + faces, f64::NEG_INFINITY);
+            look.least_m = f64::NEG_INFINITY;
+        }
+        if looks.gone_m < look.least_m {
+            return;
+        }
+        let mut moved_m = 0.0_f64;
+        for (i, until_m) in look.until_m.iter_mut().enumerate() {
+            if i == particles {
+                looks.gone_m += std::mem::take(&mut moved_m);
+            }
+            if looks.gone_m < *until_m {
+                continue;
+            }
+            let (corners, apart_m) = if i < particles {
+                if self.has_passed(system, i) {
+                    looks.too_far = Some(i);
+                }
+                (Corners::of_particle(i), self.thickness_m)
+            } else {
+                let face = system.model.faces.as_chunks::<3>().0[i - particles];
+                (Corners::of_face(face), self.body.error_worst_m())
+            };
+            let (clear_m, by_m) = self.clear(system, corners, apart_m);
+            moved_m = moved_m.max(by_m);
+            *until_m = looks.gone_m + clear_m;
+        }
+        looks.gone_m += moved_m;
+        look.least_m = look.until_m.iter().copied().fold(f64::INFINITY, f64::min);
+    }
+
+    /// Whether a particle went so far in this substep that it may be at the wrong side.
+    fn has_passed(&self, system: &System, particle: usize) -> bool {
+        let before = system.scratch.before[particle];
+        let way_m = length(system.positions[particle] - before);
+        let is_far = way_m > self.thickness_m + self.body.cell_m();
+        let is_free = system.model.inverse_masses[particle] > 0.0;
+        is_free && is_far && self.body.distance_m(before) - self.thickness_m < way_m
+    }
+
+    /// Moves a particle, or the corners of a face, until it is as far from the skin as it should be, or the
+    /// middle of the face is. Returns how much farther it is, and how far a particle was moved.
+    fn clear(&self, system: &mut System, corners: Corners, apart_m: f64) -> (f64, f64) {
+        let mut moved_m = 0.0;
+        for look in 0..=Self::LOOKS {
+            system.counters.features.collider += 1;
+            let x = corners.middle(&system.positions);
+            let depth = apart_m - self.body.distance_m(x);
+            let pressed = match look {
+                0 => pressed(system, corners),
+                _ => Pressed::default(),
+            };
+            if depth + pressed.depth_m <= 0.0 {
+                return (-depth, moved_m);
+            }
+            // Deep inside nobody knows the way.
+            let outward = self.body.outward(x).filter(|_| look < Self::LOOKS);
+            let Some(normal) = outward.filter(|_| is_free(system, corners)) else {
+                break;
+            };
+            let contact = Contact {
+                corners,
+                normal,
+                // What comes after the first look corrects for the curvature of the skin.
+                friction: if look == 0 { self.friction } else { 0.0 },
+                pressed,
+            };
+            // No corner is moved farther than to the end of its shortest edge, such as a cut leaves.
+            let depth = depth.min(shortest_edge_m(system, corners));
+            moved_m += take_out(system, &contact, depth, self.per_s);
+            if look == 0 {
+                system.scratch.contacts.push(contact);
+            }
+        }
+        (0.0, moved_m)
+    }
+}
+
+/// Whether a corner can be moved.
+fn is_free(system: &System, corners: Corners) -> bool {
+    let mut all = corners.each();
+    all.any(|corner| system.model.inverse_masses[corner] > 0.0)
+}
+
+/// The rest length of the shortest edge at the corners of a face.
+fn shortest_edge_m(system: &System, corners: Corners) -> f64 {
+    let stretch = &system.model.stretch;
+    let of_face = corners.each().filter(|_| corners.count > 1);
+    let edges = of_face.flat_map(|corner| stretch.of(corner));
+    let lengths = edges.map(|id| stretch.get(id).rest_length_m);
+    lengths.fold(f64::INFINITY, f64::min)
+}
+
+/// How a particle was pressed in this substep.
+fn pressed(system: &System, corners: Corners) -> Pressed {
+    let pressed = &system.scratch.pressed;
+    let found = corners.particle().and_then(|i| pressed.get(i).copied());
+    found.unwrap_or_default()
+}
+
+/// Moves particles out by a depth. Returns how far one of them was moved, at most.
+fn take_out(system: &mut System, contact: &Contact, depth: f64, per_s: f64) -> f64 {
+    let corners = contact.corners;
+    let mut went = Vector::zeros();
+    if contact.friction > 0.0 || per_s > 0.0 {
+        let [x, before] = [&system.positions, &system.scratch.before];
+        went = corners.mean(|corner| x[corner] - before[corner]);
+    }
+    let [way, speed] = contact.way_out(went, depth, per_s);
+    let share = change(system, corners, |x, v, share| {
+        *x += way * share;
+        *v += speed * share;
+    });
+    share * length(way)
+}
+
+/// Changes each corner by its inverse mass, so that the middle changes by one in all. Returns the largest change.
+fn change(
+    system: &mut System,
+    corners: Corners,
+    change: impl Fn(&mut Point, &mut Vector, f64),
+) -> f64 {
+    let weights = corners.each().map(|i| system.model.inverse_masses[i]);
+    let sum: f64 = weights.sum();
+    let mut most = 0.0_f64;
+    for i in corners.each() {
+        let share = corners.count as f64 * (system.model.inverse_masses[i] / sum);
+        most = most.max(share);
+        let before_j = system.contact_j.map(|_| energy::at_j(system, i));
+        change(&mut system.positions[i], &mut system.velocities[i], share);
+        if let (Some(sum_j), Some(before_j)) = (system.contact_j, before_j) {
+            system.contact_j = Some(sum_j - before_j + energy::at_j(system, i));
+        }
+    }
+    most
+}
