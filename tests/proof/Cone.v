@@ -56,21 +56,27 @@ Definition divided p := exists w, On w /\ face w = face p.
 (* What makes an outline. *)
 Record outlined : Prop := {
   on_mesh : forall w, On w -> w < size S;
+  (* Of a divided face at most one half-edge is taken out. *)
   off_outline : forall p, divided p -> ~ On p -> On (prev p) /\ On (next p);
+  (* One half-edge begins where the one that it follows ends; each that can follow does. *)
   follows : forall w u, succ c w = Some u -> On w /\ On u /\ same_root lk (next w) u;
   precedes : forall w u, succ c w = Some u <-> pred c u = Some w;
   follows_if_it_can : forall w u, On w -> On u -> same_root lk (next w) u -> succ c w = Some u;
+  (* The outline does not touch itself. *)
   starts_differ : forall w u, On w -> On u -> same_root lk w u -> w = u;
   ends_differ : forall w u, On w -> On u -> same_root lk (next w) (next u) -> w = u;
   no_two_follow_each_other : forall w u, succ c w = Some u -> succ c u = Some w -> False;
+  (* The other half-edge of the edge that is taken out is so too, and the outline goes on across it. *)
   gap : forall p q, divided p -> ~ On p -> lk p = Some q -> divided q /\ ~ On q /\ succ c (prev q) = Some (next p);
   in_one_piece : On first /\ forall w, On w -> joined (succ c) first w;
+  (* The new triangles have numbers of divided faces, or new ones, and all of these. *)
   triangles_differ : forall w u, On w -> On u -> face (forth c w) = face (forth c u) -> w = u;
   triangle_in_place : forall w, On w ->
     forth c w < 3 * faces_then c /\ (forth c w < size S -> divided (forth c w));
   faces_stay : forall x, x < 3 * faces_then c ->
     (exists w, On w /\ face (forth c w) = face x) \/ (x < size S /\ ~ divided x);
   no_face_goes : faces S <= faces_then c;
+  (* A link round the new vertex is cut if its ends differ, and only then. *)
   cut_follows : forall w, succ c w = None -> cut c w = false;
   cut_if_apart : forall w u, succ c w = Some u ->
     (cut c w = false <-> origin S (next w) = origin S u /\ new_vertex S c w = new_vertex S c u)
