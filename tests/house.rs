@@ -17,6 +17,7 @@ const CRATES: &[(&str, &str, usize)] = &[
     ("tools/lab/src", "lib.rs", 4),
     ("tools/view/src", "lib.rs", 8),
     ("tools/view/play/src", "lib.rs", 4),
+    ("tools/python/src", "lib.rs", 4),
     ("tools/cli/src", "lib.rs", 25),
     ("tools/bench/src", "main.rs", 20),
     ("tests", "main.rs", 30),

@@ -9,6 +9,8 @@ mod bending;
 mod bodies;
 mod damping;
 mod defaults;
+#[path = "../support/digest.rs"]
+mod digest;
 mod ensemble;
 mod failures;
 mod first_tears;
@@ -44,3 +46,4 @@ mod tearing_order;
 mod tearing_runs;
 mod watch;
 mod weave;
+mod wheel;

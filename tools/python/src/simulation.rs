@@ -1,0 +1,322 @@
+//! A cloth in motion, with the verbs of the library.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use tearmesh_cloth::{
+    Collider, CutId, Event, Fabric, HandId, InputError, Loads, Method, Picked, SimulationDef,
+    StepError, Tearing, Threshold, Wind, Wounds, force,
+};
+use tearmesh_core::{Plane, Ray, Scissor, Vector};
+
+use crate::arguments::{Triple, parts_of, scissor_of};
+use crate::arrays::{self, Array, Made, array, floats, indices, rows, value_error};
+use crate::torn::{Log, pieces_of};
+
+/// A cloth in motion. It is at rest where it is given. Lengths are in metres, masses in kilograms, times in seconds,
+/// and forces in newtons.
+///
+/// points, faces, roots: as for `cut`. density: in kg/m². modulus: the resistance to stretch, in N/m. damping: a time
+/// in s, with verlet only. method: "verlet", "implicit", "xpbd", "pbd" or "provot". stretch: an edge tears at this
+/// multiple of its rest length; None for never. toughness: instead, the energy per metre of tear, in J/m. weakening:
+/// the strength of the tips of a tear, as a part of that of whole cloth. strengths: (n,) floats, the strength of
+/// each vertex as a multiple of the threshold. gravity: in m/s², by default (0, -9.81, 0). drag: in 1/s. colliders: a
+/// list of planes (point, normal) and balls (centre, radius). step: its length in s, by default one that suits.
+///
+/// Splits append vertices. Sewing takes vertices away, and the last vertex gets the number that becomes free. Holds and
+/// hands follow; arrays of your own follow by `map`.
+///
+/// The attributes points, velocities (n, 3), faces (m, 3), roots (n,) and pieces (m,) are new arrays each time: the cloth
+/// moves on, and they do not. time and step_length are in s; open_pairs is the number of pairs that still heal.
+///
+/// `step`, `advance` and `cut` release the GIL. A simulation that another thread is in raises RuntimeError.
+#[pyclass(module = "tearmesh")]
+pub(crate) struct Simulation {
+    sim: tearmesh_cloth::Simulation,
+    /// Of the mesh before the last call that may have changed it.
+    before: Log,
+    hands: Vec<HandId>,
+    cuts: Vec<CutId>,
+}
+
+impl Simulation {
+    /// From here on, changes are mapped.
+    fn begin(&mut self) {
+        self.before = Log::new(self.sim.mesh(), self.sim.edits().cursor());
+    }
+
+    fn hand_of(&self, hand: usize) -> PyResult<HandId> {
+        self.hands
+            .get(hand)
+            .copied()
+            .ok_or_else(|| value_error("there never was such a hand"))
+    }
+
+    fn event<'py>(&self, py: Python<'py>, event: Event) -> PyResult<Bound<'py, PyTuple>> {
+        match event {
+            Event::Tore {
+                edge,
+                vertex,
+                time_s,
+                force_n,
+            } => {
+                let (vertex, face) = (vertex.index(), edge.face().index());
+                ("tore", time_s, vertex, face, force_n).into_pyobject(py)
+            }
+            Event::Cut {
+                cut,
+                splits,
+                time_s,
+            } => {
+                let cut = self.cuts.iter().position(|&known| known == cut);
+                ("cut", time_s, cut, splits).into_pyobject(py)
+            }
+            Event::Healed { sewn, left, time_s } => {
+                ("healed", time_s, sewn, left).into_pyobject(py)
+            }
+            other => (format!("{other:?}"), self.sim.time_s()).into_pyobject(py),
+        }
+    }
+}
+
+/// A plane or a ball, from its two parts.
+fn collider((place, second): (Triple, Array<'_>)) -> PyResult<Collider> {
+    if let Ok(radius_m) = second.extract::<f64>() {
+        let centre = place.into();
+        return Ok(Collider::Sphere { centre, radius_m });
+    }
+    let plane = Plane::new(place.into(), second.extract::<Triple>()?.into());
+    Ok(Collider::Plane(plane.map_err(value_error)?))
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    #[pyo3(signature = (points, faces, *, roots=None, density=0.15, modulus=1000.0, damping=1.6e-3, method="verlet", stretch=1.5, toughness=None, weakening=None, strengths=None, gravity=[0.0, -9.81, 0.0], drag=0.5, colliders=Vec::new(), step=None))]
+    #[expect(clippy::too_many_arguments, reason = "in Python they have names")]
+    fn new(
+        points: &Array<'_>,
+        faces: &Array<'_>,
+        roots: Option<&Array<'_>>,
+        density: f64,
+        modulus: f64,
+        damping: f64,
+        method: &str,
+        stretch: Option<f64>,
+        toughness: Option<f64>,
+        weakening: Option<f64>,
+        strengths: Option<&Array<'_>>,
+        gravity: Triple,
+        drag: f64,
+        colliders: Vec<(Triple, Array<'_>)>,
+        step: Option<f64>,
+    ) -> PyResult<Simulation> {
+        let (mesh, positions) = parts_of(points, faces, roots)?;
+        let named = Method::named(method);
+        let unknown = || format!("method is one of {:?}, not {method:?}", Method::NAMES);
+        let stretch = stretch.map(Threshold::Stretch);
+        let threshold = toughness.map(Threshold::Toughness).or(stretch);
+        let tearing = |threshold| Tearing {
+            weakening,
+            ..Tearing::new(threshold)
+        };
+        let strengths = strengths.map(|given| floats("strengths", given, &[arrays::ANY]));
+        let colliders = colliders.into_iter().map(collider);
+        let def = SimulationDef {
+            density_kg_per_m2: density,
+            fabric: Fabric {
+                damping_s: damping,
+                ..Fabric::new(modulus)
+            },
+            method: named.ok_or_else(|| value_error(unknown()))?,
+            tearing: threshold.map(tearing),
+            strengths: strengths.transpose()?.unwrap_or_default(),
+            loads: Loads {
+                gravity_m_per_s2: Some(gravity.into()),
+                drag_per_s: Some(drag),
+                wind: None,
+                colliders: colliders.collect::<PyResult<_>>()?,
+            },
+            step_s: step,
+            ..SimulationDef::default()
+        };
+        let sim = tearmesh_cloth::Simulation::new(mesh, &positions, def).map_err(value_error)?;
+        Ok(Simulation {
+            before: Log::new(sim.mesh(), sim.edits().cursor()),
+            hands: Vec::new(),
+            cuts: Vec::new(),
+            sim,
+        })
+    }
+
+    /// Lets this many seconds pass, in whole steps and at most steps_max of them, and returns the number of steps.
+    ///
+    /// What is less than half a step is made up for by the next call. Raises RuntimeError if a step fails, as when the
+    /// cloth blows up; the cloth is then as it was after the last good step.
+    #[pyo3(signature = (seconds, steps_max=u64::MAX))]
+    fn advance(&mut self, py: Python<'_>, seconds: f64, steps_max: u64) -> PyResult<u64> {
+        self.begin();
+        let reached = py.detach(|| self.sim.advance(seconds, steps_max));
+        let reached = reached.map_err(|error| match error {
+            StepError::Step { .. } => value_error(error),
+            failed => PyRuntimeError::new_err(failed.to_string()),
+        });
+        Ok(reached?.steps)
+    }
+
+    /// Takes count steps, and returns their number. Raises RuntimeError as `advance` does.
+    #[pyo3(signature = (count=1))]
+    fn step(&mut self, py: Python<'_>, count: u32) -> PyResult<u64> {
+        self.advance(py, f64::from(count) * self.sim.step_s(), count.into())
+    }
+
+    /// Holds vertices (integers) where they are, until they are freed. Raises ValueError if one is in a hand or is no vertex.
+    fn hold(&mut self, vertices: &Array<'_>) -> PyResult<()> {
+        let vertices = arrays::vertices("vertices", vertices)?;
+        self.sim.hold(vertices).map_err(value_error)
+    }
+
+    /// Lets held vertices (integers) go.
+    fn free(&mut self, vertices: &Array<'_>) -> PyResult<()> {
+        let vertices = arrays::vertices("vertices", vertices)?;
+        self.sim.free(vertices).map_err(value_error)
+    }
+
+    /// Returns what a ray meets first: the nearest vertex, the face, and the three weights of its corners; or None.
+    fn pick(&self, origin: Triple, direction: Triple) -> PyResult<Option<(usize, usize, Triple)>> {
+        let ray = Ray::new(origin.into(), direction.into());
+        let picked = self.sim.pick(&ray.map_err(value_error)?);
+        let parts = |p: Picked| (p.vertex.index(), p.hit.face.index(), p.hit.weights);
+        Ok(picked.map(parts))
+    }
+
+    /// Grabs a vertex, and returns the number of the hand. Within radius (in m, at rest) the cloth around is stronger, so
+    /// that the hand tears out more than the vertex; 0 for no such grip.
+    #[pyo3(signature = (vertex, radius=tearmesh_cloth::Simulation::GRIP_RADIUS_M))]
+    fn grab(&mut self, vertex: u32, radius: f64) -> PyResult<usize> {
+        let vertex = arrays::vertex("vertex", vertex)?;
+        self.hands
+            .push(self.sim.grab(vertex, radius).map_err(value_error)?);
+        Ok(self.hands.len() - 1)
+    }
+
+    /// Leads a hand straight to a point (x, y, z): within 1/60 s, or at 3 m/s if that is too far.
+    fn lead(&mut self, hand: usize, to: Triple) -> PyResult<()> {
+        let hand = self.hand_of(hand)?;
+        self.sim.lead(hand, to.into()).map_err(value_error)
+    }
+
+    /// Lets go of what a hand holds.
+    fn release(&mut self, hand: usize) -> PyResult<()> {
+        let hand = self.hand_of(hand)?;
+        self.sim.release(hand).map_err(value_error)
+    }
+
+    /// Cuts the cloth where it is now, and returns the number of the cut. Arguments as for the function `cut`.
+    #[pyo3(signature = (plane=None, rays=None, *, layers="all", snap=Scissor::SNAP))]
+    fn cut(
+        &mut self,
+        py: Python<'_>,
+        plane: Option<[Triple; 2]>,
+        rays: Option<[[Triple; 2]; 2]>,
+        layers: &str,
+        snap: f64,
+    ) -> PyResult<usize> {
+        let scissor = scissor_of(plane, rays, layers, snap)?;
+        self.begin();
+        let cut = py.detach(|| self.sim.cut(&scissor));
+        self.cuts.push(cut.map_err(value_error)?);
+        Ok(self.cuts.len() - 1)
+    }
+
+    /// Begins to heal a cut, or with None everything that is torn, and returns the number of pairs of vertices that are
+    /// drawn together from now on.
+    #[pyo3(signature = (cut=None))]
+    fn heal(&mut self, cut: Option<usize>) -> PyResult<usize> {
+        let wounds = cut.map(|cut| self.cuts.get(cut).copied().map(Wounds::Cut));
+        let wounds = wounds.unwrap_or(Some(Wounds::All));
+        let wounds = wounds.ok_or_else(|| value_error("there was no such cut"))?;
+        self.sim.heal(wounds).map_err(value_error)
+    }
+
+    /// Has a wind of this velocity (in m/s) blow from now on, or with None no wind. coefficient: of its force on faces, in
+    /// kg/(m² s).
+    #[pyo3(signature = (velocity, coefficient=1.0))]
+    fn set_wind(&mut self, velocity: Option<Triple>, coefficient: f64) -> PyResult<()> {
+        let wind = velocity.map(|velocity| Wind {
+            velocity_m_per_s: velocity.into(),
+            coefficient,
+        });
+        self.sim.set_wind(wind).map_err(value_error)
+    }
+
+    /// Returns what happened since the previous call, in order: ("tore", time, vertex, face, force or None), ("cut", time,
+    /// cut, splits), ("healed", time, sewn, left). Vertices and faces are those of that time.
+    fn events<'py>(&mut self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
+        let events: Vec<Event> = self.sim.events().collect();
+        let events = events.into_iter().map(|event| self.event(py, event));
+        events.collect()
+    }
+
+    /// Returns the force (3,) in N that it takes to hold or lead these vertices together. Raises ValueError for no vertex.
+    fn reaction<'py>(&self, vertices: &Array<'py>) -> Made<'py> {
+        let (py, mut sum) = (vertices.py(), Vector::zeros());
+        for v in arrays::vertices("vertices", vertices)? {
+            if v.index() >= self.sim.mesh().vertex_count() {
+                return Err(value_error(InputError::NoVertex(v)));
+            }
+            sum += force::reaction_n(self.sim.cloth().system(), v.index());
+        }
+        array(py, sum.as_slice().to_vec(), &[3])
+    }
+
+    /// Carries an array over the last call of `step`, `advance` or `cut`: as TornMesh.map does.
+    #[pyo3(signature = (values, per="vertex"))]
+    fn map<'py>(&self, values: &Array<'py>, per: &str) -> Made<'py> {
+        self.before.map(self.sim.edits(), values, per)
+    }
+
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> Made<'py> {
+        rows(py, self.sim.cloth().positions().iter().map(|&p| p.into()))
+    }
+
+    #[getter]
+    fn velocities<'py>(&self, py: Python<'py>) -> Made<'py> {
+        let velocities = self.sim.cloth().system().velocities();
+        rows(py, velocities.iter().map(|&v| v.into()))
+    }
+
+    #[getter]
+    fn faces<'py>(&self, py: Python<'py>) -> Made<'py> {
+        let mesh = self.sim.mesh();
+        indices(py, mesh.indices(), &[mesh.face_count(), 3])
+    }
+
+    #[getter]
+    fn roots<'py>(&self, py: Python<'py>) -> Made<'py> {
+        let roots = self.sim.mesh().roots();
+        indices(py, &roots, &[roots.len()])
+    }
+
+    #[getter]
+    fn pieces<'py>(&self, py: Python<'py>) -> Made<'py> {
+        let mesh = self.sim.mesh();
+        pieces_of(py, mesh, &mesh.components())
+    }
+
+    #[getter]
+    fn time(&self) -> f64 {
+        self.sim.time_s()
+    }
+
+    #[getter]
+    fn step_length(&self) -> f64 {
+        self.sim.step_s()
+    }
+
+    #[getter]
+    fn open_pairs(&self) -> usize {
+        self.sim.open_pairs()
+    }
+}

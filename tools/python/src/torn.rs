@@ -1,0 +1,184 @@
+//! A mesh after edits, and what they make of arrays that belong to the mesh before.
+
+use numpy::prelude::*;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use tearmesh_core::{Blend as _, Components, Cursor, Cut, Edits, Mesh, Mix, Point, SeamLine, Side};
+
+use crate::arrays::{Array, Made, any, array, floats, indices, rows, value_error};
+
+/// Where edits begin, and the size of the mesh before them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Log {
+    since: Cursor,
+    vertices: usize,
+    faces: usize,
+}
+
+impl Log {
+    /// What is done to this mesh from now on. `since` is the end of its edits so far.
+    pub(crate) fn new(mesh: &Mesh, since: Cursor) -> Log {
+        Log {
+            since,
+            vertices: mesh.vertex_count(),
+            faces: mesh.face_count(),
+        }
+    }
+
+    /// What the edits make of an array that belongs to the mesh before. Floats are interpolated; of anything else
+    /// a new row is a copy of the nearest.
+    pub(crate) fn map<'py>(&self, edits: &Edits, values: &Array<'py>, per: &str) -> Made<'py> {
+        let (py, values) = (values.py(), any(values)?);
+        let shape = values.shape().to_vec();
+        let corners = [self.faces, 3];
+        let head = match per {
+            "vertex" => &[self.vertices][..],
+            "corner" => &corners[..],
+            "face" => &corners[..1],
+            _ => return Err(value_error("per is vertex, corner or face")),
+        };
+        let Some(tail) = shape.strip_prefix(head) else {
+            let why = format!("values per {per} begin with the shape {head:?}, not {shape:?}");
+            return Err(value_error(why));
+        };
+        let reshaped = |array: &Array<'py>, rows: usize, inner: &[usize]| {
+            let shape = PyTuple::new(py, [&[rows], inner].concat())?;
+            array.call_method1("reshape", (shape,))
+        };
+        let count = head.iter().product();
+        let is_float = values.dtype().kind() == b'f';
+        let width = if is_float { tail.iter().product() } else { 1 };
+        let given = match is_float {
+            true => floats(
+                "values",
+                &reshaped(&values, count, &[width])?,
+                &[count, width],
+            )?,
+            false => (0..count).map(|row| row as f64).collect(),
+        };
+        let column = |at: usize| {
+            let mut column: Vec<f64> = given.iter().skip(at).step_by(width).copied().collect();
+            let mix = |mix: Mix<&f64>| match is_float {
+                true => f64::blend(mix),
+                false => *mix.nearest(),
+            };
+            let seen = &mut self.since.clone();
+            match per {
+                "vertex" => edits.replay_vertices(seen, &mut column, mix),
+                "corner" => edits.replay_corners(seen, &mut column, mix),
+                _ => edits.replay_faces(seen, &mut column),
+            }
+            column
+        };
+        let columns: Vec<Vec<f64>> = (0..width).map(column).collect();
+        let rows = columns.first().map_or(count, Vec::len);
+        let cells = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
+        let mapped = array(py, cells.collect(), &[rows, width])?;
+        let mapped = match is_float {
+            true => mapped.call_method1("astype", (values.dtype(),))?,
+            false => {
+                let sources = mapped.call_method1("astype", ("int64",))?;
+                reshaped(&values, count, tail)?.call_method1("take", (sources, 0))?
+            }
+        };
+        let inner = [&head[1..], tail].concat();
+        reshaped(&mapped, rows / head[1..].iter().product::<usize>(), &inner)
+    }
+
+    /// What the edits make of texture coordinates, which have three dimensions if they are per corner.
+    pub(crate) fn follow<'py>(
+        &self,
+        edits: &Edits,
+        uv: Option<&Array<'py>>,
+    ) -> PyResult<Option<Array<'py>>> {
+        let per = |dimensions| if dimensions == 3 { "corner" } else { "vertex" };
+        let map = |uv| self.map(edits, uv, per(any(uv)?.ndim()));
+        uv.map(map).transpose()
+    }
+}
+
+/// The piece of each face.
+pub(crate) fn pieces_of<'py>(py: Python<'py>, mesh: &Mesh, of: &Components) -> Made<'py> {
+    let pieces = mesh.faces().map(|f| of.of(f) as i64);
+    array(py, pieces.collect(), &[mesh.face_count()])
+}
+
+/// A mesh that may be torn: what a cut made, what was mended, or what a file has.
+///
+/// points: (n, 3) floats. faces: (m, 3) integers. roots: (n,) integers, the lowest of the vertices that each was one
+/// with before it was torn. pieces: (m,) integers, the piece of each face. uv: texture coordinates, or None.
+///
+/// sides: (m,) int8, of a cut: 1 for a face on the side to which the normal of the plane points, -1 for one on the
+/// other, and 0 for one on neither, such as away from a slit. seam: of a cut, a list of lines, each (k, 2) integers:
+/// the vertices along the line, on side 1 and on side -1. Both are the same where a slit ends inside the mesh.
+#[pyclass(module = "tearmesh", frozen)]
+pub(crate) struct TornMesh {
+    #[pyo3(get)]
+    points: Py<PyAny>,
+    #[pyo3(get)]
+    faces: Py<PyAny>,
+    #[pyo3(get)]
+    roots: Py<PyAny>,
+    #[pyo3(get)]
+    pieces: Py<PyAny>,
+    #[pyo3(get)]
+    uv: Option<Py<PyAny>>,
+    #[pyo3(get)]
+    sides: Py<PyAny>,
+    #[pyo3(get)]
+    seam: Vec<Py<PyAny>>,
+    log: (Log, Edits),
+}
+
+impl TornMesh {
+    /// What a cut made of a mesh; one that did nothing, of a mesh that was not cut.
+    pub(crate) fn new(
+        py: Python<'_>,
+        mesh: &Mesh,
+        points: &[Point],
+        uv: Option<Array<'_>>,
+        cut: &Cut,
+        log: (Log, Edits),
+    ) -> PyResult<TornMesh> {
+        let faces = mesh.face_count();
+        let pieces = cut.pieces(mesh);
+        let side = |f| match cut.side(f).or(pieces.sides[pieces.components.of(f)]) {
+            Some(Side::Front) => 1,
+            Some(Side::Back) => -1,
+            None => 0_i8,
+        };
+        let line = |line: &SeamLine| {
+            let lips = line.lips.iter();
+            let starts = lips.map(|&[front, back]| [mesh.origin(front), mesh.target(back)]);
+            let end = line.lips.last();
+            let end = end.map(|&[front, back]| [mesh.target(front), mesh.origin(back)]);
+            let ids: Vec<u32> = starts.chain(end).flatten().map(u32::from).collect();
+            Ok(indices(py, &ids, &[ids.len() / 2, 2])?.unbind())
+        };
+        Ok(TornMesh {
+            points: rows(py, points.iter().map(|&p| p.into()))?.unbind(),
+            faces: indices(py, mesh.indices(), &[faces, 3])?.unbind(),
+            roots: indices(py, &mesh.roots(), &[mesh.vertex_count()])?.unbind(),
+            pieces: pieces_of(py, mesh, &pieces.components)?.unbind(),
+            uv: uv.map(Bound::unbind),
+            sides: array(py, mesh.faces().map(side).collect(), &[faces])?.unbind(),
+            seam: cut.seam().map(line).collect::<PyResult<_>>()?,
+            log,
+        })
+    }
+}
+
+#[pymethods]
+impl TornMesh {
+    /// Carries an array over from the mesh before the edits: what it is for the mesh now.
+    ///
+    /// values: (n, ...) per vertex, (m, 3, ...) per corner, or (m, ...) per face, of any dtype, for the n vertices and
+    /// m faces of before. per: "vertex", "corner" or "face".
+    ///
+    /// Floats are interpolated, and averaged where vertices are sewn. Anything else, such as the number of a bone or a
+    /// material, is copied from the nearest. Raises ValueError if the shape does not fit.
+    #[pyo3(signature = (values, per="vertex"))]
+    fn map<'py>(&self, values: &Array<'py>, per: &str) -> Made<'py> {
+        self.log.0.map(&self.log.1, values, per)
+    }
+}
