@@ -48,7 +48,7 @@ impl Mesh {
         let mut root_of = vec![NONE; self.vertex_count()];
         let mut orbits = Vec::with_capacity(self.half_edge_count());
         // Of an orbit that is open, the half-edge of the boundary that leaves it.
-        let mut boundary: Vec<Option<HalfEdgeId>> = Vec::with_capacity(self.vertex_count());
+        let mut boundary = Vec::with_capacity(self.vertex_count());
         for first in self.half_edges() {
             if roots[first.index()] != NONE {
                 continue;
@@ -80,22 +80,23 @@ impl Mesh {
             if !is_one {
                 return false;
             }
-            boundary.push((!is_closed).then_some(at));
+            boundary.push(if is_closed { NONE } else { at.to_u32() });
         }
-        let target = |h: HalfEdgeId| roots[h.next().index()] as usize;
-        let mut reached = vec![NONE; boundary.len()];
+        let target = |h: HalfEdgeId| roots[h.next().index()];
+        let mut reached = root_of;
+        reached.fill(NONE);
         let each_is_reached_once = orbits.into_iter().all(|h: HalfEdgeId| {
             let root = roots[h.index()];
-            std::mem::replace(&mut reached[target(h)], root) != root
+            std::mem::replace(&mut reached[target(h) as usize], root) != root
         });
         // An edge from a root to itself is one of two, or of the boundary, and then its own opposite.
         // Two half-edges of the boundary between the same two roots are opposites without a link.
+        let along = |root: u32| match boundary[root as usize] {
+            NONE => None,
+            h => Some(target(HalfEdgeId::from_u32(h))),
+        };
         each_is_reached_once
-            && (0..).zip(&boundary).all(|(root, leaving)| {
-                let next = leaving.map(&target);
-                let back = next.and_then(|next| boundary[next]).map(&target);
-                back != Some(root)
-            })
+            && (0..boundary.len() as u32).all(|root| along(root).and_then(along) != Some(root))
     }
 }
 
