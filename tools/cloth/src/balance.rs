@@ -78,8 +78,8 @@ pub struct EnergyBalance {
     pub drag_j: f64,
     /// The work of the damping of springs ([`System::set_damping`]), which is never positive.
     pub damping_j: f64,
-    /// The work of colliders. It is negative, since impacts are inelastic, except for the energy it
-    /// takes to push a particle out against springs or gravity.
+    /// The work of colliders. It is negative, since impacts are inelastic and friction takes motion, except
+    /// for the energy it takes to push a particle out against springs or gravity.
     pub colliders_j: f64,
     /// The energy that edits (tears, cuts and mends) added.
     pub edits_j: f64,

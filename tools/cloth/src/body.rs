@@ -106,7 +106,7 @@ impl Body {
     #[must_use]
     pub fn distance_m(&self, x: Point) -> f64 {
         match self.grid.place(x) {
-            Some(place) => self.between(&place),
+            Some(Place { node, part }) => between(self.corners(node), part),
             None => BAND * self.grid.cell_m + self.grid.away(x),
         }
     }
@@ -132,32 +132,19 @@ impl Body {
 
     /// The direction in which the distance grows fastest; `None` deep inside, where it is not known.
     pub(crate) fn outward(&self, x: Point) -> Option<Vector> {
-        let place = self.grid.place(x)?;
+        let Place { node, part } = self.grid.place(x)?;
+        let corners = self.corners(node);
         // Between nodes the distance is linear along each axis.
         let slope = Vector::from_fn(|axis, _| {
-            let at = |part| {
-                let mut place = place;
-                place.part[axis] = part;
-                self.between(&place)
+            let at = |end| {
+                let mut part = part;
+                part[axis] = end;
+                between(corners, part)
             };
             at(1.0) - at(0.0)
         });
         let steep = length(slope);
         (steep > 0.0).then(|| slope / steep)
-    }
-
-    fn between(
-        &self,
-        &Place {
-            node,
-            part: [u, v, w],
-        }: &Place,
-    ) -> f64 {
-        let c = self.corners(node);
-        let along = |a: f64, b: f64, t: f64| a + (b - a) * t;
-        let [low, high] =
-            [0, 4].map(|k| along(along(c[k], c[k + 1], u), along(c[k + 2], c[k + 3], u), v));
-        along(low, high, w)
     }
 
     /// The values at the corners of the cell after a node, x fastest.
@@ -187,13 +174,9 @@ impl Body {
         for (cell, &exact) in exact.iter().enumerate() {
             let [i, j, k] = middles.indices(cell);
             let node = (k * counts[1] + j) * counts[0] + i;
-            let is_outside = |corners: [f64; 8]| corners.iter().any(|&d| d >= 0.0);
-            if exact < measured_m && is_outside(self.corners(node)) {
-                let middle = Place {
-                    node,
-                    part: [0.5; 3],
-                };
-                let error = (self.between(&middle).abs() - f64::from(exact)).abs();
+            let corners = self.corners(node);
+            if exact < measured_m && corners.iter().any(|&d| d >= 0.0) {
+                let error = (between(corners, [0.5; 3]).abs() - f64::from(exact)).abs();
                 self.error_worst_m = self.error_worst_m.max(error);
                 squares += error * error;
                 count += 1.0;
@@ -201,6 +184,14 @@ impl Body {
         }
         self.error_rms_m = (squares / count.max(1.0)).sqrt();
     }
+}
+
+/// The value between the corners of a cell, x fastest.
+fn between(c: [f64; 8], [u, v, w]: [f64; 3]) -> f64 {
+    let along = |a: f64, b: f64, t: f64| a + (b - a) * t;
+    let [low, high] =
+        [0, 4].map(|k| along(along(c[k], c[k + 1], u), along(c[k + 2], c[k + 3], u), v));
+    along(low, high, w)
 }
 
 /// The numbers of the grid, and a digest of all distances.
@@ -291,7 +282,6 @@ struct Grid {
 }
 
 /// The first node of a cell, and the part of the cell before a point.
-#[derive(Clone, Copy)]
 struct Place {
     node: usize,
     part: [f64; 3],

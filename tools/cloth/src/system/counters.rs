@@ -51,6 +51,7 @@ pub struct FeatureVisits {
     /// The number of visits to faces, for the force of wind and for the rate at which air slows the
     /// system.
     pub wind: u64,
-    /// The number of visits to particles, one for each collider against which a particle is tested.
+    /// The number of visits to particles, one for each plane or ball against which a particle is tested, and
+    /// of looks of particles and faces at a body.
     pub collider: u64,
 }
