@@ -83,10 +83,10 @@ impl Simulation {
 fn collider((place, second): (Triple, Array<'_>)) -> PyResult<Collider> {
     if let Ok(radius_m) = second.extract::<f64>() {
         let centre = place.into();
-        return Ok(Collider::Sphere { centre, radius_m });
+        return Ok(Collider::sphere(centre, radius_m));
     }
     let plane = Plane::new(place.into(), second.extract::<Triple>()?.into());
-    Ok(Collider::Plane(plane.map_err(value_error)?))
+    Ok(Collider::plane(plane.map_err(value_error)?))
 }
 
 #[pymethods]
