@@ -10,27 +10,23 @@ pub(super) fn write_number(out: &mut Vec<u8>, number: f64) {
         }
         return write_integer(out, size as u64);
     }
-    let mut buffer = ryu::Buffer::new();
+    let mut buffer = zmij::Buffer::new();
     let digits = buffer.format_finite(number);
-    if digits.contains('e') && (1e-7..1e21).contains(&size) {
-        out.extend_from_slice(number.to_string().as_bytes()); // Slower, and rare.
-    } else {
-        out.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
+    match digits.split_once('e') {
+        None => out.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes()),
+        Some(_) if (1e-7..1e21).contains(&size) => {
+            out.extend_from_slice(number.to_string().as_bytes()); // Slower, and rare.
+        }
+        Some((digits, exponent)) => {
+            out.extend_from_slice(digits.as_bytes());
+            out.push(b'e');
+            out.extend_from_slice(exponent.trim_start_matches('+').as_bytes());
+        }
     }
 }
 
 /// Appends a whole number.
 #[inline]
-pub(super) fn write_integer(out: &mut Vec<u8>, mut number: u64) {
-    let mut digits = [0; 20];
-    let mut start = digits.len();
-    loop {
-        start -= 1;
-        digits[start] = b'0' + (number % 10) as u8;
-        number /= 10;
-        if number == 0 {
-            break;
-        }
-    }
-    out.extend_from_slice(&digits[start..]);
+pub(super) fn write_integer(out: &mut Vec<u8>, number: u64) {
+    out.extend_from_slice(itoa::Buffer::new().format(number).as_bytes());
 }
