@@ -84,6 +84,7 @@ class Simulation:
         gravity: Triple = (0.0, -9.81, 0.0),
         drag: float = 0.5,
         colliders: Sequence[tuple[Triple, Triple | float]] = (),
+        friction: float = 0.0,
         step: float | None = None,
     ) -> None: ...
     @property

@@ -21,7 +21,8 @@ use crate::torn::{Log, pieces_of};
 /// multiple of its rest length; None for never. toughness: instead, the energy per metre of tear, in J/m. weakening:
 /// the strength of the tips of a tear, as a part of that of whole cloth. strengths: (n,) floats, the strength of
 /// each vertex as a multiple of the threshold. gravity: in m/s², by default (0, -9.81, 0). drag: in 1/s. colliders: a
-/// list of planes (point, normal) and balls (centre, radius). step: its length in s, by default one that suits.
+/// list of planes (point, normal) and balls (centre, radius). friction: Coulomb's coefficient of them all. step: its
+/// length in s, by default one that suits.
 ///
 /// Splits append vertices. Sewing takes vertices away, and the last vertex gets the number that becomes free. Holds and
 /// hands follow; arrays of your own follow by `map`.
@@ -80,19 +81,18 @@ impl Simulation {
 }
 
 /// A plane or a ball, from its two parts.
-fn collider((place, second): (Triple, Array<'_>)) -> PyResult<Collider> {
+fn collider((place, second): (Triple, Array<'_>), friction: f64) -> PyResult<Collider> {
     if let Ok(radius_m) = second.extract::<f64>() {
-        let centre = place.into();
-        return Ok(Collider::sphere(centre, radius_m));
+        return Ok(Collider::sphere(place.into(), radius_m).with_friction(friction));
     }
     let plane = Plane::new(place.into(), second.extract::<Triple>()?.into());
-    Ok(Collider::plane(plane.map_err(value_error)?))
+    Ok(Collider::plane(plane.map_err(value_error)?).with_friction(friction))
 }
 
 #[pymethods]
 impl Simulation {
     #[new]
-    #[pyo3(signature = (points, faces, *, roots=None, density=0.15, modulus=1000.0, damping=1.6e-3, method="verlet", stretch=1.5, toughness=None, weakening=None, strengths=None, gravity=[0.0, -9.81, 0.0], drag=0.5, colliders=Vec::new(), step=None))]
+    #[pyo3(signature = (points, faces, *, roots=None, density=0.15, modulus=1000.0, damping=1.6e-3, method="verlet", stretch=1.5, toughness=None, weakening=None, strengths=None, gravity=[0.0, -9.81, 0.0], drag=0.5, colliders=Vec::new(), friction=0.0, step=None))]
     #[expect(clippy::too_many_arguments, reason = "in Python they have names")]
     fn new(
         points: &Array<'_>,
@@ -109,6 +109,7 @@ impl Simulation {
         gravity: Triple,
         drag: f64,
         colliders: Vec<(Triple, Array<'_>)>,
+        friction: f64,
         step: Option<f64>,
     ) -> PyResult<Simulation> {
         let (mesh, positions) = parts_of(points, faces, roots)?;
@@ -121,7 +122,7 @@ impl Simulation {
             ..Tearing::new(threshold)
         };
         let strengths = strengths.map(|given| floats("strengths", given, &[arrays::ANY]));
-        let colliders = colliders.into_iter().map(collider);
+        let colliders = colliders.into_iter().map(|it| collider(it, friction));
         let def = SimulationDef {
             density_kg_per_m2: density,
             fabric: Fabric {

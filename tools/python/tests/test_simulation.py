@@ -74,6 +74,10 @@ def test_a_falling_sheet_lands(sheet):
     sim.advance(0.6)
     assert sim.points[:, 1].min() >= -0.6 - 1e-9
     assert np.linalg.norm(sim.points - (0.5, -0.4, 0.5), axis=1).min() >= 0.3 - 1e-9
+    slope = [((0, -0.01, 0), (-0.3, 1, 0))]
+    slid = [tearmesh.Simulation(flat, faces[:, ::-1], colliders=slope, friction=mu) for mu in (0.0, 0.9)]
+    [sim.advance(0.5) for sim in slid]
+    assert slid[0].points[:, 0].mean() < slid[1].points[:, 0].mean() - 0.05
 
 
 def test_perforations_tear_first(sheet):
