@@ -41,9 +41,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // 2. A camera that sees where it is, and where it will fall.
     let size = PictureSize::new(360, 480).expect("a size");
     let around = positions.as_slice().iter();
-    let around: Vec<Point> = around
-        .map(|p| Point::new(p.x, p.y * 1.6 - 0.7, p.z))
-        .collect();
+    let around = around.map(|p| Point::new(1.5 * p.x - 0.25, 1.9 * p.y - 0.8, p.z));
+    let around: Vec<Point> = around.collect();
     let camera = fit(sim.mesh(), &around[..], Vector::y(), 35.0, size.as_f64())?;
 
     // 3. Time passes, the cut is made on the way, and everything follows it.
