@@ -85,7 +85,7 @@ mod tests {
             let names = names.filter(|name| !tables.contains(name));
             keys.extend(names.map(|name| (table, name.to_owned())));
         }
-        assert_eq!(keys.len(), 77);
+        assert_eq!(keys.len(), 80);
         keys
     }
 

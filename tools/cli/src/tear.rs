@@ -28,6 +28,7 @@ use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::measure::Piece;
 use crate::picture::Texture;
+use crate::say::Fault;
 use crate::scene::SceneFile;
 use crate::session::{Opened, Session, milliseconds};
 use crate::streams::Streams;
@@ -45,7 +46,7 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
     let source = SceneFile::find(&args.scene, session.streams)?;
     let cuts = check::cuts(args, &mut session.faults)?;
-    let opened = session.open(None)?;
+    let mut opened = session.open(None)?;
     let up = args.up.unwrap_or_else(|| source.up());
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
     let mut scene = source.scene(&frame, args.solver.as_ref())?;
@@ -55,6 +56,13 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     check::known_forces(args, &scene)?;
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
     let run = run.map_err(|error| check::refused(&error, &opened, &source))?;
+    check::seams(args, &run, &opened, &source)?;
+    if !run.scene().seams.is_empty() {
+        // The record of the file that is written says which vertices are copies of one.
+        let torn = opened.document.clone().torn_from(&run.mesh().roots());
+        let torn = torn.map_err(|error| Fault::error("E-SCENE-SEAM", error.to_string()));
+        opened.document = torn?.0;
+    }
     session.faults.extend(check::moved(&opened));
     let number = |v| opened.document.number_of_vertex(v);
     session.faults.extend(advice::before(&run, &frame, &number));
@@ -93,13 +101,15 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
 pub(crate) fn name_vertices(scene: &mut Scene, document: &Document) {
     let holds = scene.holds.iter_mut().map(|hold| &mut hold.region);
     let strengths = scene.strengths.iter_mut().map(|(region, _)| region);
-    for region in holds.chain(strengths) {
-        if let Region::Vertices(named) = region {
-            for vertex in named {
-                let known = document.vertex_of_number(vertex.index() + 1);
-                *vertex = known.and_then(VertexId::new).unwrap_or(*vertex);
-            }
-        }
+    let named = holds.chain(strengths).filter_map(|region| match region {
+        Region::Vertices(named) => Some(named),
+        _ => None,
+    });
+    let sides = scene.seams.iter_mut();
+    let sides = sides.flat_map(|seam| [&mut seam.one, &mut seam.other]);
+    for vertex in named.chain(sides).flatten() {
+        let known = document.vertex_of_number(vertex.index() + 1);
+        *vertex = known.and_then(VertexId::new).unwrap_or(*vertex);
     }
 }
 
@@ -136,7 +146,9 @@ impl Play<'_> {
     fn perform(&self, mut run: Run, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         let pieces_before = Piece::all(run.mesh(), run.cloth().positions());
         let vertices_before = run.mesh().vertex_count();
-        let torn_before_m = run.torn_length_m();
+        // A seam that is still open at the end counts as torn.
+        let is_garment = !run.scene().seams.is_empty();
+        let torn_before_m = if is_garment { 0.0 } else { run.torn_length_m() };
         let files = &self.args.files;
         let name = files.input.display().to_string();
         let title = format!("{}: {}", crate::page::title(Some(&name)), self.name);
@@ -186,7 +198,7 @@ impl Play<'_> {
             crumbs_before: Piece::crumbs(&pieces_before),
             pieces: pieces.len(),
             crumbs: Piece::crumbs(&pieces),
-            tear_length_m: run.torn_length_m() - torn_before_m,
+            tear_length_m: run.torn_length_m() - torn_before_m + 0.0, // Which is never −0.
             max_stretch: tally.stretch_ratio_max,
             momentum_drift: tally.momentum_drift,
             energy_j: summary::energy(&run),

@@ -11,6 +11,26 @@ use std::fmt;
 use tearmesh::{Defect, DisjointSets, HalfEdgeId, Mesh, TornError, VertexId};
 
 /// A seam between two sides, each a chain of boundary edges.
+///
+/// ```
+/// use tearmesh::{Mesh, Positions, VertexId};
+/// use tearmesh_cloth::{Seam, Simulation, SimulationDef};
+///
+/// // Two squares side by side, a tenth of a metre apart.
+/// let square = |x: f64| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0], [x + 1.0, 1.0, 0.0]];
+/// let positions = Positions::new([square(0.0), square(1.1)].concat())?;
+/// let mesh = Mesh::build(8, &[[0, 1, 2], [2, 1, 3], [4, 5, 6], [6, 5, 7]])?;
+/// let side = |numbers: [usize; 2]| numbers.into_iter().filter_map(VertexId::new).collect();
+/// let seam = Seam { name: "side".to_owned(), one: side([1, 3]), other: side([4, 6]) };
+///
+/// let def = SimulationDef { seams: vec![seam], ..SimulationDef::default() };
+/// let mut sim = Simulation::new(mesh, &positions, def)?;
+/// sim.advance(0.2, 1000)?;
+/// assert_eq!((sim.open_pairs(), sim.mesh().components().count()), (0, 1));
+/// assert_eq!(sim.unpick("side")?, 2);
+/// assert_eq!(sim.mesh().components().count(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Seam {
     /// The name by which it is unpicked. Seams that share a name are unpicked together.

@@ -9,7 +9,7 @@ use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{
     Axis, Frame, HeldVertices, Preset, Region, Scene, SwayingWind, TimedCut,
 };
-use tearmesh_cloth::{Body, BodyError, Collider, ColliderShape, Method, Tearing, Threshold};
+use tearmesh_cloth::{Body, BodyError, Collider, ColliderShape, Method, Seam, Tearing, Threshold};
 
 use super::kinds::set;
 use super::read::{SceneFile, Table, none_of};
@@ -43,6 +43,7 @@ impl SceneFile {
         self.fill(&mut scene.colliders, "collider", faults, Self::collider);
         self.fill(&mut scene.holds, "hold", faults, Self::hold);
         self.fill(&mut scene.cuts, "cut", faults, Self::cut);
+        self.fill(&mut scene.seams, "seam", faults, Self::seam);
         self.fill(&mut scene.strengths, "strength", faults, Self::strength);
         scene.cuts.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
         if let Some(table) = self.table("tear") {
@@ -200,9 +201,8 @@ impl SceneFile {
                 along: part("along"),
             });
         }
-        if let Some(numbers) = table.get::<Vec<u32>>("vertices") {
-            let id = |&number: &u32| VertexId::new(number as usize - 1);
-            return Ok(Region::Vertices(numbers.iter().filter_map(id).collect()));
+        if let Some(named) = vertices(table, "vertices") {
+            return Ok(Region::Vertices(named));
         }
         if let (Some(centre), Some(radius_m)) = (point(table, "centre"), table.get("radius_m")) {
             return Ok(Region::Ball { centre, radius_m });
@@ -211,6 +211,18 @@ impl SceneFile {
             (Some(from), Some(to)) => Ok(Region::Box { from, to }),
             _ => Err(self.lacks(table, group)),
         }
+    }
+
+    fn seam(&self, table: &Table) -> Result<Seam, Fault> {
+        let side = |key| vertices(table, key).ok_or_else(|| self.missing(table, key));
+        let name = table
+            .get("name")
+            .ok_or_else(|| self.missing(table, "name"))?;
+        Ok(Seam {
+            name,
+            one: side("one")?,
+            other: side("other")?,
+        })
     }
 
     fn cut(&self, table: &Table) -> Result<TimedCut, Fault> {
@@ -318,6 +330,13 @@ enum Gravity {
 /// The vector of a key.
 pub(super) fn vector(table: &Table, key: &str) -> Option<Vector> {
     table.get::<[f64; 3]>(key).map(Vector::from)
+}
+
+/// The vertices that the numbers of a key stand for.
+fn vertices(table: &Table, key: &str) -> Option<Vec<VertexId>> {
+    let numbers: Vec<usize> = table.get(key)?;
+    let ids = numbers.into_iter().map(|number| VertexId::new(number - 1));
+    Some(ids.flatten().collect())
 }
 
 fn point(table: &Table, key: &str) -> Option<Point> {

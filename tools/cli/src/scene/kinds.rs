@@ -12,8 +12,12 @@ const RANGE: &str = "E-SCENE-RANGE";
 type Check = fn(&Value) -> Result<(), &'static str>;
 
 /// Each kind, an example where one helps, and what it admits.
-const KINDS: [(&str, &str, Check); 14] = [
+const KINDS: [(&str, &str, Check); 15] = [
     ("true or false", "", |value| of::<bool>(value).map(drop)),
+    ("a name", "\"left side\"", |value| {
+        let name = value.as_str().ok_or(TYPE)?;
+        within(!name.is_empty())
+    }),
     ("a number above 0", "", |value| number(value, |x| x > 0.0)),
     ("a number from 0 up", "", |value| {
         number(value, |x| x >= 0.0)

@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use tearmesh::{FaceId, HalfEdgeId, Vector, VertexId};
-use tearmesh_cloth::scene::{Preset, RunError, Scene, TimedCut};
-use tearmesh_cloth::{ClothError, Method, SimulationError, Stretch, TearingError, Threshold};
+use tearmesh_cloth::scene::{Preset, Run, RunError, Scene, TimedCut};
+use tearmesh_cloth::{
+    ClothError, Method, SeamError, SimulationError, Stretch, TearingError, Threshold,
+};
 
-use crate::args::TearArgs;
+use crate::args::{TearArgs, Topology};
 use crate::choice::Choice as _;
 use crate::cut::scissors::of_rays;
 use crate::exit::{Exit, Stop};
@@ -56,6 +58,31 @@ pub(super) fn moved(opened: &Opened) -> Option<Fault> {
         "play the file from before with a scene file of all holds and cuts, each at its time";
     let fault = Fault::warning("W-SIM-REST", message).help(help);
     mesh.half_edges().any(is_apart).then_some(fault)
+}
+
+/// Refuses seams of what was torn before, and frames with the faces of the last one, which has fewer vertices than
+/// the first where seams were sewn.
+pub(super) fn seams(
+    args: &TearArgs,
+    run: &Run,
+    opened: &Opened,
+    source: &SceneFile,
+) -> Result<(), Stop> {
+    let seams = &run.scene().seams;
+    let (message, help) = match () {
+        () if seams.is_empty() => return Ok(()),
+        () if args.cache.is_some() || args.frames_topology == Topology::Final => (
+            "vertices that are sewn are in no point cache, and not in frames with the faces of the last one",
+            "--frames DIR, in which each frame has its own faces",
+        ),
+        () if opened.document.has_record() => (
+            "a file that was torn has no panels to be sewn",
+            "sew the panels in the file from before it was torn",
+        ),
+        () => return Ok(()),
+    };
+    let fault = source.blame(("seam", 0, ""), "E-SCENE-CLASH", message.to_owned());
+    Err(fault.help(help).into())
 }
 
 /// Refuses a table of forces where the method knows none.
@@ -119,6 +146,18 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
                 "{named_by} {one} names the vertex {vertex}, and the mesh has the vertices 1 to {last}"
             );
             source.blame((named_by, number, "vertices"), "E-SCENE-RANGE", message)
+        }
+        RunError::Simulation(SimulationError::Seams(ref error)) => {
+            let number = |v: VertexId| match v.index() {
+                v if v < opened.mesh.vertex_count() => opened.document.number_of_vertex(v),
+                v => v + 1,
+            };
+            let key = match error {
+                SeamError::Counts { .. } => "other",
+                _ => "",
+            };
+            let text = error.text(|v| number(v).to_string());
+            source.blame(("seam", error.place().0, key), "E-SCENE-SEAM", text)
         }
         RunError::Simulation(SimulationError::Tearing(TearingError::Axis { .. })) => {
             source.blame(("tear", 0, "warp"), "E-SCENE-RANGE", said)

@@ -81,7 +81,7 @@ impl Frames {
     pub(super) fn follow(&mut self, edits: &Edits) {
         for edit in edits.iter() {
             for op in edit.vertex_ops() {
-                // A slide adds no vertex, and a simulation never merges.
+                // A slide adds no vertex, and where seams are sewn no frame waits for the last.
                 if let VertexOp::Push { from, .. } = op {
                     self.sources.push(from);
                 }
