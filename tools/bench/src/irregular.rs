@@ -1,6 +1,7 @@
 //! An irregular open sheet in memory: the Delaunay triangles of a jittered grid, waving.
 
 use tearmesh::{Mesh, Point, Positions, Ray, Scissor, Vector};
+use tearmesh_cloth::statistics::Random;
 
 /// A mesh, and where its vertices are.
 pub(crate) type Sheet = (Mesh, Positions);
@@ -9,7 +10,7 @@ pub(crate) type Sheet = (Mesh, Positions);
 /// the border points are even; inside each is off its place by up to 0.4 cells.
 pub(crate) fn sheet(faces: usize) -> Sheet {
     let cells = ((faces as f64 / 2.0).sqrt().round() as usize).max(1);
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let mut flat = Vec::new();
     for row in 0..=cells {
         for column in 0..=cells {
@@ -57,18 +58,4 @@ pub(crate) fn through(at: [f64; 2], angle: f64) -> Scissor {
     };
     let scissor = Scissor::new(ray(-2.0), ray(2.0)).expect("two lines");
     scissor.through(true)
-}
-
-/// A small generator (splitmix64), so that the sheet is the same for ever.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    /// A number from 0 to 1.
-    pub(crate) fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
 }

@@ -3,10 +3,11 @@
 //! Beside our figures stand those of the experiments that the rules of the scissor come from.
 
 use tearmesh::CutMethod;
+use tearmesh_cloth::statistics::Random;
 
 use super::facts::Facts;
 use super::ways::{Form, time};
-use crate::irregular::{self, Random, Sheet};
+use crate::irregular::{self, Sheet};
 use crate::options::Options;
 use crate::table::{line, table};
 
@@ -36,7 +37,7 @@ struct Series {
 
 impl Series {
     fn new(method: CutMethod, snap: f64, sheet: &Sheet, options: &Options) -> Series {
-        let mut random = Random(7);
+        let mut random = Random::new(7);
         let mut times = Vec::new();
         let mut facts = Vec::new();
         for _ in 0..CUTS {
