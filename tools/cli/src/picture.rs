@@ -1,6 +1,7 @@
 //! What all pictures of meshes need: a camera, and what is known of the surface.
 
-use tearmesh::{Blend, Cursor, Edits};
+use tearmesh::{Blend, Cursor, Edits, Mesh, Point};
+use tearmesh_cloth::{Collider, ColliderShape};
 use tearmesh_obj::{Corner, Document};
 use tearmesh_view::CameraError;
 
@@ -46,6 +47,31 @@ impl Texture {
     }
 }
 
+/// A cloth and the bodies that it lies on, to be drawn as one mesh; the cloth alone where the faces of a body
+/// form no manifold.
+pub(crate) fn with_bodies(
+    (mesh, points, texture): (&Mesh, &[Point], &Texture),
+    colliders: &[Collider],
+) -> (Mesh, Vec<Point>, Texture) {
+    let mut faces = mesh.indices().as_chunks::<3>().0.to_vec();
+    let (mut roots, mut drawn, mut texture) = (mesh.roots(), points.to_vec(), texture.clone());
+    for collider in colliders {
+        if let ColliderShape::Body { body, .. } = &collider.shape {
+            let first = drawn.len() as u32;
+            drawn.extend(body.points());
+            roots.extend(first..drawn.len() as u32);
+            faces.extend(body.faces().iter().map(|face| face.map(|v| first + v)));
+        }
+    }
+    if !texture.values.is_empty() {
+        texture.values.resize(3 * faces.len(), [0.0; 2]);
+    }
+    match Mesh::build_torn(&faces, &roots) {
+        Ok(mesh) => (mesh, drawn, texture),
+        Err(_) => (mesh.clone(), points.to_vec(), texture),
+    }
+}
+
 /// All corners of a document's triangles.
 fn corners(document: &Document) -> impl Iterator<Item = Corner> {
     let triangles = 0..document.triangles().len();
@@ -67,3 +93,35 @@ pub(crate) fn crease(document: &Document) -> Option<f64> {
 
 /// In degrees.
 const CREASE: f64 = 40.0;
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use tearmesh::shapes;
+    use tearmesh_cloth::Body;
+
+    use super::*;
+
+    #[test]
+    fn a_cloth_is_drawn_with_the_body_that_it_lies_on_and_a_plane_is_not_drawn() {
+        let (cloth, at) = shapes::grid(3, 3);
+        let (ball, skin) = shapes::octahedron();
+        let faces = ball.indices().as_chunks::<3>().0;
+        let body = Body::new(skin.as_slice(), faces, Some(0.1)).expect("a body");
+        let plane = tearmesh::Plane::new(Point::origin(), tearmesh::Vector::z()).expect("a plane");
+        let colliders = [Collider::plane(plane), Collider::body(Arc::new(body))];
+        let mut texture = Texture::default();
+        texture.values = vec![[0.5; 2]; cloth.half_edge_count()];
+        let (drawn, points, drawn_texture) =
+            with_bodies((&cloth, at.as_slice(), &texture), &colliders);
+        assert_eq!(drawn.face_count(), cloth.face_count() + ball.face_count());
+        assert_eq!(
+            (drawn.components().count(), points.len()),
+            (2, at.len() + skin.len())
+        );
+        assert_eq!(drawn_texture.values.len(), drawn.half_edge_count());
+        let alone = with_bodies((&cloth, at.as_slice(), &texture), &colliders[..1]);
+        assert_eq!((&alone.0, alone.1.len()), (&cloth, at.len()));
+    }
+}

@@ -27,7 +27,7 @@ use crate::cut::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::measure::Piece;
-use crate::picture::Texture;
+use crate::picture::{Texture, with_bodies};
 use crate::say::Fault;
 use crate::scene::SceneFile;
 use crate::session::{Opened, Session, milliseconds};
@@ -245,7 +245,9 @@ impl Play<'_> {
         session.write(mesh, fill)?;
         if let Some(still) = &records.still {
             let (shown, points, texture) = still.shown((mesh, positions.as_slice()));
-            session.show_mesh(&self.opened.document, shown, points, up, texture)?;
+            let colliders = &run.scene().colliders;
+            let (shown, points, texture) = with_bodies((shown, points, texture), colliders);
+            session.show_mesh(&self.opened.document, &shown, &points[..], up, &texture)?;
         }
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {

@@ -55,6 +55,9 @@ const OFFSETS: [f64; 3] = [0.381_966, 0.267_949, 0.414_214];
 /// ```
 #[derive(Clone, PartialEq)]
 pub struct Body {
+    /// As they were given.
+    points: Vec<Point>,
+    faces: Vec<[u32; 3]>,
     grid: Grid,
     distances: Vec<f32>,
     error_rms_m: f64,
@@ -92,6 +95,8 @@ impl Body {
         let mut distances = grid.distances(&skin, BAND);
         grid.sign(&skin, &mut distances)?;
         let mut body = Body {
+            points: points.to_vec(),
+            faces: faces.to_vec(),
             grid,
             distances,
             error_rms_m: 0.0,
@@ -109,6 +114,18 @@ impl Body {
             Some(Place { node, part }) => between(self.corners(node), part),
             None => BAND * self.grid.cell_m + self.grid.away(x),
         }
+    }
+
+    /// Returns the points of the body, as they were given.
+    #[must_use]
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// Returns the faces of the body, as they were given.
+    #[must_use]
+    pub fn faces(&self) -> &[[u32; 3]] {
+        &self.faces
     }
 
     /// Returns the distance of nodes, in metres.

@@ -5,7 +5,7 @@ use tearmesh_view::{Camera, Picture, RenderOptions, fit_all, render};
 
 use crate::args::RenderArgs;
 use crate::exit::{Exit, Stop};
-use crate::picture::{Texture, no_camera};
+use crate::picture::{Texture, no_camera, with_bodies};
 use crate::scene::SceneFile;
 use crate::session::Opened;
 use crate::streams::Streams;
@@ -56,7 +56,8 @@ pub(super) fn draw(
             texture.follow(run.edits());
         }
         let points = run.cloth().positions().to_vec();
-        moments.push((run.mesh().clone(), points, texture.values.clone()));
+        let shown = (run.mesh(), &points[..], &texture);
+        moments.push(with_bodies(shown, &run.scene().colliders));
     }
     bar.finish_and_clear();
     let up = frame.up.vector();
@@ -67,7 +68,7 @@ pub(super) fn draw(
     };
     let pictures = moments.into_iter().map(|(mesh, points, texture)| {
         let options = RenderOptions {
-            texture,
+            texture: texture.values,
             ground: Some(up),
             ..options.clone()
         };
