@@ -196,16 +196,19 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             (format!("the method made {much}{so}"), help)
         }
         Warning::Damped { lost_j, moving_j } => {
-            let order = match scene.solver {
-                Method::Implicit(_) => "`order = \"2\"` in [solver] of a scene file, ",
-                _ => "",
+            let or = match scene.solver {
+                Method::Verlet => "",
+                Method::Implicit(_) => {
+                    ", `order = \"2\"` in [solver] of a scene file, or --solver verlet"
+                }
+                _ => ", or --solver verlet",
             };
             let (method, lost) = (scene.solver.name(), three_digits(lost_j));
             let moving = three_digits(moving_j);
             let message = format!(
                 "{method} lost {lost} J of the {moving} J that went into motion, which fades too soon"
             );
-            (message, format!("--dt {half}, {order}or --solver verlet"))
+            (message, format!("--dt {half}{or}"))
         }
     };
     let (code, say): (_, fn(&'static str, String) -> Fault) = match warning {
