@@ -47,7 +47,7 @@ const GAP_MIN: f64 = 0.9;
 /// half the gap within the surface: square to the side, or along the boundary where the side ends
 /// at it. A vertex of both sides, such as the tip of a slit, stays in place. Where a face would
 /// flip or lose nearly all of its area, the ways of its vertices are halved until it does not.
-/// Takes linear time: only the faces around such vertices are tested again, and each vertex has at
+/// Takes linear time: only the faces around such vertices are tested again, and each vertex has at most
 /// forty halvings.
 ///
 /// ```
