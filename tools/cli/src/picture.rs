@@ -111,8 +111,10 @@ mod tests {
         let body = Body::new(skin.as_slice(), faces, Some(0.1)).expect("a body");
         let plane = tearmesh::Plane::new(Point::origin(), tearmesh::Vector::z()).expect("a plane");
         let colliders = [Collider::plane(plane), Collider::body(Arc::new(body))];
-        let mut texture = Texture::default();
-        texture.values = vec![[0.5; 2]; cloth.half_edge_count()];
+        let texture = Texture {
+            values: vec![[0.5; 2]; cloth.half_edge_count()],
+            ..Texture::default()
+        };
         let (drawn, points, drawn_texture) =
             with_bodies((&cloth, at.as_slice(), &texture), &colliders);
         assert_eq!(drawn.face_count(), cloth.face_count() + ball.face_count());

@@ -55,8 +55,8 @@ const OFFSETS: [f64; 3] = [0.381_966, 0.267_949, 0.414_214];
 /// ```
 #[derive(Clone, PartialEq)]
 pub struct Body {
-    /// As they were given.
     points: Vec<Point>,
+    /// Anticlockwise as seen from outside.
     faces: Vec<[u32; 3]>,
     grid: Grid,
     distances: Vec<f32>,
@@ -96,7 +96,7 @@ impl Body {
         grid.sign(&skin, &mut distances)?;
         let mut body = Body {
             points: points.to_vec(),
-            faces: faces.to_vec(),
+            faces: skin.faces[..faces.len()].to_vec(),
             grid,
             distances,
             error_rms_m: 0.0,
@@ -122,7 +122,7 @@ impl Body {
         &self.points
     }
 
-    /// Returns the faces of the body, as they were given.
+    /// Returns the faces of the body, anticlockwise as seen from outside.
     #[must_use]
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
