@@ -63,6 +63,9 @@ pub(crate) fn with_bodies(
             faces.extend(body.faces().iter().map(|face| face.map(|v| first + v)));
         }
     }
+    if drawn.len() == points.len() {
+        return (mesh.clone(), drawn, texture);
+    }
     if !texture.values.is_empty() {
         texture.values.resize(3 * faces.len(), [0.0; 2]);
     }
