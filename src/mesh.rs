@@ -92,6 +92,12 @@ impl Link {
         (self != Self::BOUNDARY).then(|| HalfEdgeId::from_u32(self.0 & !Self::TORN))
     }
 
+    /// Whether it leads to a pair: the edge is neither torn nor on the boundary.
+    #[inline]
+    const fn is_pair(self) -> bool {
+        self.0 < Self::TORN
+    }
+
     /// This link with its torn mark, redirected to the half-edge `opposite`.
     const fn renumbered(self, opposite: HalfEdgeId) -> Link {
         Link(Link::to(opposite).0 | self.0 & Self::TORN)
@@ -162,8 +168,8 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
-        let link = h.of(&self.link).0;
-        (link < Link::TORN).then(|| HalfEdgeId::from_u32(link))
+        let link = h.of(&self.link);
+        link.is_pair().then(|| HalfEdgeId::from_u32(link.0))
     }
 
     /// Returns the half-edge that was the pair of `h` before their edge was torn (Souza et al. 2014
@@ -172,7 +178,7 @@ impl Mesh {
     #[must_use]
     pub fn ghost_pair(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         let link = h.of(&self.link);
-        link.opposite().filter(|_| link.0 >= Link::TORN)
+        link.opposite().filter(|_| !link.is_pair())
     }
 
     /// Returns the pair of `h`, or its ghost pair if the edge is torn. Returns `None` only for an

@@ -40,6 +40,7 @@ impl Mesh {
         Corners {
             vertex: v,
             orbit: Orbit::new(self, self.half_edge_of(v)),
+            is_here: true,
         }
     }
 
@@ -212,6 +213,8 @@ impl Mesh {
 pub struct Corners<'m> {
     vertex: VertexId,
     orbit: Orbit<'m>,
+    /// Whether the corner before is one of the vertex.
+    is_here: bool,
 }
 
 impl Iterator for Corners<'_> {
@@ -219,8 +222,17 @@ impl Iterator for Corners<'_> {
 
     #[inline]
     fn next(&mut self) -> Option<HalfEdgeId> {
-        let (mesh, vertex) = (self.orbit.mesh, self.vertex);
-        self.orbit.find(|&h| mesh.origin(h) == vertex)
+        loop {
+            let by_pair = self.orbit.by_pair;
+            let h = self.orbit.next()?;
+            // Through a pair one comes to a corner of the same vertex, and need not read it.
+            if !by_pair {
+                self.is_here = self.orbit.mesh.origin(h) == self.vertex;
+            }
+            if self.is_here {
+                return Some(h);
+            }
+        }
     }
 }
 
@@ -234,6 +246,8 @@ pub(crate) struct Orbit<'m, const GHOSTS: bool = true> {
     first: Option<HalfEdgeId>,
     at: Option<HalfEdgeId>,
     backward: bool,
+    /// Whether a pair leads from the corner before to the one that comes next.
+    by_pair: bool,
 }
 
 impl<'m, const GHOSTS: bool> Orbit<'m, GHOSTS> {
@@ -243,15 +257,18 @@ impl<'m, const GHOSTS: bool> Orbit<'m, GHOSTS> {
             first,
             at: first,
             backward: false,
+            by_pair: false,
         }
     }
 
     #[inline]
-    fn across(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
-        if GHOSTS {
-            self.mesh.pair_or_ghost(h)
+    fn across(&mut self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+        let link = h.of(&self.mesh.link);
+        self.by_pair = link.is_pair();
+        if GHOSTS || self.by_pair {
+            link.opposite()
         } else {
-            self.mesh.pair(h)
+            None
         }
     }
 }
@@ -271,7 +288,9 @@ impl<const GHOSTS: bool> Iterator for Orbit<'_, GHOSTS> {
                 Some(ahead) => Some(ahead),
                 None => {
                     self.backward = true;
-                    self.across(first).map(HalfEdgeId::next)
+                    let behind = self.across(first).map(HalfEdgeId::next);
+                    self.by_pair = false;
+                    behind
                 }
             }
         };
