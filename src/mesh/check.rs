@@ -168,17 +168,13 @@ impl Report<'_> {
             }
             vertices
         };
-        let vertices_of: Vec<_> = mesh.faces().map(&mut sorted).collect();
-        let smallest = vertices_of.iter().map(|vertices| vertices[0].index());
-        let mut buckets = Buckets::new(mesh.vertex_count(), smallest);
-        for bucket in buckets.each() {
-            bucket.sort_unstable_by_key(|&f| (vertices_of[f as usize], f));
-            for two in bucket.windows(2) {
-                let vertices = vertices_of[two[0] as usize];
-                if vertices == vertices_of[two[1] as usize] {
-                    let found = format!("f{} and f{} both have {vertices:?}", two[0], two[1]);
-                    self.broken(Invariant::FacesDiffer, found);
-                }
+        let mut faces: Vec<_> = mesh.faces().map(|f| (sorted(f), f)).collect();
+        faces.sort_unstable();
+        for two in faces.windows(2) {
+            let [(vertices, f), (others, g)] = [two[0], two[1]];
+            if vertices == others {
+                let found = format!("{f} and {g} both have {vertices:?}");
+                self.broken(Invariant::FacesDiffer, found);
             }
         }
     }
@@ -216,27 +212,23 @@ impl Report<'_> {
 
     fn directed_edges(&mut self) {
         let mesh = self.mesh;
-        let origins = mesh.half_edges().map(|h| mesh.origin(h).index());
-        let mut leaving = Buckets::new(mesh.vertex_count(), origins);
-        let target = |h: u32| mesh.origin(HalfEdgeId::from_u32(h).next());
-        for bucket in leaving.each() {
-            bucket.sort_unstable_by_key(|&h| (target(h), h));
-            for two in bucket.windows(2) {
-                if target(two[0]) == target(two[1]) {
-                    let [h, g] = [two[0], two[1]].map(HalfEdgeId::from_u32);
-                    let (from, to) = (mesh.origin(h), target(two[0]));
-                    let found = format!("{h} and {g} both run from {from} to {to}");
-                    self.broken(Invariant::DirectedEdgeOnce, found);
-                }
+        let ends = |h: HalfEdgeId| (mesh.origin(h), mesh.origin(h.next()));
+        let mut directed: Vec<HalfEdgeId> = mesh.half_edges().collect();
+        directed.sort_unstable_by_key(|&h| (ends(h), h));
+        for two in directed.windows(2) {
+            let [h, g] = [two[0], two[1]];
+            if ends(h) == ends(g) {
+                let (from, to) = ends(h);
+                let found = format!("{h} and {g} both run from {from} to {to}");
+                self.broken(Invariant::DirectedEdgeOnce, found);
             }
         }
         for h in mesh.half_edges() {
-            let (from, to) = (mesh.origin(h), mesh.origin(h.next()));
-            let back = leaving.get(to.index());
-            let Ok(at) = back.binary_search_by_key(&from, |&g| target(g)) else {
+            let (from, to) = ends(h);
+            let Ok(at) = directed.binary_search_by_key(&(to, from), |&g| ends(g)) else {
                 continue;
             };
-            let opposite = HalfEdgeId::from_u32(back[at]);
+            let opposite = directed[at];
             if mesh.pair(h) != Some(opposite) {
                 let found = format!("{h} and {opposite} join {from} and {to}, and are no pair");
                 self.broken(Invariant::OppositesPaired, found);
@@ -246,35 +238,36 @@ impl Report<'_> {
 
     fn vertices(&mut self) {
         let mesh = self.mesh;
-        let origins = mesh.half_edges().map(|h| mesh.origin(h).index());
-        let corners_of = Buckets::new(mesh.vertex_count(), origins);
+        let mut by_vertex: Vec<HalfEdgeId> = mesh.half_edges().collect();
+        by_vertex.sort_unstable_by_key(|&h| (mesh.origin(h), h));
+        let mut rest = &by_vertex[..];
         let mut orbits = corner_sets(mesh, Mesh::pair_or_ghost);
         let mut fans = corner_sets(mesh, Mesh::pair);
-        let (mut truth, mut walked) = (Vec::new(), Vec::new());
+        let (mut walked, mut fans_walked, mut truth) = (Vec::new(), Vec::new(), Vec::new());
         let mut walks = vec![0u8; mesh.half_edge_count()];
         for v in mesh.vertices() {
-            let corners = corners_of.get(v.index());
-            let first = corners.first().map(|&h| HalfEdgeId::from_u32(h));
+            let corners;
+            (corners, rest) = rest.split_at(rest.partition_point(|&h| mesh.origin(h) == v));
+            let first = corners.first().copied();
             if mesh.half_edge_of(v) != first {
                 let is = mesh.half_edge_of(v);
                 let found = format!("{v} has the half-edge {is:?} instead of {first:?}");
                 self.broken(Invariant::Outgoing, found);
                 continue;
             }
-            let Some(&first) = corners.first() else {
+            let Some(first) = first else {
                 continue;
             };
-            if let Some(h) = corners
-                .iter()
-                .find(|&&h| orbits.leader(h) != orbits.leader(first))
-            {
-                let found = format!("{v} has the corners h{first} and h{h} of two roots");
+            let root = orbits.leader(first.to_u32());
+            let is_foreign = |h: &&HalfEdgeId| orbits.leader(h.to_u32()) != root;
+            if let Some(h) = corners.iter().find(is_foreign) {
+                let found = format!("{v} has the corners {first} and {h} of two roots");
                 self.broken(Invariant::OneRoot, found);
             }
 
             // Every copy of a vertex walks round all of them: some of many are enough, since by
             // I4 and I8 the others have the same way to go.
-            let walks = &mut walks[orbits.leader(first) as usize];
+            let walks = &mut walks[root as usize];
             if *walks == WALKS {
                 continue;
             }
@@ -283,7 +276,7 @@ impl Report<'_> {
             // A walk that is broken might not end, so it is followed only so far.
             let bound = corners.len() + 1;
             walked.clear();
-            walked.extend(mesh.corners_of(v).take(bound).map(HalfEdgeId::to_u32));
+            walked.extend(mesh.corners_of(v).take(bound));
             walked.sort_unstable();
             if walked != corners {
                 let found =
@@ -292,14 +285,15 @@ impl Report<'_> {
             }
 
             truth.clear();
-            truth.extend(corners.iter().map(|&h| fans.leader(h)));
+            truth.extend(corners.iter().map(|&h| fans.leader(h.to_u32())));
             truth.sort_unstable();
             truth.dedup();
-            walked.clear();
-            walked.extend(mesh.fans(v).take(bound).map(|h| fans.leader(h.to_u32())));
-            walked.sort_unstable();
-            if walked != truth {
-                let found = format!("{v} has {} fans, counted {}", truth.len(), walked.len());
+            fans_walked.clear();
+            fans_walked.extend(mesh.fans(v).take(bound).map(|h| fans.leader(h.to_u32())));
+            fans_walked.sort_unstable();
+            if fans_walked != truth {
+                let (count, counted) = (truth.len(), fans_walked.len());
+                let found = format!("{v} has {count} fans, counted {counted}");
                 self.broken(Invariant::Fans, found);
             }
         }
@@ -329,51 +323,6 @@ impl Report<'_> {
                 self.broken(Invariant::BoundaryLoops, found);
             }
         }
-    }
-}
-
-/// Numbers sorted into buckets by counting: those of a bucket lie together, ascending.
-struct Buckets {
-    ends: Vec<u32>,
-    numbers: Vec<u32>,
-}
-
-impl Buckets {
-    /// Puts 0, 1, 2, … into the buckets that `bucket_of` names for them.
-    fn new(buckets: usize, bucket_of: impl Iterator<Item = usize> + Clone) -> Buckets {
-        let mut ends = vec![0; buckets];
-        let mut count = 0;
-        for bucket in bucket_of.clone() {
-            ends[bucket] += 1;
-            count += 1;
-        }
-        let mut before = 0;
-        for end in &mut ends {
-            before += *end;
-            *end = before - *end;
-        }
-        let mut numbers = vec![0; count];
-        for (number, bucket) in bucket_of.enumerate() {
-            numbers[ends[bucket] as usize] = number as u32;
-            ends[bucket] += 1;
-        }
-        Buckets { ends, numbers }
-    }
-
-    fn get(&self, bucket: usize) -> &[u32] {
-        let start = bucket.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.numbers[start as usize..self.ends[bucket] as usize]
-    }
-
-    /// Every bucket, to be put into another order.
-    fn each(&mut self) -> impl Iterator<Item = &mut [u32]> {
-        let mut rest = &mut self.numbers[..];
-        let mut start = 0;
-        self.ends.iter().map(move |&end| {
-            let (bucket, tail) = std::mem::take(&mut rest).split_at_mut((end - start) as usize);
-            (rest, start) = (tail, end);
-            bucket
-        })
     }
 }
 
