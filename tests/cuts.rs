@@ -309,7 +309,7 @@ fn a_face_on_the_plane_has_the_side_of_those_round_it() {
     let points = [0.0, 1.0].map(|y| [[0., y, -1.], [0., y, 0.], [1., y, 0.], [1., y, 1.]]);
     let faces = [0u32, 1, 2].map(|i| [[i, i + 1, i + 5], [i, i + 5, i + 4]]);
     let positions = Positions::new(points.concat()).expect("finite");
-    let mesh = Mesh::build(8, &faces.concat()).expect("a strip");
+    let mesh = Mesh::build(8, faces.concat()).expect("a strip");
     let level = Plane::new(Point::origin(), Vector::z()).expect("a normal");
     let mut work = Work::new((mesh, positions));
     let (cut, _) = work.cut(CutMethod::Exact, &Scissor::by_plane(level));

@@ -77,7 +77,7 @@ pub fn by_place(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Welded, W
     }
     let faces = triangles.iter();
     let faces = faces.map(|face| face.map(|i| u32::from(vertices[i as usize])));
-    let mesh = Mesh::build(welded.len(), &faces.collect::<Vec<_>>()).map_err(WeldError::Build)?;
+    let mesh = Mesh::build(welded.len(), faces.collect::<Vec<_>>()).map_err(WeldError::Build)?;
     Ok(Welded {
         mesh,
         positions: positions(&welded)?,

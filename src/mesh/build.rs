@@ -9,6 +9,8 @@
 //! The fast path only notices *that* something is wrong; what exactly is
 //! worked out by `diagnose.rs`, which may take its time.
 
+use std::borrow::Cow;
+
 use super::defect::{BuildError, Faces};
 use super::{Link, Mesh, NO_HALF_EDGE};
 use crate::id::HalfEdgeId;
@@ -19,7 +21,7 @@ impl Mesh {
     /// The triangles must form an oriented 2-manifold, with or without boundary, in
     /// any number of components (Souza et al. 2014 §IV-B: "we assume that our
     /// initial triangle mesh is a valid 2-manifold surface"). Vertices that no face uses are
-    /// allowed, and keep their ids.
+    /// allowed, and keep their ids. A `Vec` given by value becomes part of the mesh; a slice is copied.
     ///
     /// # Errors
     ///
@@ -35,22 +37,48 @@ impl Mesh {
     ///     assert!(matches!(defect, Defect::CrowdedEdge { faces, .. } if faces.len() == 3));
     /// }
     /// ```
-    #[expect(
-        clippy::missing_panics_doc,
-        reason = "only a bug of ours can trip the expectation"
-    )]
-    pub fn build(vertices: usize, triangles: &[[u32; 3]]) -> Result<Mesh, BuildError> {
-        build(vertices, triangles).ok_or_else(|| {
-            BuildError::collect(|visit| {
-                Mesh::diagnose(vertices, triangles, Faces::LISTED_MAX, visit);
-            })
-            .expect("a refused mesh has a defect that can be named")
-        })
+    pub fn build<'t>(
+        vertices: usize,
+        triangles: impl Into<Cow<'t, [[u32; 3]]>>,
+    ) -> Result<Mesh, BuildError> {
+        let triangles = triangles.into();
+        let Some(link) = links(vertices, &triangles) else {
+            return Err(refusal(vertices, &triangles));
+        };
+        let origin = triangles.into_owned().into_flattened();
+        let mesh = Mesh {
+            outgoing: first_half_edges(vertices, &origin),
+            origin,
+            link,
+            slides: 0,
+        };
+        if every_vertex_has_one_fan(&mesh) && no_face_lies_on_another(&mesh) {
+            return Ok(mesh);
+        }
+        drop((mesh.link, mesh.outgoing));
+        Err(refusal(vertices, mesh.origin.as_chunks().0))
     }
 }
 
-/// The mesh, or `None` if anything at all is wrong.
-fn build(vertices: usize, triangles: &[[u32; 3]]) -> Option<Mesh> {
+/// The smallest half-edge that starts at each vertex.
+pub(super) fn first_half_edges(vertices: usize, origin: &[u32]) -> Vec<u32> {
+    let mut first = vec![NO_HALF_EDGE; vertices];
+    for (h, &v) in origin.iter().enumerate().rev() {
+        first[v as usize] = h as u32; // The last one written is the smallest.
+    }
+    first
+}
+
+/// What is wrong with triangles that are not a mesh.
+fn refusal(vertices: usize, triangles: &[[u32; 3]]) -> BuildError {
+    let defects = BuildError::collect(|visit| {
+        Mesh::diagnose(vertices, triangles, Faces::LISTED_MAX, visit);
+    });
+    defects.expect("a refused mesh has a defect that can be named")
+}
+
+/// The links of a mesh, or `None` if an edge or a face cannot be one of a mesh.
+fn links(vertices: usize, triangles: &[[u32; 3]]) -> Option<Vec<Link>> {
     if vertices > Mesh::MAX_VERTICES || triangles.len() > Mesh::MAX_FACES {
         return None;
     }
@@ -69,19 +97,7 @@ fn build(vertices: usize, triangles: &[[u32; 3]]) -> Option<Mesh> {
     if largest as usize > 2 * vertices {
         return None; // Two half-edges an edge, and fewer edges at a vertex than vertices.
     }
-    let link = pair_half_edges(triangles, bucket_ends)?;
-    let origin = triangles.as_flattened().to_vec();
-    let mut outgoing = vec![NO_HALF_EDGE; vertices];
-    for (h, &v) in origin.iter().enumerate().rev() {
-        outgoing[v as usize] = h as u32; // The last one written is the smallest.
-    }
-    let mesh = Mesh {
-        origin,
-        link,
-        outgoing,
-        slides: 0,
-    };
-    (every_vertex_has_one_fan(&mesh) && no_face_lies_on_another(&mesh)).then_some(mesh)
+    pair_half_edges(triangles, bucket_ends)
 }
 
 /// A half-edge in the bucket of its smaller vertex, in one number so that entries sort

@@ -8,6 +8,7 @@
 
 use std::fmt;
 
+use super::build::first_half_edges;
 use super::{BuildError, Link, Mesh, NO_HALF_EDGE};
 use crate::id::VertexId;
 
@@ -53,12 +54,9 @@ impl Mesh {
             .iter()
             .map(|triangle| triangle.map(|v| roots.get(v as usize).copied().unwrap_or(v)))
             .collect();
-        let mut mesh = Mesh::build(roots.len(), &whole).map_err(TornError::Build)?;
+        let mut mesh = Mesh::build(roots.len(), whole).map_err(TornError::Build)?;
         mesh.origin.copy_from_slice(triangles.as_flattened());
-        mesh.outgoing.fill(NO_HALF_EDGE);
-        for (h, &v) in mesh.origin.iter().enumerate().rev() {
-            mesh.outgoing[v as usize] = h as u32; // The last one written is the smallest.
-        }
+        mesh.outgoing = first_half_edges(roots.len(), &mesh.origin);
         for h in mesh.half_edges() {
             let Some(g) = mesh.pair(h) else { continue };
             if mesh.origin(h) != mesh.target(g) || mesh.target(h) != mesh.origin(g) {

@@ -9,7 +9,7 @@ use crate::arrays::{ANY, Array, floats, ids, triangles, value_error};
 pub(crate) fn mesh_of(n: usize, faces: &Array<'_>, roots: Option<&Array<'_>>) -> PyResult<Mesh> {
     let faces = triangles(faces)?;
     let Some(roots) = roots else {
-        return Mesh::build(n, &faces).map_err(value_error);
+        return Mesh::build(n, faces).map_err(value_error);
     };
     let roots = ids("roots", roots, &[n])?;
     Mesh::build_torn(&faces, &roots).map_err(value_error)

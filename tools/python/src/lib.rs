@@ -51,7 +51,7 @@ mod tearmesh {
     /// need not be a manifold.
     #[pyfunction]
     fn check(faces: &Array<'_>, n: usize) -> PyResult<Vec<String>> {
-        let built = Mesh::build(n, &triangles(faces)?);
+        let built = Mesh::build(n, triangles(faces)?);
         let defects = built
             .err()
             .map_or(Vec::new(), |error| error.defects().to_vec());
