@@ -23,9 +23,11 @@ pub(crate) fn extend<T: Copy>(list: &mut Vec<T>, values: &[T]) {
     list.extend_from_slice(values);
 }
 
+/// Adds half, and at first more: most lists of a file are long, and a few are many and short.
 #[cold]
 fn grow<T>(list: &mut Vec<T>, least: usize) {
-    list.reserve_exact((list.len() / 2 + 4).max(least));
+    let len = list.len();
+    list.reserve_exact((len / 2 + (8 * len).clamp(4, 64)).max(least));
 }
 
 /// How many of the numbers below `count` come before the first for which a condition, which then
