@@ -13,6 +13,7 @@
 //! | `write` | a document to OBJ bytes in memory, beside `{}` and shortest digits |
 //! | `cloth` | a step of a hanging sheet, beside Bullet; what size and splits cost |
 //! | `cut` | a plane through a sheet, both sides kept, beside three Python packages |
+//! | `growth` | each stage of a cut as sheets and fans grow tenfold, to `--faces` and to a million |
 //!
 //! | option | meaning |
 //! |---|---|
@@ -22,10 +23,10 @@
 //! | `--python PATH` | for `cut`: the Python that has the rivals (`python3`) |
 //! | `--record` | also writes the table to `record/<CPU>/<subcommand>.txt` |
 //!
-//! Everything runs on one thread. In each round every contestant runs once, so a slow spell of the
-//! machine falls on all of them: trust the ratios, not the MB/s. They share one allocator, too, and
-//! what one leaves behind, the next starts from; so ratios differ by some tenths with other
-//! company (`--only`). A record names the commit, the compiler and the CPU.
+//! Everything runs on one thread, and what is counted is CPU time. In each round every contestant runs
+//! once, so a slow spell of the machine falls on all of them: trust the ratios, not the MB/s. They
+//! share one allocator, too, and what one leaves behind, the next starts from; so ratios differ by
+//! some tenths with other company (`--only`). A record names the commit, the compiler and the CPU.
 //!
 //! `cut` has rivals in Python: `python3 -m venv DIR`, `DIR/bin/pip install numpy meshlib trimesh
 //! networkx scipy shapely vtk`, and `--python DIR/bin/python`. One that is missing is said to be. Each is
@@ -36,13 +37,14 @@
 //!
 //! `cloth` has Bullet as its rival: `apt-get install libbullet-dev pkg-config g++`. A program of a
 //! hundred lines (`rivals/bullet.cpp`) is compiled against it, gets the same net, and steps it;
-//! where it cannot be compiled, the table says so. CPU time here, too. A projection is timed by the
+//! where it cannot be compiled, the table says so. A projection is timed by the
 //! difference of a run with eleven times the iterations; `of bullet` is the part of the time of
 //! Bullet with its links in the order of the mesh. `longest` is the largest length of an edge in
 //! the end, as a multiple of its rest length. `--faces` does not concern it.
 
 mod cloth;
 mod cut;
+mod growth;
 mod irregular;
 mod measure;
 mod options;
@@ -64,10 +66,13 @@ fn main() -> ExitCode {
     let run: fn(&Options) -> String = match &*subcommand {
         "cloth" => cloth::run,
         "cut" => cut::run,
+        "growth" => growth::run,
         "read" => read::run,
         "write" => write::run,
         _ => {
-            eprintln!("expected a subcommand: cloth, cut, read or write (see the top of main.rs)");
+            eprintln!(
+                "expected a subcommand: cloth, cut, growth, read or write (see the top of main.rs)"
+            );
             return ExitCode::FAILURE;
         }
     };

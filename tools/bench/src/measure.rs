@@ -1,7 +1,7 @@
 //! Interleaved rounds, medians, and the table of a contest.
 
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::options::Options;
 
@@ -14,15 +14,8 @@ pub(crate) struct Contestant<'c, J> {
     pub(crate) run: &'c dyn Fn(&J) -> Option<Duration>,
 }
 
-/// How long a job takes. Its result is dropped afterwards.
-pub(crate) fn timed<T>(job: impl FnOnce() -> T) -> (T, Duration) {
-    let start = Instant::now();
-    let result = job();
-    let time = start.elapsed();
-    (result, time)
-}
-
-/// How much time the CPU spends on a job, which other programs on the machine disturb less.
+/// How much time the CPU spends on a job, which other programs on the machine disturb less than the
+/// wall clock. The result is dropped afterwards.
 pub(crate) fn timed_on_cpu<T>(job: impl FnOnce() -> T) -> (T, Duration) {
     let start = cpu_time::ProcessTime::now();
     let result = job();

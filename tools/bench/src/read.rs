@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use tearmesh_obj::Document;
 
-use crate::measure::{Contestant, contest, timed};
+use crate::measure::{Contestant, contest, timed_on_cpu};
 use crate::options::Options;
 use crate::rivals::{self, Plain};
 use crate::sheet::{Dialect, Sheet};
@@ -129,7 +129,7 @@ fn read<T>(
     reader: impl FnOnce(&[u8]) -> T,
     counts: impl FnOnce(&T) -> (usize, usize),
 ) -> Option<Duration> {
-    let (result, time) = timed(|| reader(sheet.text.as_bytes()));
+    let (result, time) = timed_on_cpu(|| reader(sheet.text.as_bytes()));
     assert_eq!(
         counts(&result),
         (sheet.vertices, sheet.faces),

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use tearmesh::{Mesh, Positions};
 use tearmesh_obj::{Document, TornDocument};
 
-use crate::measure::{Contestant, contest, timed};
+use crate::measure::{Contestant, contest, timed_on_cpu};
 use crate::options::Options;
 use crate::sheet::{Dialect, Sheet};
 
@@ -75,14 +75,14 @@ const WRITERS: [Contestant<'_, Model>; 3] = [
     Contestant {
         name: "tearmesh-obj",
         note: "every statement in order; vertices with several fans are looked for",
-        run: &|model| Some(timed(|| model.written()).1),
+        run: &|model| Some(timed_on_cpu(|| model.written()).1),
     },
     Contestant {
         name: "{}",
         note: "v and f alone",
         run: &|model| {
             let number = |out: &mut Vec<u8>, x: f64| write!(out, "{x}").expect("memory takes all");
-            Some(timed(|| model.written_plainly(number)).1)
+            Some(timed_on_cpu(|| model.written_plainly(number)).1)
         },
     },
     Contestant {
@@ -92,7 +92,7 @@ const WRITERS: [Contestant<'_, Model>; 3] = [
             let number = |out: &mut Vec<u8>, x: f64| {
                 out.extend_from_slice(ryu::Buffer::new().format_finite(x).as_bytes());
             };
-            Some(timed(|| model.written_plainly(number)).1)
+            Some(timed_on_cpu(|| model.written_plainly(number)).1)
         },
     },
 ];
