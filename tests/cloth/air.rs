@@ -221,7 +221,7 @@ fn velocity_verlet_and_bdf2_are_of_second_order_in_wind() {
     for drag_per_s in [0.0, 3.0] {
         let (truth, _) = hung_in_wind(&mut Rk4::new(), 1600, [1.0; 2], drag_per_s);
         let cases: [(Box<dyn Solver>, _, _); 4] = [
-            (Box::new(Verlet::new()), [1.0; 2], 1),
+            (Box::new(Verlet), [1.0; 2], 1),
             (bdf2(1.0), [1.0; 2], 0),
             (bdf2(10.0), [1.0; 2], 0),
             (bdf2(1.0), [1.4, 0.6], 0),

@@ -64,7 +64,7 @@ fn drag_takes_what_a_fall_does_not_keep() {
     let way = g / c * (1.0 - (1.0 - (-c).exp()) / c);
     let errors = [(0.02, 50), (0.01, 100)].map(|(dt_s, steps)| {
         let mut stone = Observed::new(row([0.0], pulled(DOWN, c)));
-        stone.take(&mut Verlet::new(), dt_s, steps);
+        stone.take(&mut Verlet, dt_s, steps);
         let balance = stone.now();
         near(balance.kinetic_j, v * v / 2.0, 5e-3);
         near(balance.gravity_j, g * way, 5e-3);
@@ -90,7 +90,7 @@ fn a_hand_works_its_force_times_its_way() {
         let mut chain = led(Loads::default());
         let mut largest = 0.0_f64;
         for step in 1..=steps {
-            chain.take(&mut Verlet::new(), dt_s, 1);
+            chain.take(&mut Verlet, dt_s, 1);
             let balance = chain.now();
             let answer = 0.25 * (1.0 - (10.0 * f64::from(step) * dt_s).cos());
             largest = largest.max((balance.held_j - answer).abs());
@@ -147,7 +147,7 @@ fn lifting_works_against_gravity() {
     let mut stone = row([0.0], pulled(DOWN, 0.0));
     stone.grab(0, path([(0.0, [0.0; 3]), (1.0, [0.0, 0.0, 0.3])]));
     let mut stone = Observed::new(stone);
-    stone.take(&mut Verlet::new(), 0.01, 200);
+    stone.take(&mut Verlet, 0.01, 200);
     near(stone.now().held_j, 3.0, 1e-12);
     near(stone.now().gravity_j, -3.0, 1e-12);
     near(stone.now().made_j(), 0.0, 1e-12);
@@ -166,7 +166,7 @@ fn who_takes_hold_takes_motion_and_who_lets_go_gives_it() {
     near(pair.now().held_j, -4.5 - 12.5 + 6.0, 1e-12);
     near(pair.now().made_j(), 0.0, 1e-12);
     pair.handle(0, |pair| pair.hold(0));
-    pair.take(&mut Verlet::new(), 0.01, 10);
+    pair.take(&mut Verlet, 0.01, 10);
     let before = pair.now();
     pair.handle(1, |pair| pair.release(1));
     near(pair.now().held_j - before.held_j, 2.0, 1e-12);
@@ -182,16 +182,16 @@ fn wind_works_on_who_is_free() {
     cloth.system_mut().set_loads(loads).expect("loads");
     let mut blown = Observed::new(cloth.system().clone());
     // Samples lie 1 ms apart; the last two steps are after the last of them.
-    blown.take(&mut Verlet::new(), 4e-4, 1250);
+    blown.take(&mut Verlet, 4e-4, 1250);
     let v = 4.0 * (1.0 - (-1.0_f64).exp());
     let balance = blown.now();
     near(balance.kinetic_j, 0.05 * v * v, 4e-4);
     near(balance.wind_j, 0.05 * v * v, 4e-4);
     near(balance.made_j(), 0.0, 4e-4);
     (0..3).for_each(|v| blown.handle(v, |system| system.hold(v)));
-    blown.take(&mut Verlet::new(), 4e-4, 3);
+    blown.take(&mut Verlet, 4e-4, 3);
     let before = blown.now();
-    blown.take(&mut Verlet::new(), 4e-4, 50);
+    blown.take(&mut Verlet, 4e-4, 50);
     assert_eq!(blown.now(), before);
 }
 
@@ -213,7 +213,7 @@ fn an_impact_takes_motion() {
     // damping took from the spring between them, which the ball crushes.
     let ball = Collider::sphere(Point::new(0.65, 0.2, -2.0), 1.5);
     let mut stones = Observed::new(row([0.0, 1.3], onto(ball, &pulled(DOWN, 0.0))));
-    stones.take(&mut Verlet::new(), 1e-4, 10_000);
+    stones.take(&mut Verlet, 1e-4, 10_000);
     let balance = stones.now();
     assert!(balance.colliders_j < -1.0, "{balance:?}");
     let lost = -balance.made_j() / balance.gravity_j;
@@ -258,7 +258,7 @@ fn edits_make_what_is_there_after_and_was_not_before() {
         *gained = (made, after.kinetic_j - before.kinetic_j);
         for _ in 0..20 {
             let system = cloth.system_mut();
-            let taken = system.step_observed(&mut Verlet::new(), 1e-3, Some(&mut kept));
+            let taken = system.step_observed(&mut Verlet, 1e-3, Some(&mut kept));
             taken.expect("a step");
         }
     }
@@ -271,7 +271,7 @@ fn substeps_are_summed_one_by_one() {
     let play = |dt_s: f64, steps: usize| {
         let mut chain = drawn::<3>(3.0, 5.0, pulled(DOWN, 1.0));
         chain.system.when_unstable(Unstable::Substep);
-        chain.take(&mut Verlet::new(), dt_s, steps);
+        chain.take(&mut Verlet, dt_s, steps);
         (chain.system.counters().substeps, chain.now())
     };
     let (substeps, whole) = play(0.5, 2);

@@ -253,7 +253,7 @@ fn no_push_gets_a_vertex_or_a_face_under_the_skin() {
                 *v += all + any();
             }
             for _ in 0..333 {
-                let step = sheet.system_mut().step(&mut Verlet::new(), 0.0015);
+                let step = sheet.system_mut().step(&mut Verlet, 0.0015);
                 step.expect("a step");
             }
             lowest = sheet.positions().iter().map(|p| p.y).fold(lowest, f64::min);
@@ -302,7 +302,7 @@ fn looks_are_saved_where_nothing_is_near() {
             .iter()
             .for_each(|&corner| sheet.system_mut().hold(corner));
         for _ in 0..400 {
-            let step = sheet.system_mut().step(&mut Verlet::new(), 0.001);
+            let step = sheet.system_mut().step(&mut Verlet, 0.001);
             step.expect("a step");
         }
         let counters = sheet.system().counters();

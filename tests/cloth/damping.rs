@@ -38,7 +38,7 @@ fn corner(damping_s: f64, moved: Vector) -> System {
 fn swung(mut system: System, dt_s: f64) -> (Point, Balance, System) {
     let mut kept = Balance::new(&mut system);
     for _ in 0..(2.0 / dt_s).round() as usize {
-        let taken = system.step_observed(&mut Verlet::new(), dt_s, Some(&mut kept));
+        let taken = system.step_observed(&mut Verlet, dt_s, Some(&mut kept));
         taken.expect("a stable step");
     }
     (*system.positions().last().expect("particles"), kept, system)
@@ -92,7 +92,7 @@ fn a_hand_feels_damping_and_a_threshold_does_not() {
     let mut system = oscillator(0.01);
     system.state_mut().1[1] = Vector::new(3.0, 1.0, 0.0);
     let spring = system.stretches().iter().next().expect("a spring");
-    system.step(&mut Verlet::new(), 1e-3).expect("a step");
+    system.step(&mut Verlet, 1e-3).expect("a step");
     let d = system.positions()[1] - system.positions()[0];
     let pull = 100.0 * (d.norm() - 1.0);
     near(force::force_n(&system, spring), pull, 1e-12);
@@ -102,7 +102,7 @@ fn a_hand_feels_damping_and_a_threshold_does_not() {
 
     let mut system = corner(0.01, Vector::new(0.05, 0.0, 0.0));
     system.state_mut().1[2] = Vector::new(3.0, 0.0, 0.0);
-    system.step(&mut Verlet::new(), 1e-3).expect("a step");
+    system.step(&mut Verlet, 1e-3).expect("a step");
     let pull = 100.0 * (system.positions()[2].x - 1.0) + system.velocities()[2].x;
     let hands = force::reaction_n(&system, 0) + force::reaction_n(&system, 1);
     near(hands.x, -pull, 1e-12);
@@ -147,7 +147,7 @@ fn damped_cloth_gains_no_energy_at_the_longest_step() {
         let before = mechanical_j(system);
         let mut most = 0.0_f64;
         for _ in 0..2000 {
-            let substeps = system.step(&mut Verlet::new(), dt_s).expect("a step");
+            let substeps = system.step(&mut Verlet, dt_s).expect("a step");
             assert_eq!(substeps, 1, "{seed}");
             most = most.max(mechanical_j(system));
         }

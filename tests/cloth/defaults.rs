@@ -33,7 +33,7 @@ fn weight(gravity: f64, drag_per_s: f64) -> Loads {
 fn shock(sheet: &Sheet, order: Order, dt_s: f64) -> f64 {
     let mut system = sheet.system(order);
     system.set_loads(weight(400.0, 30.0)).expect("loads");
-    let mut solver = Verlet::new();
+    let mut solver = Verlet;
     let mut most = 0.0_f64;
     for _ in 0..(0.12 / dt_s) as usize {
         system.step(&mut solver, dt_s).expect("a step");
@@ -82,7 +82,7 @@ fn strains_at_rest_are_those_of_backward_euler() {
             .into_iter()
             .flat_map(|order| [(order, 1.0), (order, 2.0)])
         {
-            let strains = at_rest(order, &mut Verlet::new(), times * suited_s, 60.0);
+            let strains = at_rest(order, &mut Verlet, times * suited_s, 60.0);
             for (own, exact) in strains.into_iter().zip(&exact) {
                 let is_small = *exact < 0.1 * largest;
                 assert!(is_small || (own / exact - 1.0).abs() < 1e-3, "{order:?}");
@@ -113,7 +113,7 @@ fn a_crushed_sheet_makes_no_energy_at_any_step() {
             for dt_s in times.into_iter().chain(plain_s) {
                 let mut system = crushed();
                 let began = mechanical_j(&system);
-                let mut solver = Verlet::new();
+                let mut solver = Verlet;
                 for _ in 0..(0.3 / dt_s) as usize {
                     run_with(&mut system, &mut solver, dt_s, 1);
                     let part = mechanical_j(&system) / began;

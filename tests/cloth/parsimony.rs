@@ -113,7 +113,7 @@ fn a_cut_through_a_cloth_visits_no_element() {
 fn each_method_counts_what_it_evaluates() {
     let mut chain = chain(0.0);
     chain.when_unstable(Unstable::Allow);
-    run(&mut chain, Verlet::new(), 0.001, 10);
+    run(&mut chain, Verlet, 0.001, 10);
     let counted = chain.counters();
     assert_eq!((counted.force_evaluations, counted.substeps), (11, 10));
     assert_eq!((counted.wind_evaluations, counted.collider_passes), (0, 0));

@@ -255,7 +255,7 @@ pub(crate) const METHODS: [&str; 9] = [
 /// to rounding for those that are implicit.
 pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
     match name {
-        "guarded" => Box::new(Verlet::new()),
+        "guarded" => Box::new(Verlet),
         "Provot" => Box::new(Provot::unlimited()),
         "limited" => Box::new(Provot::default()),
         "Verlet" => Box::new(PlainVerlet::new()),

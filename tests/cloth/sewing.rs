@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use tearmesh::{Mesh, Point, Positions, Ray, Scissor, Vector};
 use tearmesh_cloth::{
-    Bending, Event, Fabric, InputError, Loads, Seam, SeamError, Simulation, SimulationDef,
-    SimulationError, Wounds,
+    Bending, Event, Fabric, InputError, Loads, Seam, SeamError, SeamFault, Simulation,
+    SimulationDef, SimulationError, Wounds,
 };
 
 use crate::follow::{check, check_anew};
@@ -189,9 +189,9 @@ fn sewn_panels_weigh_and_rest_as_they_were_drawn_until_they_are_unpicked() {
     verify(&sim);
     assert_eq!(sim.mesh().components().count(), 1);
     assert_eq!(sim.unpick("left").expect("a seam"), 0);
-    sim.heal(Wounds::Seam(0)).expect("a seam");
+    sim.heal(Wounds::All).expect("wounds");
     sew(&mut sim);
-    sim.heal(Wounds::Seam(0)).expect("a seam");
+    sim.heal(Wounds::All).expect("wounds");
     let unpicked = ["right", "left"].map(|name| sim.unpick(name).expect("a seam"));
     assert_eq!(unpicked, [5, 5]);
     verify(&sim);
@@ -283,63 +283,47 @@ fn seams_that_cannot_meet_are_refused_with_their_vertices() {
     };
     let [left, right] = [&seams[0], &seams[1]];
     let of = |one: &[usize], other: &[usize]| seam("", one.iter().copied(), other.iter().copied());
+    let error = |seam, vertices: &[usize], fault| SeamError {
+        seam,
+        vertices: vertices.iter().copied().map(v).collect(),
+        fault,
+    };
     for (seams, error, text) in [
         (
             vec![left.clone(), of(&[3, 7, 11], &[24, 29])],
-            SeamError::Counts {
-                seam: 1,
-                counts: [3, 2],
-            },
+            error(1, &[], SeamFault::Counts([3, 2])),
             "seam 2: one side of the seam has 3 vertices, the other 2",
         ),
         (
             vec![of(&[3], &[24])],
-            SeamError::Counts {
-                seam: 0,
-                counts: [1, 1],
-            },
+            error(0, &[], SeamFault::Counts([1, 1])),
             "seam 1: a side of a seam has two vertices or more",
         ),
         (
             vec![of(&[3, 7], &[24, 77])],
-            SeamError::NoVertex {
-                seam: 0,
-                vertex: v(77),
-            },
+            error(0, &[77], SeamFault::NoVertex),
             "seam 1: the mesh has no vertex v77",
         ),
         (
             vec![of(&[3, 7, 3], &[24, 29, 34])],
-            SeamError::Repeated {
-                seam: 0,
-                vertex: v(3),
-            },
+            error(0, &[3], SeamFault::Repeated),
             "seam 1: a side of the seam names the vertex v3 twice",
         ),
         (
             vec![of(&[3, 11], &[24, 29])],
-            SeamError::NoBoundary {
-                seam: 0,
-                ends: [v(3), v(11)],
-            },
+            error(0, &[3, 11], SeamFault::NoBoundary),
             "seam 1: v3-v11 is no edge at the boundary of a panel",
         ),
         (
             // Along an edge inside.
             vec![of(&[5, 9], &[24, 29])],
-            SeamError::NoBoundary {
-                seam: 0,
-                ends: [v(5), v(9)],
-            },
+            error(0, &[5, 9], SeamFault::NoBoundary),
             "seam 1: v5-v9 is no edge at the boundary of a panel",
         ),
         (
             // What lies between two seams.
             vec![of(&[0, 4], &[20, 25]), of(&[8, 12], &[30, 35])],
-            SeamError::Unnamed {
-                seam: 0,
-                ends: [v(8), v(4)],
-            },
+            error(0, &[8, 4], SeamFault::Unnamed),
             "seam 1: v8-v4 would be sewn as well, since both its ends are, and no seam names it",
         ),
     ] {
@@ -357,8 +341,7 @@ fn seams_that_cannot_meet_are_refused_with_their_vertices() {
         vec![third, right.clone(), left.clone()],
     ] {
         let error = refusal(seams);
-        let (seam, vertices) = error.place();
-        assert_eq!((seam, vertices), (0, vec![v(0), v(4)]));
+        assert_eq!((error.seam, &error.vertices), (0, &vec![v(0), v(4)]));
         assert!(
             error
                 .to_string()
@@ -377,10 +360,7 @@ fn seams_that_cannot_meet_are_refused_with_their_vertices() {
         ),
     ] {
         let error = refusal(seams);
-        assert!(
-            matches!(error, SeamError::Sewn { seam: 0, .. }),
-            "{error:?}"
-        );
+        assert!(matches!(error.fault, SeamFault::Sewn(_)), "{error:?}");
         assert_eq!(error.to_string(), format!("seam 1: {text}"));
     }
 }

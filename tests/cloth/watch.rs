@@ -260,8 +260,8 @@ const RASH: [fn(&mut System, f64); 9] = [
     |system, _| system.grab(7, path([(0.0, [0.0; 3])])),
     |system, dt_s| {
         // Once beside where the step began, and once more.
-        Verlet::new().advance(system, dt_s).expect("a step");
-        Verlet::new().advance(system, dt_s).expect("a step");
+        Verlet.advance(system, dt_s).expect("a step");
+        Verlet.advance(system, dt_s).expect("a step");
     },
     |system, dt_s| Xpbd::default().advance(system, dt_s).expect("a step"),
     |system, dt_s| Implicit::default().advance(system, dt_s).expect("a step"),

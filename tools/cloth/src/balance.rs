@@ -50,7 +50,7 @@ pub(crate) const AIR_S: f64 = 1e-3;
 /// stone.set_loads(Loads { gravity_m_per_s2, ..Loads::default() })?;
 /// let mut balance = Balance::new(&mut stone);
 /// for _ in 0..100 {
-///     stone.step_observed(&mut Verlet::new(), 0.01, Some(&mut balance))?;
+///     stone.step_observed(&mut Verlet, 0.01, Some(&mut balance))?;
 /// }
 /// let balance = balance.now(&stone);
 /// assert!((balance.kinetic_j - 50.0).abs() < 1e-9);

@@ -154,6 +154,11 @@ const fn coefficients(first: usize) -> [f64; TERMS] {
 
 const SERIES: [[f64; TERMS]; 3] = [coefficients(1), coefficients(3), coefficients(5)];
 
+/// sin t / t of u = t², for t in 0 … π.
+pub(crate) fn sinc_of_root(u: f64) -> f64 {
+    series(u)[0]
+}
+
 /// Functions of u = t², for t in 0 … π, by Horner's rule: sin t / t; p = (sinc t − cos t) / t², which is −2
 /// times the derivative of sinc by u; and r = (3 p − sinc) / t².
 fn series(u: f64) -> [f64; 3] {

@@ -4,9 +4,9 @@
 //! trilinear. All others have the distance of the band, which is a lower bound. A look costs eight numbers,
 //! however many faces the body has.
 //!
-//! Which nodes are inside is decided by three votes: along each axis, the faces that a line crosses before it
-//! comes to the node are counted, those that lead in less those that lead out. Holes are closed by fans before
-//! that, as a line that leaves by one counts nothing. A node that differs from a neighbour by more than they are
+//! Which nodes are inside is decided along lines of nodes: the faces that a line crosses before it comes to the
+//! node are counted, those that lead in less those that lead out. Holes are closed by fans before that, as a
+//! line that leaves by one counts nothing. A node that differs from a neighbour by more than they are
 //! apart is on the wrong side, and would be a pit that swallows cloth: such a body is refused.
 //!
 //! The grid measures its own error in the middle of each cell at the skin, where it is largest as a rule: a
@@ -38,7 +38,7 @@ const OPEN_SHARE: usize = 40;
 /// body with round coordinates.
 const OFFSETS: [f64; 3] = [0.381_966, 0.267_949, 0.414_214];
 
-/// A solid body with a skin of triangles, as the shape of a [`Collider`](crate::Collider). It does not move.
+/// A solid body with a skin of triangles, as the shape of a [`Collider`](crate::Collider).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -145,6 +145,15 @@ impl Body {
     #[must_use]
     pub fn error_worst_m(&self) -> f64 {
         self.error_worst_m
+    }
+
+    /// The corners of a box around the body.
+    pub(crate) fn box_corners(&self) -> [Point; 8] {
+        let last = self.grid.counts.map(|count| count - 1);
+        std::array::from_fn(|i| {
+            let end = |axis: usize| last[axis] * (i >> axis & 1);
+            self.grid.at([end(0), end(1), end(2)])
+        })
     }
 
     /// The direction in which the distance grows fastest; `None` deep inside, where it is not known.
@@ -401,32 +410,24 @@ impl Grid {
 
     /// Makes the distances of nodes inside negative.
     fn sign(&self, skin: &Skin, distances: &mut [f32]) -> Result<(), BodyError> {
-        let mut votes = vec![0_u8; distances.len()];
-        let strides = [1, self.counts[0], self.counts[0] * self.counts[1]];
-        for axis in 0..3 {
-            let entries = self.crossings(skin, axis, strides);
-            let count = self.counts[axis];
-            for first in 0..distances.len() {
-                if (first / strides[axis]).is_multiple_of(count) {
-                    let mut entered = 0;
-                    for node in (0..count).map(|i| first + i * strides[axis]) {
-                        entered += i32::from(entries[node]);
-                        votes[node] += u8::from(entered > 0);
-                    }
-                }
+        let entries = self.crossings(skin);
+        let rows = distances.chunks_exact_mut(self.counts[0]);
+        for (row, entries) in rows.zip(entries.chunks_exact(self.counts[0])) {
+            let mut entered = 0;
+            for (distance, more) in row.iter_mut().zip(entries) {
+                entered += i32::from(*more);
+                *distance = if entered > 0 { -*distance } else { *distance };
             }
         }
-        for (distance, votes) in distances.iter_mut().zip(votes) {
-            *distance = if votes >= 2 { -*distance } else { *distance };
-        }
-        self.check_sides(strides, distances)
+        self.check_sides(distances)
     }
 
-    /// How often lines along an axis enter the body before a node, and after the one before, less how often
-    /// they leave.
-    fn crossings(&self, skin: &Skin, axis: usize, strides: [usize; 3]) -> Vec<i16> {
-        let mut entries = vec![0; strides[2] * self.counts[2]];
-        let [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
+    /// How often a line along x enters the body before a node, and after the one before, less how often it
+    /// leaves.
+    fn crossings(&self, skin: &Skin) -> Vec<i16> {
+        let [width, height, depth] = self.counts;
+        let mut entries = vec![0; width * height * depth];
+        let [b, c] = [1, 2];
         for face in &skin.faces {
             let corners = face.map(|v| skin.points[v as usize]);
             let triangle = Triangle::new(corners);
@@ -435,9 +436,7 @@ impl Grid {
                 self.range(axis, low, high)
             });
             for (j, k) in over_b.flat_map(|j| over_c.clone().map(move |k| (j, k))) {
-                let mut indices = [0; 3];
-                (indices[b], indices[c]) = (j, k);
-                let p = self.at(indices);
+                let p = self.at([0, j, k]);
                 // Twice the area of the corner before the line and an edge. Both faces at an edge compute it
                 // from the same end, so that a line passes through one of them.
                 let area = |from: usize, to: usize| {
@@ -459,19 +458,18 @@ impl Grid {
                 if parts.iter().any(|part| part.1 != side) || whole == 0.0 {
                     continue;
                 }
-                let sum = (0..3).fold(0.0, |sum, i| sum + parts[i].0 * corners[i][axis]);
-                let cells = (sum / whole - self.origin[axis]) / self.cell_m;
-                let node = (cells.max(0.0) as usize + 1).min(self.counts[axis] - 1);
-                indices[axis] = node;
-                let node = (0..3).fold(0, |node, axis| node + indices[axis] * strides[axis]);
-                entries[node] -= side;
+                let sum = (0..3).fold(0.0, |sum, i| sum + parts[i].0 * corners[i].x);
+                let cells = (sum / whole - self.origin.x) / self.cell_m;
+                let i = (cells.max(0.0) as usize + 1).min(width - 1);
+                entries[(k * height + j) * width + i] -= side;
             }
         }
         entries
     }
 
     /// Refuses neighbours that differ by more than they are apart: one of them is on the wrong side.
-    fn check_sides(&self, strides: [usize; 3], distances: &[f32]) -> Result<(), BodyError> {
+    fn check_sides(&self, distances: &[f32]) -> Result<(), BodyError> {
+        let strides = [1, self.counts[0], self.counts[0] * self.counts[1]];
         // Rounding to single precision makes differences a little larger than they are.
         let apart_m = (self.cell_m * 1.001) as f32;
         let differs = |&node: &usize| {

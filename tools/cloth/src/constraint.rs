@@ -58,7 +58,7 @@ pub struct Constraints {
 }
 
 /// The constraints of one colour, no two of which share a particle: columns of the same length. The last
-/// two are left behind by a step, as in [`Memory`].
+/// one is left behind by a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Colour {
     pub(crate) ids: Vec<u32>,
@@ -70,17 +70,8 @@ pub(crate) struct Colour {
     /// The force by the rate at which the length changes, in N s/m: that of the last
     /// [`Constraints::damp`].
     pub(crate) damping: Vec<f64>,
-    pub(crate) multipliers: Vec<f64>,
-    pub(crate) ratios: Vec<f64>,
-}
-
-/// What a step leaves behind in a constraint.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Memory {
     /// Minus the force of the method, in newtons: λ/Δt².
-    pub(crate) multiplier: f64,
-    /// The length as a multiple of the rest length, before a limiter shortened it.
-    pub(crate) ratio: f64,
+    pub(crate) multipliers: Vec<f64>,
 }
 
 impl Constraints {
@@ -150,27 +141,23 @@ impl Constraints {
         ids.map(|(id, _)| ConstraintId(id as u32))
     }
 
-    pub(crate) fn memory(&self, id: ConstraintId) -> Memory {
+    pub(crate) fn multiplier(&self, id: ConstraintId) -> f64 {
         let (colour, i) = self.slot(id);
-        let colour = &self.colours[colour];
-        Memory {
-            multiplier: colour.multipliers[i],
-            ratio: colour.ratios[i],
-        }
+        self.colours[colour].multipliers[i]
     }
 
     pub(crate) fn add(&mut self, constraint: Constraint) -> ConstraintId {
-        self.add_with(constraint, Memory::default())
+        self.add_with(constraint, 0.0)
     }
 
-    /// Adds a constraint that remembers what another one does.
-    pub(crate) fn add_with(&mut self, constraint: Constraint, memory: Memory) -> ConstraintId {
+    /// Adds a constraint with the multiplier of another one.
+    pub(crate) fn add_with(&mut self, constraint: Constraint, multiplier: f64) -> ConstraintId {
         let id = self.free.pop().unwrap_or_else(|| {
             self.slots.push([NONE; 2]);
             self.lists.push();
             self.slots.len() as u32 - 1
         });
-        self.attach(id, constraint, memory);
+        self.attach(id, constraint, multiplier);
         ConstraintId(id)
     }
 
@@ -185,10 +172,10 @@ impl Constraints {
     /// colour if that is free there.
     pub(crate) fn repoint(&mut self, id: ConstraintId, from: usize, to: usize) {
         if self.get(id).ends.contains(&from) {
-            let (mut constraint, memory) = self.detach(id);
+            let (mut constraint, multiplier) = self.detach(id);
             let moved = |end| if end == from { to } else { end };
             constraint.ends = constraint.ends.map(moved);
-            self.attach(id.0, constraint, memory);
+            self.attach(id.0, constraint, multiplier);
         }
     }
 
@@ -269,31 +256,31 @@ impl Constraints {
         free.expect("one colour more than there are is free")
     }
 
-    fn attach(&mut self, id: u32, constraint: Constraint, memory: Memory) {
+    fn attach(&mut self, id: u32, constraint: Constraint, multiplier: f64) {
         let chosen = self.free_colour(constraint.ends);
         if chosen == self.colours.len() {
             self.colours.push(Colour::default());
         }
         let colour = &mut self.colours[chosen];
         self.slots[id as usize] = [chosen as u32, colour.ids.len() as u32];
-        colour.push(id, constraint, memory);
+        colour.push(id, constraint, multiplier);
         for (side, end) in constraint.ends.into_iter().enumerate() {
             self.lists.attach(id as usize, side, end);
         }
     }
 
-    fn detach(&mut self, id: ConstraintId) -> (Constraint, Memory) {
+    fn detach(&mut self, id: ConstraintId) -> (Constraint, f64) {
         let constraint = self.get(id);
         for (side, end) in constraint.ends.into_iter().enumerate() {
             self.lists.detach(id.index(), side, end);
         }
         let (colour, i) = self.slot(id);
         let colour = &mut self.colours[colour];
-        let memory = colour.swap_remove(i);
+        let multiplier = colour.swap_remove(i);
         if let Some(&moved) = colour.ids.get(i) {
             self.slots[moved as usize][1] = i as u32;
         }
-        (constraint, memory)
+        (constraint, multiplier)
     }
 }
 
@@ -313,32 +300,27 @@ impl Colour {
         room_for(&mut self.compliance, count);
         room_for(&mut self.damping, count);
         room_for(&mut self.multipliers, count);
-        room_for(&mut self.ratios, count);
     }
 
-    fn push(&mut self, id: u32, constraint: Constraint, memory: Memory) {
+    fn push(&mut self, id: u32, constraint: Constraint, multiplier: f64) {
         self.ids.push(id);
         self.ends.push(constraint.ends.map(|end| end as u32));
         self.rest.push(constraint.rest_length_m);
         self.stiffness.push(constraint.stiffness_n_per_m);
         self.compliance.push(1.0 / constraint.stiffness_n_per_m);
         self.damping.push(0.0);
-        self.multipliers.push(memory.multiplier);
-        self.ratios.push(memory.ratio);
+        self.multipliers.push(multiplier);
     }
 
-    /// Takes a constraint out; the last one takes its place.
-    fn swap_remove(&mut self, i: usize) -> Memory {
+    /// Takes a constraint out, and returns its multiplier; the last one takes its place.
+    fn swap_remove(&mut self, i: usize) -> f64 {
         self.ids.swap_remove(i);
         self.ends.swap_remove(i);
         self.rest.swap_remove(i);
         self.stiffness.swap_remove(i);
         self.compliance.swap_remove(i);
         self.damping.swap_remove(i);
-        Memory {
-            multiplier: self.multipliers.swap_remove(i),
-            ratio: self.ratios.swap_remove(i),
-        }
+        self.multipliers.swap_remove(i)
     }
 }
 

@@ -41,7 +41,7 @@ impl Cloth {
             }
             let mut copy = stretch.get(id);
             copy.ends = copy.ends.map(|end| if end == old { new } else { end });
-            let copied = stretch.add_with(copy, stretch.memory(id));
+            let copied = stretch.add_with(copy, stretch.multiplier(id));
             self.stretch_of.join([link.stayed; 2], id);
             self.stretch_of.join([link.moved; 2], copied);
             let lengths = [link.stayed, link.moved].map(|h| self.side_length(h));
@@ -323,6 +323,10 @@ fn push_particle(system: &mut System, from: Mix<VertexId>) {
         Mix::Copy(v) => Some(v.index()),
         Mix::Between { .. } | Mix::Weighted { .. } => None,
     };
+    let unlimited = &mut system.scratch.unlimited;
+    if unlimited.len() == system.positions.len() {
+        unlimited.push(Blend::blend(from.map(|v| &unlimited[v.index()])));
+    }
     system.positions.push(x);
     system.velocities.push(v);
     let model = &mut system.model;
@@ -350,6 +354,10 @@ fn join_particles(system: &mut System, kept: usize, gone: usize, share: f64) {
         v[kept] = Vector::zeros();
     } else if v[kept] != v[gone] {
         v[kept] = (v[kept] * mass + v[gone] * more) / (mass + more);
+    }
+    let unlimited = &mut system.scratch.unlimited;
+    if unlimited.len() == x.len() {
+        unlimited.swap_remove(gone);
     }
     x.swap_remove(gone);
     v.swap_remove(gone);

@@ -28,9 +28,9 @@ use crate::system::System;
 #[must_use]
 pub fn force_n(system: &System, id: ConstraintId) -> f64 {
     let (model, stretch) = (&system.model, &system.model.stretch);
-    let (one, memory) = (stretch.get(id), stretch.memory(id));
+    let (one, multiplier) = (stretch.get(id), stretch.multiplier(id));
     let by_length = pair::axial_of(stretch, &one, &system.positions).force;
-    model.exerted_n(one.ends, by_length, memory.multiplier)
+    model.exerted_n(one.ends, by_length, multiplier)
 }
 
 /// Returns the force, in newtons, that a hand must exert to hold or lead a particle: minus the sum

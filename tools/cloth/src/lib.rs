@@ -88,7 +88,7 @@ pub use implicit::Implicit;
 pub use load::{Collider, ColliderShape, Loads, Path, Wind};
 pub use method::{FRAME_S, Method, Softness};
 pub use provot::{Limiter, Provot};
-pub use seam::{Seam, SeamError};
+pub use seam::{Seam, SeamError, SeamFault};
 pub use sheet::{Cloth, ClothError};
 pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,

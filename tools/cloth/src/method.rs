@@ -96,7 +96,7 @@ impl Method {
         match *self {
             Method::Provot(limiter) => Box::new(Provot::new(limiter)),
             Method::Pbd(pbd) => Box::new(pbd),
-            Method::Verlet => Box::new(Verlet::new()),
+            Method::Verlet => Box::new(Verlet),
             Method::Xpbd(xpbd) => Box::new(xpbd),
             Method::Implicit(settings) => Box::new(Implicit::new(settings)),
         }

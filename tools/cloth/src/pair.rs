@@ -144,7 +144,7 @@ pub(crate) fn add_force_at(
         let d = x[other] - x[particle];
         let length = length(d);
         if length > 0.0 {
-            let multiplier = family.memory(id).multiplier;
+            let multiplier = family.multiplier(id);
             let damped_n = velocities.map_or(0.0, |v| {
                 family.damping(id) * dot(d, v[other] - v[particle]) / length
             });

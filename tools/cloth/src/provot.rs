@@ -7,7 +7,7 @@
 //! held while velocities go on to grow.
 //!
 //! A threshold of stretch has to be held against lengths before the limiter, or nothing ever
-//! tears: the limiter leaves those behind in the system ([`System::unlimited_ratio`]), and
+//! tears: the limiter leaves where it began behind in the system ([`System::unlimited_ratio`]), and
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
 use crate::motion::{accelerate, force_scale, kick_and_drift};
@@ -66,9 +66,6 @@ impl Provot {
         let (positions, counters) = (&mut system.positions, &mut system.counters);
         scratch.is_fresh = false;
         scratch.unlimited.clone_from(positions);
-        for colour in &mut model.stretch.colours {
-            spring::ratios(colour, positions);
-        }
         model.multipliers_mut().for_each(|lambda| *lambda = 0.0);
         let ratio_max = limiter.stretch_ratio_max;
         let (mut passes, mut has_shortened) = (0, false);

@@ -41,121 +41,84 @@ pub struct Seam {
     pub other: Vec<VertexId>,
 }
 
-/// The reason why seams were refused. Seams are numbered from 0.
+/// The reason why seams were refused.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeamError {
+    /// The number of the first seam concerned, from 0.
+    pub seam: usize,
+    /// The vertices concerned.
+    pub vertices: Vec<VertexId>,
+    /// What is wrong with them.
+    pub fault: SeamFault,
+}
+
+/// What is wrong with a seam.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum SeamError {
+pub enum SeamFault {
     /// The sides have different numbers of vertices, or fewer than two.
-    Counts {
-        /// The seam.
-        seam: usize,
-        /// The numbers of vertices of both sides.
-        counts: [usize; 2],
-    },
+    Counts([usize; 2]),
     /// A side names a vertex that the mesh does not have.
-    NoVertex {
-        /// The seam.
-        seam: usize,
-        /// The vertex.
-        vertex: VertexId,
-    },
+    NoVertex,
     /// A side names a vertex twice.
-    Repeated {
-        /// The seam.
-        seam: usize,
-        /// The vertex.
-        vertex: VertexId,
-    },
+    Repeated,
     /// Two vertices that follow each other are not the ends of an edge at the boundary.
-    NoBoundary {
-        /// The seam.
-        seam: usize,
-        /// The two vertices.
-        ends: [VertexId; 2],
-    },
+    NoBoundary,
     /// Both ends of a boundary edge are sewn to those of another, so that these edges become one although no seam
     /// has them.
-    Unnamed {
-        /// The first seam that names one of the ends.
-        seam: usize,
-        /// The ends of the edge.
-        ends: [VertexId; 2],
-    },
+    Unnamed,
     /// Sewn whole, the panels would be no oriented manifold: three of them share an edge, or two a vertex and no
     /// edge beside it. The defect names a vertex by the lowest that it would be one with.
-    Sewn {
-        /// The first seam that names one of its vertices.
-        seam: usize,
-        /// What would be wrong.
-        defect: Defect,
-    },
+    Sewn(Defect),
 }
 
 impl SeamError {
-    /// Returns the number of the seam, and the vertices concerned.
-    #[must_use]
-    pub fn place(&self) -> (usize, Vec<VertexId>) {
-        match *self {
-            SeamError::Counts { seam, .. } => (seam, Vec::new()),
-            SeamError::NoVertex { seam, vertex } | SeamError::Repeated { seam, vertex } => {
-                (seam, vec![vertex])
-            }
-            SeamError::NoBoundary { seam, ends } | SeamError::Unnamed { seam, ends } => {
-                (seam, ends.to_vec())
-            }
-            SeamError::Sewn { seam, ref defect } => (seam, vertices_of(defect)),
+    fn new(seam: usize, vertices: impl Into<Vec<VertexId>>, fault: SeamFault) -> SeamError {
+        let vertices = vertices.into();
+        SeamError {
+            seam,
+            vertices,
+            fault,
         }
     }
 
     /// Returns the reason in words, in which each vertex has a name such as its number in a file.
     #[must_use]
     pub fn text(&self, name: impl Fn(VertexId) -> String) -> String {
-        let (_, vertices) = self.place();
-        let names: Vec<String> = vertices.into_iter().map(name).collect();
+        let names: Vec<String> = self.vertices.iter().copied().map(name).collect();
         let edge = names.join("-");
-        match self {
-            SeamError::Counts {
-                counts: [0 | 1, _], ..
-            } => "a side of a seam has two vertices or more".to_owned(),
-            SeamError::Counts {
-                counts: [one, other],
-                ..
-            } => {
+        match &self.fault {
+            SeamFault::Counts([0 | 1, _]) => "a side of a seam has two vertices or more".to_owned(),
+            SeamFault::Counts([one, other]) => {
                 format!("one side of the seam has {one} vertices, the other {other}")
             }
-            SeamError::NoVertex { .. } => format!("the mesh has no vertex {edge}"),
-            SeamError::Repeated { .. } => {
-                format!("a side of the seam names the vertex {edge} twice")
+            SeamFault::NoVertex => format!("the mesh has no vertex {edge}"),
+            SeamFault::Repeated => format!("a side of the seam names the vertex {edge} twice"),
+            SeamFault::NoBoundary => format!("{edge} is no edge at the boundary of a panel"),
+            SeamFault::Unnamed => format!(
+                "{edge} would be sewn as well, since both its ends are, and no seam names it"
+            ),
+            SeamFault::Sewn(Defect::CrowdedEdge { faces, .. }) => {
+                format!("{} faces would meet at the edge {edge}", faces.len())
             }
-            SeamError::NoBoundary { .. } => format!("{edge} is no edge at the boundary of a panel"),
-            SeamError::Unnamed { .. } => {
-                format!(
-                    "{edge} would be sewn as well, since both its ends are, and no seam names it"
-                )
+            SeamFault::Sewn(Defect::FlippedFace { .. }) => {
+                format!("both panels run along {edge} the same way: one lies face down")
             }
-            SeamError::Sewn { defect, .. } => match defect {
-                Defect::CrowdedEdge { faces, .. } => {
-                    format!("{} faces would meet at the edge {edge}", faces.len())
-                }
-                Defect::FlippedFace { .. } => {
-                    format!("both panels run along {edge} the same way: one lies face down")
-                }
-                Defect::BowTie { .. } => {
-                    format!("panels would meet in the vertex {edge} and in no edge beside it")
-                }
-                Defect::RepeatedVertex { .. } => {
-                    format!("a face would have the vertex {edge} twice")
-                }
-                _ => format!("two faces would have the same vertices {edge}"),
-            },
+            SeamFault::Sewn(Defect::BowTie { .. }) => {
+                format!("panels would meet in the vertex {edge} and in no edge beside it")
+            }
+            SeamFault::Sewn(Defect::RepeatedVertex { .. }) => {
+                format!("a face would have the vertex {edge} twice")
+            }
+            SeamFault::Sewn(_) => format!("two faces would have the same vertices {edge}"),
         }
     }
 }
 
 impl fmt::Display for SeamError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (seam, _) = self.place();
-        write!(f, "seam {}: {}", seam + 1, self.text(|v| v.to_string()))
+        let text = self.text(|v| v.to_string());
+        write!(f, "seam {}: {text}", self.seam + 1)
     }
 }
 
@@ -173,10 +136,7 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
         for side in [&seam.one, &seam.other] {
             for ends in side.array_windows() {
                 let h = boundary(panels, *ends);
-                let h = h.ok_or(SeamError::NoBoundary {
-                    seam: number,
-                    ends: *ends,
-                })?;
+                let h = h.ok_or_else(|| SeamError::new(number, *ends, SeamFault::NoBoundary))?;
                 labels[h.index()] = number as u32 + 1;
             }
         }
@@ -204,8 +164,8 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
             );
         };
         let defect = error.defects()[0].clone();
-        let seam = first(&vertices_of(&defect));
-        SeamError::Sewn { seam, defect }
+        let vertices = vertices_of(&defect);
+        SeamError::new(first(&vertices), vertices, SeamFault::Sewn(defect))
     })?;
     let is_unnamed = |h: &HalfEdgeId| {
         let [before, now] = [panels, &mesh].map(|mesh| mesh.pair_or_ghost(*h));
@@ -213,10 +173,7 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
     };
     if let Some(h) = mesh.half_edges().find(is_unnamed) {
         let ends = [mesh.origin(h), mesh.target(h)];
-        return Err(SeamError::Unnamed {
-            seam: first(&ends),
-            ends,
-        });
+        return Err(SeamError::new(first(&ends), ends, SeamFault::Unnamed));
     }
     Ok((mesh, labels))
 }
@@ -225,16 +182,16 @@ impl Seam {
     fn check(&self, seam: usize, panels: &Mesh) -> Result<(), SeamError> {
         let counts = [self.one.len(), self.other.len()];
         if counts[0] != counts[1] || counts[0] < 2 {
-            return Err(SeamError::Counts { seam, counts });
+            return Err(SeamError::new(seam, [], SeamFault::Counts(counts)));
         }
         for side in [&self.one, &self.other] {
             let mut sorted = side.clone();
             sorted.sort_unstable();
             if let Some(&vertex) = sorted.last().filter(|v| v.index() >= panels.vertex_count()) {
-                return Err(SeamError::NoVertex { seam, vertex });
+                return Err(SeamError::new(seam, [vertex], SeamFault::NoVertex));
             }
             if let Some(&[vertex, _]) = sorted.array_windows().find(|[a, b]| a == b) {
-                return Err(SeamError::Repeated { seam, vertex });
+                return Err(SeamError::new(seam, [vertex], SeamFault::Repeated));
             }
         }
         Ok(())

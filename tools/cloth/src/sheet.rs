@@ -51,7 +51,7 @@ use crate::system::{SettingError, System};
 /// })?;
 /// (72..81).for_each(|top| system.hold(top));
 /// system.when_unstable(Unstable::Substep); // A step that is too long is divided.
-/// let mut solver = Verlet::new();
+/// let mut solver = Verlet;
 /// for _ in 0..30 {
 ///     cloth.step(&mut solver, 1.0 / 60.0)?;
 /// }

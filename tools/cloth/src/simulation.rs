@@ -21,15 +21,15 @@ pub use buffers::{BufferChanges, ClothBuffers};
 pub use definition::SimulationDef;
 pub use error::{InputError, ReplayError, SimulationError};
 pub use hand::HandId;
-pub(crate) use hand::rename;
+pub(crate) use hand::follow;
 pub use heal::Wounds;
 pub use log::{InputLog, LogError};
 pub use report::{CutId, Event, Picked, Reached};
 
 use tearmesh::geometry::{Point, Ray, check_point};
 use tearmesh::{
-    Cursor, Cut, CutError, CutMethod, CutReport, Edit, Edits, Follower as _, Masses, Mesh, Mix,
-    PerVertex, PositionError, Positions, Scissor, VertexId, engine::pick, mend, unshare,
+    Cursor, CutMethod, CutReport, Edits, Follower as _, Masses, Mesh, Mix, PerVertex,
+    PositionError, Positions, Scissor, VertexId, engine::pick, mend, unshare,
 };
 
 use self::hand::Hands;
@@ -241,7 +241,6 @@ impl Simulation {
             ("cut", words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
             ("heal", &[]) => drop(self.heal(Wounds::All)?),
             ("heal", &[cut]) => drop(self.heal(Wounds::Cut(CutId(number(cut)?)))?),
-            ("sew", &[seam]) => drop(self.heal(Wounds::Seam(number(seam)?))?),
             ("unpick", &[seam]) => drop(self.unpick(&self.seams.name(seam).ok_or(None)?)?),
             ("wind", &[]) => self.set_wind(None)?,
             ("wind", &[x, y, z, coefficient]) => self.set_wind(Some(Wind {
@@ -500,17 +499,13 @@ impl Simulation {
     pub fn cut(&mut self, scissor: &Scissor) -> Result<CutId, InputError> {
         let words = scissor.to_words().ok_or(InputError::Continued)?;
         self.edits.clear();
-        let made =
-            self.cut_by(|mesh, x, edits| Ok((scissor.cut(CutMethod::Exact, mesh, x, edits)?, ())));
-        let (cut, ()) = made.map_err(InputError::Positions)?;
-        let is_split = |edit: &Edit<'_>| matches!(edit, Edit::Split(_));
-        let splits = self.edits.iter().filter(is_split).count();
-        let time_s = self.time_s();
+        let made = self.cut_measured(scissor, CutMethod::Exact);
+        let (cut, report) = made.map_err(InputError::Positions)?;
         self.note("cut", words);
         self.events.push(Event::Cut {
             cut,
-            splits,
-            time_s,
+            splits: report.splits,
+            time_s: self.time_s(),
         });
         Ok(cut)
     }
@@ -520,18 +515,11 @@ impl Simulation {
         &mut self,
         scissor: &Scissor,
         method: CutMethod,
-    ) -> Result<CutReport, PositionError> {
-        let made = self.cut_by(|mesh, x, edits| scissor.cut_measured(method, mesh, x, edits))?;
-        Ok(made.1)
-    }
-
-    fn cut_by<R>(
-        &mut self,
-        make: impl FnOnce(&mut Mesh, &mut Positions, &mut Edits) -> Result<(Cut, R), CutError>,
-    ) -> Result<(CutId, R), PositionError> {
+    ) -> Result<(CutId, CutReport), PositionError> {
         let positions = Positions::new(self.cloth.positions().iter().copied())?;
         let mut positions = positions.starting_at(self.edits.cursor());
-        let made = make(&mut self.mesh, &mut positions, &mut self.edits);
+        let (mesh, edits) = (&mut self.mesh, &mut self.edits);
+        let made = scissor.cut_measured(method, mesh, &mut positions, edits);
         let (cut, report) = made.expect("positions that follow every edit are in step");
         self.follow();
         Ok((self.seams.add(&cut), report))
@@ -547,19 +535,18 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// [`InputError::NoCut`] or [`InputError::NoSeam`] if there was no such cut, or is no such seam.
+    /// [`InputError::NoCut`] if there was no such cut.
     pub fn heal(&mut self, wounds: Wounds) -> Result<usize, InputError> {
         let (mesh, system) = (&self.mesh, self.cloth.system());
-        let (links, verb, number) = match wounds {
-            Wounds::All => (mesh.half_edges().collect(), "heal", None),
-            Wounds::Cut(cut) => (self.seams.of_cut(cut)?, "heal", Some(cut.0.into())),
-            Wounds::Seam(seam) => (self.seams.of_seam(seam)?, "sew", Some(seam.into())),
+        let (links, number) = match wounds {
+            Wounds::All => (mesh.half_edges().collect(), None),
+            Wounds::Cut(cut) => (self.seams.of_cut(cut)?, Some(cut.0.into())),
         };
         let opened = self.healing.begin(links.into_iter(), mesh, system);
         if opened > 0 {
             self.strengthen();
         }
-        self.note(verb, number);
+        self.note("heal", number);
         Ok(opened)
     }
 

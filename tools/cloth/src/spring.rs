@@ -3,7 +3,7 @@
 //! They go colour by colour: no two springs of one colour share a particle, so the loops have no chain of
 //! writes that wait for each other, and the result does not depend on the order within a colour.
 
-use tearmesh::geometry::{Point, Vector, dot, length};
+use tearmesh::geometry::{Point, Vector, dot};
 
 use crate::constraint::Colour;
 
@@ -132,14 +132,6 @@ pub(crate) fn limit(
     largest
 }
 
-/// Writes the length of each constraint as a multiple of its rest length.
-pub(crate) fn ratios(colour: &mut Colour, positions: &[Point]) {
-    let constraints = colour.ends.iter().zip(&colour.rest);
-    for ((&[a, b], &rest), ratio) in constraints.zip(&mut colour.ratios) {
-        *ratio = length(positions[b as usize] - positions[a as usize]) / rest;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -174,7 +166,6 @@ mod tests {
                     stiffness,
                     damping: vec![0.0; COUNT],
                     multipliers: vec![0.25; COUNT],
-                    ratios: vec![0.0; COUNT],
                 },
                 inverse_masses,
                 positions,

@@ -43,7 +43,7 @@ use crate::triangle::Triangle;
 ///     ..Loads::default()
 /// })?;
 /// for _ in 0..5000 {
-///     chain.step(&mut Verlet::new(), 0.005)?;
+///     chain.step(&mut Verlet, 0.005)?;
 /// }
 /// // N L + m g N (N + 1) / (2 k)
 /// assert!((chain.positions()[10].z + 1.10791).abs() < 1e-9);
@@ -86,6 +86,8 @@ pub(crate) struct Scratch {
     pub(crate) led: Vec<(u32, Vector)>,
     /// Where the substep began.
     pub(crate) before: Vec<Point>,
+    /// The times at which this substep begins and ends.
+    pub(crate) span_s: [f64; 2],
     /// The contacts of the last substep, and how the particles were pressed in it, if any were.
     pub(crate) contacts: Vec<Contact>,
     pub(crate) pressed: Vec<Pressed>,
@@ -139,16 +141,21 @@ impl System {
         masses_kg: Vec<f64>,
     ) -> Result<System, SystemError> {
         let system = System::with_massless(points, masses_kg);
-        let usable = |&mass: &f64| mass > 0.0 && mass.is_finite() && (1.0 / mass).is_finite();
-        let model = &system.model;
-        if let Some(particle) = model.masses.iter().position(|mass| !usable(mass)) {
-            let given = model.masses[particle];
-            return Err(SystemError::Mass { particle, given });
-        }
-        let bad = |&point: &Point| check_point(point).is_err();
-        if let Some(particle) = system.positions.iter().position(bad) {
-            let given = system.positions[particle];
-            return Err(SystemError::Position { particle, given });
+        let particles = system.positions.iter().zip(&system.model.masses);
+        for (particle, (&point, &mass)) in particles.enumerate() {
+            let is_usable = mass > 0.0 && mass.is_finite() && (1.0 / mass).is_finite();
+            let usable = SettingError::unless(is_usable, "mass_kg", mass, "finite and above 0");
+            let given = check_point(point).err();
+            let is_near = SettingError::unless(
+                given.is_none(),
+                "point",
+                given.unwrap_or(0.0),
+                "finite and not too far away",
+            );
+            usable.and(is_near).map_err(|number| SystemError {
+                particles: [particle; 2],
+                number,
+            })?;
         }
         Ok(system)
     }
@@ -325,11 +332,22 @@ impl System {
             stiffness_n_per_m,
         };
         let [a, b] = ends;
-        let positive = |x: f64| x > 0.0 && x.is_finite();
-        let numbers = positive(rest_length_m) && positive(stiffness_n_per_m);
-        if !(numbers && a != b && a.max(b) < self.positions.len()) {
-            return Err(SystemError::Constraint { given });
-        }
+        let are_two = a != b && a.max(b) < self.positions.len();
+        SettingError::unless_above_0("rest_length_m", rest_length_m)
+            .and(SettingError::unless_above_0(
+                "stiffness_n_per_m",
+                stiffness_n_per_m,
+            ))
+            .and(SettingError::unless(
+                are_two,
+                "ends",
+                b as f64,
+                "two particles",
+            ))
+            .map_err(|number| SystemError {
+                particles: ends,
+                number,
+            })?;
         self.rebuilt();
         Ok(given)
     }
@@ -549,17 +567,25 @@ impl System {
     /// If there is no such constraint.
     #[must_use]
     pub fn stretch_ratio(&self, id: ConstraintId) -> f64 {
-        let constraint = self.model.stretch.get(id);
-        pair::span(&self.positions, constraint.ends) / constraint.rest_length_m
+        self.ratio_at(&self.positions, id)
     }
 
     /// The length of a stretch constraint as a multiple of its rest length, as it was in the last step
     /// before a limiter shortened it.
     pub(crate) fn unlimited_ratio(&self, id: ConstraintId) -> f64 {
-        if self.model.recorded == Recorded::Limiter {
-            self.model.stretch.memory(id).ratio
-        } else {
-            self.stretch_ratio(id)
+        self.ratio_at(self.unlimited(), id)
+    }
+
+    fn ratio_at(&self, x: &[Point], id: ConstraintId) -> f64 {
+        let constraint = self.model.stretch.get(id);
+        pair::span(x, constraint.ends) / constraint.rest_length_m
+    }
+
+    /// The positions of the last step before a limiter moved any.
+    pub(crate) fn unlimited(&self) -> &[Point] {
+        match self.model.recorded {
+            Recorded::Limiter => &self.scratch.unlimited,
+            _ => &self.positions,
         }
     }
 

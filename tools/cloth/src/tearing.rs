@@ -48,7 +48,7 @@
 //! let mut tear = Tear::new(&cloth, Tearing::new(Threshold::Stretch(1.5)))?;
 //! let mut edits = Edits::new();
 //! for _ in 0..60 {
-//!     cloth.step(&mut Verlet::new(), 1.0 / 60.0)?;
+//!     cloth.step(&mut Verlet, 1.0 / 60.0)?;
 //!     let report = tear.apply(&mut mesh, &mut cloth, &mut edits);
 //!     if report.splits > 0 {
 //!         println!("{:.3} m torn", report.tear_length_m);

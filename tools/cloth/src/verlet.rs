@@ -81,7 +81,7 @@ use crate::system::System;
 /// }
 /// [0, 2].map(|end| system.hold(end));
 /// let before = energy::elastic_j(&system);
-/// let mut verlet = Verlet::new();
+/// let mut verlet = Verlet;
 /// for _ in 0..1000 {
 ///     system.step(&mut verlet, 0.13)?;
 ///     assert!(energy::kinetic_j(&system) + energy::elastic_j(&system) < 1.05 * before);
@@ -90,14 +90,6 @@ use crate::system::System;
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Verlet;
-
-impl Verlet {
-    /// Creates the method.
-    #[must_use]
-    pub fn new() -> Verlet {
-        Verlet
-    }
-}
 
 impl Solver for Verlet {
     /// Returns the abilities of the method. With wind at predicted velocities, z² − (1 − 3μ/2) z −

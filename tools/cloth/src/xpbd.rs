@@ -24,7 +24,8 @@
 
 use tearmesh::geometry::{Vector, length};
 
-use crate::motion::{finish, finish_and_predict, force_scale, predict};
+use crate::collide;
+use crate::motion::{finish, force_scale, predict};
 use crate::pair;
 use crate::solver::{Abilities, Failure, Quality, Solver};
 use crate::spring::{self, Correction};
@@ -75,8 +76,12 @@ impl Solver for Xpbd {
         predict(system, substep_s);
         for substep in 0..substeps {
             if substep > 0 {
-                finish_and_predict(system, substep_s);
+                finish(system, substep_s);
+                collide::push_out(system);
+                predict(system, substep_s);
             }
+            let begins_s = system.elapsed_s + f64::from(substep) * substep_s;
+            system.scratch.span_s = [begins_s, begins_s + substep_s];
             let scale = force_scale(&system.model, substep_s);
             sweep(system, self.sweeps, [1.0; 2], scale)?;
         }

@@ -391,7 +391,7 @@ mod tests {
             let mut cloth = crumpled();
             cloth.system_mut().set_damping(0.01).expect("a time");
             cloth.system_mut().when_unstable(Unstable::Allow);
-            distance(cloth, Verlet::new(), steps)
+            distance(cloth, Verlet, steps)
         };
         let undamped = |steps| {
             let mut cloth = crumpled();

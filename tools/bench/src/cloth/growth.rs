@@ -46,7 +46,7 @@ const METHODS: [Method; 6] = [
     Method {
         name: "verlet",
         elements: Elements::Springs,
-        solver: || Box::new(Verlet::new()),
+        solver: || Box::new(Verlet),
         step: Step::Bound(0.9),
         weight: 2,
         note: "a step of 0.9 of the bound of stability",
@@ -78,7 +78,7 @@ const METHODS: [Method; 6] = [
     Method {
         name: "verlet, triangles",
         elements: Elements::Triangles,
-        solver: || Box::new(Verlet::new()),
+        solver: || Box::new(Verlet),
         step: Step::Bound(0.9),
         weight: 6,
         note: "a step of 0.9 of the bound of stability",

@@ -22,7 +22,7 @@ const METHODS: [Contestant; 3] = [
     Contestant {
         name: "verlet",
         method: || Method::Verlet,
-        solver: || Box::new(Verlet::new()),
+        solver: || Box::new(Verlet),
     },
     Contestant {
         name: "xpbd",

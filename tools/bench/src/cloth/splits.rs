@@ -16,7 +16,7 @@ type Method = (&'static str, fn() -> Box<dyn Solver>);
 const METHODS: [Method; 3] = [
     ("xpbd", || Box::new(Xpbd::new(10, 1))),
     ("pbd", || Box::new(Pbd::new(10))),
-    ("verlet", || Box::new(Verlet::new())),
+    ("verlet", || Box::new(Verlet)),
 ];
 
 /// What was measured in a round, in µs.

@@ -5,7 +5,7 @@ use std::path::Path;
 use tearmesh::{FaceId, HalfEdgeId, Vector, VertexId};
 use tearmesh_cloth::scene::{Preset, Run, RunError, Scene, TimedCut};
 use tearmesh_cloth::{
-    ClothError, Method, SeamError, SimulationError, Stretch, TearingError, Threshold,
+    ClothError, Method, SeamFault, SimulationError, Stretch, TearingError, Threshold,
 };
 
 use crate::args::{TearArgs, Topology};
@@ -152,12 +152,12 @@ pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> 
                 v if v < opened.mesh.vertex_count() => opened.document.number_of_vertex(v),
                 v => v + 1,
             };
-            let key = match error {
-                SeamError::Counts { .. } => "other",
+            let key = match error.fault {
+                SeamFault::Counts(_) => "other",
                 _ => "",
             };
             let text = error.text(|v| number(v).to_string());
-            source.blame(("seam", error.place().0, key), "E-SCENE-SEAM", text)
+            source.blame(("seam", error.seam, key), "E-SCENE-SEAM", text)
         }
         RunError::Simulation(SimulationError::Tearing(TearingError::Axis { .. })) => {
             source.blame(("tear", 0, "warp"), "E-SCENE-RANGE", said)

@@ -204,7 +204,7 @@ impl Run {
     /// let (mesh, positions) = shapes::grid(4, 4);
     /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     /// let run = || Run::new(mesh.clone(), &positions, Scene::hang(&frame), &frame);
-    /// let (mut one, mut other) = (run()?, run()?.with_solver(Verlet::new()));
+    /// let (mut one, mut other) = (run()?, run()?.with_solver(Verlet));
     /// for _ in 0..100 {
     ///     one.step()?;
     ///     other.step()?;
@@ -307,7 +307,7 @@ impl Run {
             let before = Measured::of(self.cloth());
             let scissor = cut.scissor().expect("the rays of cuts span planes");
             let made = self.sim.cut_measured(&scissor, cut.method);
-            let report = made.map_err(|error| StepError::BlowUp {
+            let (_, report) = made.map_err(|error| StepError::BlowUp {
                 elapsed_s: self.elapsed_s(),
                 at: BlowUpSite::Particle(error.unusable()[0].0.index()),
             })?;

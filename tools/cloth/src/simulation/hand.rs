@@ -84,20 +84,22 @@ impl Hands {
 
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
         for Hand { vertices, .. } in &mut self.hands {
-            match edit {
-                Edit::Split(split) if vertices.contains(&split.old) => vertices.push(split.new),
-                Edit::Merge(merge) => rename(vertices, merge),
-                Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
-            }
+            follow(vertices, edit);
         }
     }
 }
 
-/// Gives vertices the ids that they have after a merge.
-pub(crate) fn rename(vertices: &mut Vec<VertexId>, merge: &Merge<'_>) {
-    vertices.iter_mut().for_each(|v| *v = now(*v, merge));
-    vertices.sort_unstable();
-    vertices.dedup();
+/// Adds the copies that a split makes of vertices, and gives them the ids that they have after a merge.
+pub(crate) fn follow(vertices: &mut Vec<VertexId>, edit: &Edit<'_>) {
+    match edit {
+        Edit::Split(split) if vertices.contains(&split.old) => vertices.push(split.new),
+        Edit::Merge(merge) => {
+            vertices.iter_mut().for_each(|v| *v = now(*v, merge));
+            vertices.sort_unstable();
+            vertices.dedup();
+        }
+        Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
+    }
 }
 
 /// The id that a vertex has after a merge.

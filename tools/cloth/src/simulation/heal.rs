@@ -25,8 +25,6 @@ pub enum Wounds {
     All,
     /// What a cut tore, and nothing that tore beside it.
     Cut(CutId),
-    /// A seam of the definition, by its number from 0, as far as it is open.
-    Seam(u32),
 }
 
 /// The speed at which copies are drawn together, in m/s.

@@ -53,8 +53,8 @@ pub(super) struct Record {
 }
 
 /// All inputs, and steps that failed, which leave their mark on what a method remembers.
-const VERBS: [&str; 11] = [
-    "hold", "free", "grab", "lead", "release", "cut", "heal", "sew", "unpick", "wind", "failed",
+const VERBS: [&str; 10] = [
+    "hold", "free", "grab", "lead", "release", "cut", "heal", "unpick", "wind", "failed",
 ];
 
 const HEAD: &str = "tearmesh inputs 1 digest ";

@@ -56,15 +56,6 @@ impl Seams {
             .ok_or(InputError::NoCut(cut))
     }
 
-    /// The half-edges of a seam, on both sides of it.
-    pub(super) fn of_seam(&self, seam: u32) -> Result<Vec<HalfEdgeId>, InputError> {
-        let exists = (seam as usize) < self.names.len();
-        let none = || InputError::NoSeam(seam.to_string());
-        exists
-            .then(|| self.links(|of| of[1] == seam + 1))
-            .ok_or_else(none)
-    }
-
     pub(super) fn name(&self, seam: u64) -> Option<String> {
         self.names.get(seam as usize).cloned()
     }

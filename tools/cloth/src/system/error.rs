@@ -2,10 +2,6 @@
 
 use std::fmt;
 
-use tearmesh::geometry::Point;
-
-use crate::Constraint;
-
 /// A setting, such as one of a method, a fabric or a load, with a value that cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SettingError {
@@ -54,53 +50,21 @@ impl fmt::Display for SettingError {
 
 impl std::error::Error for SettingError {}
 
-/// The reason why particles or constraints were refused.
+/// The reason why a particle or a constraint was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum SystemError {
-    /// A mass is not positive and finite. The first such particle is named.
-    Mass {
-        /// The index of the particle with the unusable mass.
-        particle: usize,
-        /// The mass that was given, in kilograms.
-        given: f64,
-    },
-    /// A coordinate is not finite or is too large. The first such particle is named.
-    Position {
-        /// The index of the particle with the unusable position.
-        particle: usize,
-        /// The position that was given, in metres.
-        given: Point,
-    },
-    /// The rest length or the stiffness of a constraint is not positive and finite, or its ends are
-    /// not two different particles.
-    Constraint {
-        /// The constraint as given.
-        given: Constraint,
-    },
+pub struct SystemError {
+    /// The ends of the constraint; the particle twice if it is one.
+    pub particles: [usize; 2],
+    /// The number that cannot be used.
+    pub number: SettingError,
 }
 
 impl fmt::Display for SystemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            SystemError::Mass { particle, given } => write!(
-                f,
-                "particle {particle} has the mass {given} kg, which is not positive and finite"
-            ),
-            SystemError::Position { particle, given } => write!(
-                f,
-                "particle {particle} is at ({}, {}, {}), which is not usable",
-                given.x, given.y, given.z
-            ),
-            SystemError::Constraint { given } => {
-                let [a, b] = given.ends;
-                write!(
-                    f,
-                    "a constraint between the particles {a} and {b} cannot have the rest length \
-                     {} m and the stiffness {} N/m",
-                    given.rest_length_m, given.stiffness_n_per_m
-                )
-            }
+        let [a, b] = self.particles;
+        match a == b {
+            true => write!(f, "particle {a}: {}", self.number),
+            false => write!(f, "constraint {a}-{b}: {}", self.number),
         }
     }
 }

@@ -118,7 +118,7 @@ pub(super) fn strain(system: &System, id: ConstraintId) -> f64 {
 /// Finds the stretch constraints that are at least `ratio` times as long as at rest by [`strain`], and
 /// some that rounding brings there. Takes one pass, without a root.
 pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(ConstraintId)) {
-    let (strain, square, x) = (ratio - 1.0, ratio * ratio, &system.positions[..]);
+    let (strain, square, x) = (ratio - 1.0, ratio * ratio, system.unlimited());
     // What is not a number is found as well.
     let mut look = |id: u32, is_short: bool| {
         if !is_short {
@@ -128,7 +128,7 @@ pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(
     for colour in &system.model.stretch.colours {
         let constraints = colour.ids.iter().zip(colour.springs());
         match system.model.recorded {
-            Recorded::Nothing | Recorded::RigidForces => {
+            Recorded::Nothing | Recorded::RigidForces | Recorded::Limiter => {
                 for (&id, ([a, b], rest, _)) in constraints {
                     let d = x[b] - x[a];
                     look(id, dot(d, d) < square * (rest * rest));
@@ -138,11 +138,6 @@ pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(
                 let forces = colour.multipliers.iter().zip(&colour.compliance);
                 for ((&id, (_, rest, _)), (multiplier, compliance)) in constraints.zip(forces) {
                     look(id, -multiplier * compliance < strain * rest);
-                }
-            }
-            Recorded::Limiter => {
-                for (&id, &before) in colour.ids.iter().zip(&colour.ratios) {
-                    look(id, before < ratio);
                 }
             }
         }

@@ -4,13 +4,13 @@
 //! those that took it at one time. When that ends, the one before it holds on to the vertex.
 
 use tearmesh::geometry::Point;
-use tearmesh::{Edit, Edits, Mesh, VertexId};
+use tearmesh::{Edits, Mesh, VertexId};
 
 use super::error::RunError;
 use crate::balance::Balance;
 use crate::load::Path;
 use crate::scene::{Frame, HeldVertices, Region};
-use crate::simulation::rename;
+use crate::simulation::follow;
 use crate::system::System;
 
 /// A hold, and its vertices.
@@ -145,13 +145,7 @@ impl Held {
     /// The copies of held vertices are held as well, and what is sewn to one of them.
     pub(super) fn follow(&mut self, edits: &Edits) {
         for edit in edits.iter() {
-            match edit {
-                Edit::Split(split) if self.vertices.contains(&split.old) => {
-                    self.vertices.push(split.new);
-                }
-                Edit::Merge(merge) => rename(&mut self.vertices, &merge),
-                Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
-            }
+            follow(&mut self.vertices, &edit);
         }
     }
 
