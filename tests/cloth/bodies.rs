@@ -1,5 +1,6 @@
 //! Contact with friction, and bodies as colliders.
 
+mod moving;
 mod oracle;
 
 use std::sync::Arc;

@@ -52,13 +52,14 @@ impl Texture {
 pub(crate) fn with_bodies(
     (mesh, points, texture): (&Mesh, &[Point], &Texture),
     colliders: &[Collider],
+    elapsed_s: f64,
 ) -> (Mesh, Vec<Point>, Texture) {
     let mut faces = mesh.indices().as_chunks::<3>().0.to_vec();
     let (mut roots, mut drawn, mut texture) = (mesh.roots(), points.to_vec(), texture.clone());
     for collider in colliders {
-        if let ColliderShape::Body { body, .. } = &collider.shape {
-            let first = drawn.len() as u32;
-            drawn.extend(body.points());
+        if let ColliderShape::Body { body, motion, .. } = &collider.shape {
+            let (first, pose) = (drawn.len() as u32, motion.at(elapsed_s));
+            drawn.extend(body.points().iter().map(|&p| pose.to_world(p)));
             roots.extend(first..drawn.len() as u32);
             faces.extend(body.faces().iter().map(|face| face.map(|v| first + v)));
         }
@@ -119,14 +120,14 @@ mod tests {
             ..Texture::default()
         };
         let (drawn, points, drawn_texture) =
-            with_bodies((&cloth, at.as_slice(), &texture), &colliders);
+            with_bodies((&cloth, at.as_slice(), &texture), &colliders, 0.0);
         assert_eq!(drawn.face_count(), cloth.face_count() + ball.face_count());
         assert_eq!(
             (drawn.components().count(), points.len()),
             (2, at.len() + skin.len())
         );
         assert_eq!(drawn_texture.values.len(), drawn.half_edge_count());
-        let alone = with_bodies((&cloth, at.as_slice(), &texture), &colliders[..1]);
+        let alone = with_bodies((&cloth, at.as_slice(), &texture), &colliders[..1], 0.0);
         assert_eq!((&alone.0, alone.1.len()), (&cloth, at.len()));
     }
 }

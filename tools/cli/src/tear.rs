@@ -245,8 +245,9 @@ impl Play<'_> {
         session.write(mesh, fill)?;
         if let Some(still) = &records.still {
             let (shown, points, texture) = still.shown((mesh, positions.as_slice()));
-            let colliders = &run.scene().colliders;
-            let (shown, points, texture) = with_bodies((shown, points, texture), colliders);
+            let (colliders, time_s) = (&run.scene().colliders, run.elapsed_s());
+            let shown = with_bodies((shown, points, texture), colliders, time_s);
+            let (shown, points, texture) = shown;
             session.show_mesh(&self.opened.document, &shown, &points[..], up, &texture)?;
         }
         // A measurement, like the report: a dry run is often made for it.

@@ -6,6 +6,9 @@
 //! by g Δt²/2 and gives it the velocity g Δt, one of symplectic Euler moves it by g Δt². So each method
 //! slides by its own rule for a steady acceleration g (sin φ − μ cos φ), and what sticks does not creep.
 //!
+//! A body that moves takes along what it touches: ways and velocities are those that it sees. It is looked at
+//! as if it stood where it was made.
+//!
 //! Cloth keeps a distance from a [body](crate::Body), its *thickness*, at vertices; and the error of the grid at
 //! the middles of faces, so that no face is drawn through a ridge. A middle that is nearer moves its corners.
 //!
@@ -20,6 +23,7 @@ use crate::body::Body;
 use crate::contact::{Contact, Corners, Look, Looks, Pressed};
 use crate::energy;
 use crate::load::{Collider, ColliderShape};
+use crate::rigid::Pose;
 use crate::solver::Failure;
 use crate::system::System;
 
@@ -30,7 +34,8 @@ pub(crate) fn touching(system: &System) -> impl Iterator<Item = (usize, Vector)>
 }
 
 /// Notes where a substep begins, if a collider asks for it.
-pub(crate) fn begin(system: &mut System) {
+pub(crate) fn begin(system: &mut System, substep_s: f64) {
+    system.scratch.span_s = [system.elapsed_s, system.elapsed_s + substep_s];
     let looks = &mut system.scratch.looks;
     (looks.is_out, looks.too_far) = (false, None);
     system.scratch.pressed.clear();
@@ -77,11 +82,18 @@ pub(crate) fn move_out(system: &mut System, per_s: f64) {
     }
     for (i, collider) in colliders.iter().enumerate() {
         system.counters.collider_passes += 1;
-        if let ColliderShape::Body { body, thickness_m } = &collider.shape {
+        if let ColliderShape::Body {
+            body,
+            thickness_m,
+            motion,
+        } = &collider.shape
+        {
+            let poses = system.scratch.span_s.map(|time_s| motion.at(time_s));
             let solid = Solid {
                 body,
                 thickness_m: *thickness_m,
                 friction: collider.friction,
+                poses: Some(poses).filter(|_| !motion.is_still()),
                 per_s,
             };
             solid.move_out(i, &mut looks, system);
@@ -101,6 +113,7 @@ pub(crate) fn move_out(system: &mut System, per_s: f64) {
                     normal,
                     friction: collider.friction,
                     pressed,
+                    velocity: Vector::zeros(),
                 };
                 take_out(system, &contact, depth, per_s);
                 system.scratch.contacts.push(contact);
@@ -130,6 +143,8 @@ struct Solid<'a> {
     body: &'a Body,
     thickness_m: f64,
     friction: f64,
+    /// The places of one that moves at both ends of the substep.
+    poses: Option<[Pose; 2]>,
     per_s: f64,
 }
 
@@ -149,6 +164,7 @@ impl Solid<'_> {
             look.until_m.resize(all, f64::NEG_INFINITY);
             look.least_m = f64::NEG_INFINITY;
         }
+        looks.gone_m += self.farthest_m();
         if looks.gone_m < look.least_m {
             return;
         }
@@ -181,10 +197,31 @@ impl Solid<'_> {
         look.least_m = look.until_m.iter().copied().fold(f64::INFINITY, f64::min);
     }
 
+    /// A point as the body sees it where it is at the beginning or the end of the substep.
+    fn seen(&self, x: Point, end: usize) -> Point {
+        self.poses.map_or(x, |poses| poses[end].to_body(x))
+    }
+
+    /// How far the body moved in this substep, at most.
+    fn farthest_m(&self) -> f64 {
+        self.poses.map_or(0.0, |[from, to]| {
+            let corners = self.body.box_corners().into_iter();
+            let ways = corners.map(|p| length(to.to_world(p) - from.to_world(p)));
+            ways.fold(0.0, f64::max)
+        })
+    }
+
+    /// The velocity of the body at a point of it.
+    fn velocity(&self, p: Point, [from_s, to_s]: [f64; 2]) -> Vector {
+        self.poses.map_or_else(Vector::zeros, |[from, to]| {
+            (to.to_world(p) - from.to_world(p)) / (to_s - from_s)
+        })
+    }
+
     /// Whether a particle went so far in this substep that it may be at the wrong side.
     fn has_passed(&self, system: &System, particle: usize) -> bool {
-        let before = system.scratch.before[particle];
-        let way_m = length(system.positions[particle] - before);
+        let before = self.seen(system.scratch.before[particle], 0);
+        let way_m = length(self.seen(system.positions[particle], 1) - before);
         let is_far = way_m > self.thickness_m + self.body.cell_m();
         let is_free = system.model.inverse_masses[particle] > 0.0;
         is_free && is_far && self.body.distance_m(before) - self.thickness_m < way_m
@@ -196,7 +233,7 @@ impl Solid<'_> {
         let mut moved_m = 0.0;
         for look in 0..=Self::LOOKS {
             system.counters.features.collider += 1;
-            let x = corners.middle(&system.positions);
+            let x = self.seen(corners.middle(&system.positions), 1);
             let depth = apart_m - self.body.distance_m(x);
             let pressed = match look {
                 0 => pressed(system, corners),
@@ -212,7 +249,8 @@ impl Solid<'_> {
             };
             let contact = Contact {
                 corners,
-                normal,
+                normal: self.poses.map_or(normal, |poses| poses[1].turned(normal)),
+                velocity: self.velocity(x, system.scratch.span_s),
                 // What comes after the first look corrects for the curvature of the skin.
                 friction: if look == 0 { self.friction } else { 0.0 },
                 pressed,
@@ -259,7 +297,9 @@ fn take_out(system: &mut System, contact: &Contact, depth: f64, per_s: f64) -> f
     let mut went = Vector::zeros();
     if contact.friction > 0.0 || per_s > 0.0 {
         let [x, before] = [&system.positions, &system.scratch.before];
+        let [from_s, to_s] = system.scratch.span_s;
         went = corners.mean(|corner| x[corner] - before[corner]);
+        went -= contact.velocity * (to_s - from_s);
     }
     let [way, speed] = contact.way_out(went, depth, per_s);
     let share = change(system, corners, |x, v, share| {

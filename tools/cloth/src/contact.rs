@@ -9,6 +9,8 @@ pub(crate) struct Contact {
     pub(crate) normal: Vector,
     pub(crate) friction: f64,
     pub(crate) pressed: Pressed,
+    /// The velocity of the obstacle there, in m/s.
+    pub(crate) velocity: Vector,
 }
 
 /// How far and how fast a particle would have gone into an obstacle in this substep if its method had not kept
@@ -20,8 +22,8 @@ pub(crate) struct Pressed {
 }
 
 impl Contact {
-    /// The way out of a depth for who went so far in this substep, with a part of the slip taken back; and the
-    /// velocity that this adds in a method that takes velocities from ways, by as many as make a second.
+    /// The way out of a depth for who went so far along the obstacle in this substep, with a part of the slip
+    /// taken back; and the velocity that this adds in a method that takes velocities from ways, by as many as make a second.
     pub(crate) fn way_out(&self, went: Vector, depth: f64, per_s: f64) -> [Vector; 2] {
         let most = self.friction * (depth + self.pressed.depth_m);
         let slip = rubbed(went, self.normal, most);
@@ -31,8 +33,9 @@ impl Contact {
         [way, (self.normal * new - slip) * per_s]
     }
 
-    /// The velocity inward, and a part of that along the obstacle.
+    /// The velocity inward, and a part of that along the obstacle, as seen from it.
     pub(crate) fn taken(&self, v: Vector) -> Vector {
+        let v = v - self.velocity;
         let into = dot(self.normal, v).min(0.0);
         let most = self.friction * (self.pressed.speed_m_per_s - into);
         self.normal * into + rubbed(v, self.normal, most)

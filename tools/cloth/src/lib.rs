@@ -60,6 +60,7 @@ mod method;
 mod motion;
 mod pair;
 mod provot;
+mod rigid;
 pub mod scene;
 mod seam;
 mod sheet;
@@ -88,6 +89,7 @@ pub use implicit::Implicit;
 pub use load::{Collider, ColliderShape, Loads, Path, Wind};
 pub use method::{FRAME_S, Method, Softness};
 pub use provot::{Limiter, Provot};
+pub use rigid::{Pose, RigidMotion};
 pub use seam::{Seam, SeamError, SeamFault};
 pub use sheet::{Cloth, ClothError};
 pub use simulation::{

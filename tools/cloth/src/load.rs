@@ -8,6 +8,7 @@ use std::sync::Arc;
 use tearmesh::geometry::{Plane, Point, Vector, check_point, cross, dot, length};
 
 use crate::body::Body;
+use crate::rigid::RigidMotion;
 use crate::system::error::SettingError;
 
 /// The external loads on the particles. By default there are none.
@@ -81,6 +82,8 @@ pub enum ColliderShape {
         /// How far vertices stay from its skin, in metres: at least the [largest
         /// error](Body::error_worst_m) of its grid.
         thickness_m: f64,
+        /// How it moves.
+        motion: RigidMotion,
     },
 }
 
@@ -106,7 +109,9 @@ impl Loads {
                     finite("colliders.centre", centre.coords)?;
                     SettingError::unless_positive("colliders.radius_m", *radius_m)?;
                 }
-                ColliderShape::Body { body, thickness_m } => {
+                ColliderShape::Body {
+                    body, thickness_m, ..
+                } => {
                     let (given, setting) = (*thickness_m, "colliders.thickness_m");
                     let holds = given >= body.error_worst_m() && given.is_finite();
                     let allowed = "at least the largest error of the body's grid";
@@ -164,11 +169,14 @@ impl Collider {
         Collider::of(ColliderShape::Sphere { centre, radius_m })
     }
 
-    /// Creates a body without friction, with a thickness of twice the largest error of its grid.
+    /// Creates a body without friction that does not move, with a thickness of twice the largest error of its grid.
     #[must_use]
     pub fn body(body: Arc<Body>) -> Collider {
-        let thickness_m = 2.0 * body.error_worst_m();
-        Collider::of(ColliderShape::Body { body, thickness_m })
+        Collider::of(ColliderShape::Body {
+            thickness_m: 2.0 * body.error_worst_m(),
+            body,
+            motion: RigidMotion::default(),
+        })
     }
 
     pub(crate) fn is_body(&self) -> bool {

@@ -128,7 +128,7 @@ fn advance(
     if let Some(balance) = balance.as_deref_mut() {
         balance.before(system);
     }
-    collide::begin(system);
+    collide::begin(system, substep_s);
     solver.advance(system, substep_s)?;
     collide::push_out(system);
     collide::check(system)?;

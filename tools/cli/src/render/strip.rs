@@ -57,7 +57,7 @@ pub(super) fn draw(
         }
         let points = run.cloth().positions().to_vec();
         let shown = (run.mesh(), &points[..], &texture);
-        moments.push(with_bodies(shown, &run.scene().colliders));
+        moments.push(with_bodies(shown, &run.scene().colliders, run.elapsed_s()));
     }
     bar.finish_and_clear();
     let up = frame.up.vector();

@@ -9,7 +9,9 @@ use tearmesh::{Plane, Point, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{
     Axis, Frame, HeldVertices, Preset, Region, Scene, SwayingWind, TimedCut,
 };
-use tearmesh_cloth::{Body, BodyError, Collider, ColliderShape, Method, Seam, Tearing, Threshold};
+use tearmesh_cloth::{
+    Body, BodyError, Collider, ColliderShape, Method, RigidMotion, Seam, Tearing, Threshold,
+};
 
 use super::kinds::set;
 use super::read::{SceneFile, Table, none_of};
@@ -103,7 +105,7 @@ impl SceneFile {
         let groups: [&[_]; 3] = [
             &["point", "normal"],
             &["centre", "radius_m"],
-            &["body", "thickness_m", "cell_m"],
+            &["body", "thickness_m", "cell_m", "moves", "turns", "about"],
         ];
         let group = self.one_of(table, "a collider", &groups)?;
         let lacks = || self.lacks(table, group);
@@ -152,10 +154,19 @@ impl SceneFile {
             let fault = self.fault(table, "thickness_m", "E-SCENE-BODY", message);
             return Err(fault.help("a larger thickness, or a smaller `cell_m`"));
         }
+        let path = |key, unit: f64| {
+            let rows = rows(table, key).into_iter();
+            tearmesh_cloth::Path::new(rows.map(|(time_s, way)| (time_s, Point::from(way * unit))))
+        };
         Ok(Collider {
             shape: ColliderShape::Body {
                 body: Arc::new(body),
                 thickness_m,
+                motion: RigidMotion {
+                    moves: path("moves", 1.0),
+                    turns: path("turns", 1_f64.to_radians()),
+                    about: point(table, "about").unwrap_or_else(Point::origin),
+                },
             },
             friction: 0.0,
         })
@@ -168,14 +179,11 @@ impl SceneFile {
             let message = "`until_s` is not later than `from_s`";
             return Err(self.fault(table, "until_s", "E-SCENE-RANGE", message));
         }
-        let moves: Vec<[f64; 4]> = table.get("moves").unwrap_or_default();
-        let moves = moves.into_iter();
-        let moves = moves.map(|[time_s, x, y, z]| (time_s, Vector::new(x, y, z)));
         Ok(HeldVertices {
             region: self.region(table, "a hold")?,
             from_s,
             until_s,
-            moves: moves.collect(),
+            moves: rows(table, "moves"),
         })
     }
 
@@ -330,6 +338,13 @@ enum Gravity {
 /// The vector of a key.
 pub(super) fn vector(table: &Table, key: &str) -> Option<Vector> {
     table.get::<[f64; 3]>(key).map(Vector::from)
+}
+
+/// The times and vectors of the rows of a key.
+fn rows(table: &Table, key: &str) -> Vec<(f64, Vector)> {
+    let rows: Vec<[f64; 4]> = table.get(key).unwrap_or_default();
+    let row = |[time_s, x, y, z]: [f64; 4]| (time_s, Vector::new(x, y, z));
+    rows.into_iter().map(row).collect()
 }
 
 /// The vertices that the numbers of a key stand for.

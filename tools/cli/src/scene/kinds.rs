@@ -54,7 +54,7 @@ const KINDS: [(&str, &str, Check); 15] = [
         within(!numbers.is_empty())
     }),
     (
-        "seconds and three metres each, seconds ascending",
+        "seconds and three numbers each, seconds ascending",
         "[[0, 0, 0, 0], [1, 0, -0.5, 0]]",
         |value| {
             let rows: Vec<Value> = of(value)?;

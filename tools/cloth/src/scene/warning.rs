@@ -215,17 +215,16 @@ fn balls(run: &Run) -> impl Iterator<Item = (usize, f64)> {
     })
 }
 
-/// The vertices in bodies.
+/// The vertices that begin in bodies.
 fn inside(run: &Run) -> impl Iterator<Item = Warning> {
     let colliders = run.scene().colliders.iter().enumerate();
     colliders.filter_map(|(collider, one)| {
-        let ColliderShape::Body { body, .. } = &one.shape else {
+        let ColliderShape::Body { body, motion, .. } = &one.shape else {
             return None;
         };
-        let points = run.cloth().positions().iter();
-        let mut within = points
-            .enumerate()
-            .filter(|(_, x)| body.distance_m(**x) < 0.0);
+        let pose = motion.at(0.0);
+        let points = run.cloth().positions().iter().enumerate();
+        let mut within = points.filter(|(_, x)| body.distance_m(pose.to_body(**x)) < 0.0);
         let (first, _) = within.next()?;
         Some(Warning::InsideBody {
             collider,

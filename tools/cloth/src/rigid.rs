@@ -1,0 +1,95 @@
+//! Rigid motion of bodies: a path, and turns about a point.
+
+use tearmesh::geometry::{Point, Vector, cross, length};
+
+use crate::bend::sinc_of_root;
+use crate::load::Path;
+
+/// How a body moves: from where it was made along a path, while it turns about a point.
+///
+/// ```
+/// use tearmesh::Point;
+/// use tearmesh_cloth::{Path, RigidMotion};
+///
+/// // A quarter of a turn about an upright axis through (1, 0, 0) in a second, while all moves up.
+/// let quarter = std::f64::consts::FRAC_PI_2;
+/// let motion = RigidMotion {
+///     moves: Path::new([(0.0, Point::origin()), (1.0, Point::new(0.0, 2.0, 0.0))]),
+///     turns: Path::new([(0.0, Point::origin()), (1.0, Point::new(0.0, quarter, 0.0))]),
+///     about: Point::new(1.0, 0.0, 0.0),
+/// };
+/// let corner = motion.at(1.0).to_world(Point::new(2.0, 0.0, 0.0));
+/// assert!((corner - Point::new(1.0, 2.0, -1.0)).norm() < 1e-12);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RigidMotion {
+    /// The path of its offset from where it was made, in metres; `None` if it has none.
+    pub moves: Option<Path>,
+    /// The path of its turn: vectors along the axis as long as the angle in radians, anticlockwise as seen
+    /// from their tip. Between two of them it turns straight from one to the other. `None` if it does not turn.
+    pub turns: Option<Path>,
+    /// The point about which it turns, before its offset.
+    pub about: Point,
+}
+
+impl RigidMotion {
+    /// Returns the place of the body at a time in seconds since the system was created.
+    #[must_use]
+    pub fn at(&self, elapsed_s: f64) -> Pose {
+        let at = |path: &Option<Path>| path.as_ref().map(|path| path.at(elapsed_s).coords);
+        let turn = at(&self.turns).unwrap_or_default();
+        let (angle, whole) = (length(turn), 2.0 * std::f64::consts::PI);
+        let left = angle - whole * (angle / whole).round();
+        let turn = if angle > 0.0 {
+            turn * (left / angle)
+        } else {
+            turn
+        };
+        let half = sinc_of_root(0.25 * (left * left));
+        Pose {
+            about: self.about,
+            offset: at(&self.moves).unwrap_or_default(),
+            turn,
+            first: sinc_of_root(left * left),
+            second: 0.5 * (half * half),
+        }
+    }
+
+    pub(crate) fn is_still(&self) -> bool {
+        self.moves.is_none() && self.turns.is_none()
+    }
+}
+
+/// The place of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Pose {
+    about: Point,
+    offset: Vector,
+    /// The angle along the axis; and by Rodrigues' formula the coefficients of its cross products: sin θ / θ and
+    /// (1 − cos θ) / θ².
+    turn: Vector,
+    first: f64,
+    second: f64,
+}
+
+impl Pose {
+    /// Returns where a point of the body is, as it was made.
+    #[must_use]
+    pub fn to_world(&self, p: Point) -> Point {
+        self.about + self.offset + self.turned(p - self.about)
+    }
+
+    /// The point of the body that is at a place.
+    pub(crate) fn to_body(self, x: Point) -> Point {
+        let back = Pose {
+            turn: -self.turn,
+            ..self
+        };
+        self.about + back.turned(x - self.about - self.offset)
+    }
+
+    pub(crate) fn turned(&self, v: Vector) -> Vector {
+        let across = cross(self.turn, v);
+        v + across * self.first + cross(self.turn, across) * self.second
+    }
+}
