@@ -147,7 +147,20 @@ impl Masses {
         place: &(impl Place + ?Sized),
         density: f64,
     ) -> Result<Masses, MassError> {
-        let (unit, corners, vertices) = lattice(mesh, place, density)?;
+        Masses::by_areas(mesh, areas(mesh, place), density)
+    }
+
+    /// Computes masses like [`Masses::area`], with areas that are not those of the faces where they are. Linear.
+    ///
+    /// # Errors
+    ///
+    /// [`MassError`] if the density, the area or a mass is out of range.
+    pub fn by_areas(
+        mesh: &Mesh,
+        area: impl Fn(FaceId) -> f64,
+        density: f64,
+    ) -> Result<Masses, MassError> {
+        let (unit, corners, vertices) = lattice(mesh, area, density)?;
         Ok(Masses::opened(Store::Area { corners, vertices }, unit))
     }
 
@@ -166,7 +179,7 @@ impl Masses {
         place: &(impl Place + ?Sized),
         density: f64,
     ) -> Result<Masses, MassError> {
-        let (unit, corners, units) = lattice(mesh, place, density)?;
+        let (unit, corners, units) = lattice(mesh, areas(mesh, place), density)?;
         let mut faces = vec![0u32; units.len()];
         for (h, _) in mesh.half_edges().zip(&corners) {
             faces[mesh.origin(h).index()] += 1;
@@ -312,19 +325,24 @@ fn halved(mut mass: f64, mut halvings: u32) -> f64 {
 /// mesh of ten million faces must lose no more than a billionth.
 const AREA_MIN: f64 = 1e-140;
 
+/// The areas of faces where they are.
+fn areas(mesh: &Mesh, place: &(impl Place + ?Sized)) -> impl Fn(FaceId) -> f64 {
+    |f| {
+        let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
+        area(a, b, c)
+    }
+}
+
 /// The unit, and the masses of corners and vertices in units.
 fn lattice(
     mesh: &Mesh,
-    place: &(impl Place + ?Sized),
+    area: impl Fn(FaceId) -> f64,
     density: f64,
 ) -> Result<(f64, Vec<u64>, Vec<u64>), MassError> {
     if !(density > 0.0 && density.is_finite()) {
         return Err(MassError::Density { given: density });
     }
-    let mass = |f: FaceId| {
-        let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
-        area(a, b, c) * density
-    };
+    let mass = |f: FaceId| area(f) * density;
     let total: f64 = mesh.faces().map(mass).sum();
     if total.is_nan() || total <= AREA_MIN * density {
         return Err(MassError::NoArea);

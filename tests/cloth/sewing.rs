@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::{Mesh, Point, Positions, Ray, Scissor, Vector};
+use tearmesh::{Edit, Mesh, Point, Positions, Ray, Scissor, Vector};
+use tearmesh_cloth::scene::{Axis, Frame, Run, RunError, Scene, Warning};
 use tearmesh_cloth::{
     Bending, Event, Fabric, InputError, Loads, Seam, SeamError, SeamFault, Simulation,
     SimulationDef, SimulationError, Wounds,
 };
 
 use crate::follow::{check, check_anew};
-use crate::parts::v;
+use crate::parts::{plane, v};
 
 /// Panels as they are drawn: points and faces.
 #[derive(Clone, Default)]
@@ -362,5 +363,93 @@ fn seams_that_cannot_meet_are_refused_with_their_vertices() {
         let error = refusal(seams);
         assert!(matches!(error.fault, SeamFault::Sewn(_)), "{error:?}");
         assert_eq!(error.to_string(), format!("seam 1: {text}"));
+    }
+}
+
+/// What is at rest as it was drawn does not care where it begins.
+#[test]
+fn a_rest_shape_by_corner_gives_lengths_stiffnesses_and_masses() {
+    let (panels, seams) = shirt();
+    let drawn = panels.sim(seams.clone()).expect("a garment");
+    // Each panel stands up and is rolled round a body of 10 cm, which shortens all that is not upright.
+    let rolled = panels.points.iter().map(|&[x, y, z]| {
+        let (sine, cosine) = (x / 0.1).sin_cos();
+        [0.1 * sine, y, z + z.signum() * 0.1 * cosine]
+    });
+    let rolled = Positions::new(rolled).expect("finite");
+    let corners = panels.faces.as_flattened().iter();
+    let rest = corners.map(|&v| Point::from(panels.points[v as usize]));
+    let standing = SimulationDef {
+        rest: rest.collect(),
+        ..def(seams.clone())
+    };
+    let mesh = panels.mesh();
+    let mut sim = Simulation::new(mesh.clone(), &rolled, standing.clone()).expect("a garment");
+    let numbers = |sim: &Simulation| {
+        let system = sim.cloth().system();
+        let families = [system.stretches(), system.bends()];
+        let springs = families.map(|family| family.iter().map(|id| family.get(id)).collect());
+        let [stretches, bends]: [Vec<_>; 2] = springs;
+        (stretches, bends, system.masses().to_vec())
+    };
+    assert_eq!(numbers(&sim), numbers(&drawn));
+    assert_eq!(sim.cloth().positions(), rolled.as_slice());
+    let total = drawn.cloth().masses().total();
+    assert_eq!(sim.cloth().masses().total(), total);
+    rests_as_drawn(&sim, &panels);
+    sew(&mut sim);
+    let across = Scissor::by_plane(plane([0.0, 0.213, 0.0], Vector::y()));
+    sim.cut(&across).expect("a cut");
+    verify(&sim);
+    assert_eq!(sim.cloth().masses().total(), total);
+
+    let short = SimulationDef {
+        rest: standing.rest[1..].to_vec(),
+        ..standing.clone()
+    };
+    let refused = Simulation::new(mesh.clone(), &rolled, short).expect_err("a corner lacks");
+    let text = "there are 167 places at rest for 168 corners";
+    assert_eq!(refused.to_string(), text);
+    let mut pointed = standing;
+    pointed.rest[1] = pointed.rest[0];
+    let refused = Simulation::new(mesh, &rolled, pointed).expect_err("an edge has no length");
+    assert!(matches!(refused, SimulationError::Cloth(_)), "{refused}");
+}
+
+/// A seam of a scene is unpicked at its time, and the energy of that is of edits.
+#[test]
+fn a_scene_unpicks_seams_at_their_times() {
+    let (panels, seams) = shirt();
+    let (mesh, positions) = (panels.mesh(), panels.positions());
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    let scene = |at_s: f64, name: &str| Scene {
+        duration_s: 0.6,
+        gravity_m_per_s2: Vector::zeros(),
+        tearing: None,
+        seams: seams.clone(),
+        unpicks: vec![(0.5, "right".to_owned()), (at_s, name.to_owned())],
+        ..Scene::fall(Axis::Y)
+    };
+    let run = |at_s, name| Run::new(mesh.clone(), &positions, scene(at_s, name), &frame);
+    let mut sewn = run(0.5, "left").expect("a scene");
+    let (mut least, mut splits) = (2, 0);
+    while !sewn.is_over() {
+        sewn.step().expect("a step");
+        least = least.min(sewn.mesh().components().count());
+        let is_split = |edit: &Edit<'_>| matches!(edit, Edit::Split(_));
+        splits += sewn.edits().iter().filter(is_split).count();
+    }
+    assert_eq!(
+        (least, sewn.mesh().components().count(), splits),
+        (1, 2, 10)
+    );
+    let balance = sewn.energy_balance();
+    assert!(balance.made_j() < 0.01 * balance.put_in_j(), "{balance:?}");
+    let late = run(2.0, "left").expect("a scene");
+    let late = Warning::before(&late, &frame);
+    assert!(late.contains(&Warning::LateUnpick(2.0)), "{late:?}");
+    for (at_s, name) in [(-1.0, "left"), (f64::NAN, "left"), (0.1, "collar")] {
+        let refused = run(at_s, name).expect_err("no scene");
+        assert_eq!(refused, RunError::Unpick { number: 1 });
     }
 }

@@ -69,7 +69,7 @@ mod tests {
         let scene = file
             .scene(&frame(), None)
             .map_err(|stop| codes(stop.faults))?;
-        Ok(format!("{scene:?} {:?}", file.up()))
+        Ok(format!("{scene:?} {:?} {:?}", file.up(), file.vt_m()))
     }
 
     /// All keys, with their tables, as the answer to an unknown one lists them.
@@ -85,7 +85,7 @@ mod tests {
             let names = names.filter(|name| !tables.contains(name));
             keys.extend(names.map(|name| (table, name.to_owned())));
         }
-        assert_eq!(keys.len(), 80);
+        assert_eq!(keys.len(), 85);
         keys
     }
 

@@ -52,6 +52,7 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let mut scene = source.scene(&frame, args.solver.as_ref())?;
     settle(args, cuts, &mut scene);
     name_vertices(&mut scene, &opened.document);
+    scene.rest = check::rest(&opened, &source)?;
     check::tearing(args, &scene, &source)?;
     check::known_forces(args, &scene)?;
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);

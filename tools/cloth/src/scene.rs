@@ -53,8 +53,12 @@ pub struct Scene {
     pub colliders: Vec<Collider>,
     /// The vertices that are held or led.
     pub holds: Vec<HeldVertices>,
+    /// The rest shape of faces: a place in metres for each corner, face by face. Empty for where they are.
+    pub rest: Vec<Point>,
     /// The seams of a garment, whose panels are the mesh. They are sewn from the beginning.
     pub seams: Vec<Seam>,
+    /// The times in seconds at which seams are unpicked, and their names.
+    pub unpicks: Vec<(f64, String)>,
     /// The cuts, in ascending order of their times.
     pub cuts: Vec<TimedCut>,
     /// The rule by which edges tear; `None` if they never tear by themselves.

@@ -26,9 +26,9 @@ pub use heal::Wounds;
 pub use log::{InputLog, LogError};
 pub use report::{CutId, Event, Picked, Reached};
 
-use tearmesh::geometry::{Point, Ray, check_point};
+use tearmesh::geometry::{Point, Ray, check_point, cross, length};
 use tearmesh::{
-    Cursor, CutMethod, CutReport, Edits, Follower as _, Masses, Mesh, Mix, PerVertex,
+    Cursor, CutMethod, CutReport, Edits, FaceId, Follower as _, Masses, Mesh, Mix, PerVertex,
     PositionError, Positions, Scissor, VertexId, engine::pick, mend, unshare,
 };
 
@@ -94,9 +94,9 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Creates the simulation of a cloth that is at rest where it is. Takes linear time. If the cloth may
+    /// Creates the simulation of a cloth, which is at rest where it is unless the definition has a rest shape. Takes linear time. If the cloth may
     /// tear, room is reserved for all that can: three vertices per face, some kilobytes each. The panels of a
-    /// garment are at rest as they lie, and begin to be sewn as [`heal`](Simulation::heal) sews.
+    /// garment begin to be sewn as [`heal`](Simulation::heal) sews.
     ///
     /// # Errors
     ///
@@ -111,9 +111,21 @@ impl Simulation {
         let (mut mesh, seams) = Seams::open(mesh, def.seams)?;
         let seen = positions.seen();
         let mut edits = Edits::starting_at(seen);
-        let masses = Masses::area(&mesh, positions, def.density_kg_per_m2);
+        let mut rest = def.rest;
+        if rest.is_empty() {
+            rest.extend(mesh.half_edges().map(|h| positions.at(mesh.origin(h))));
+        }
+        let (given, corners) = (rest.len(), mesh.half_edge_count());
+        if given != corners {
+            return Err(SimulationError::Rest { given, corners });
+        }
+        let area = |f: FaceId| {
+            let [a, b, c] = f.half_edges().map(|h| rest[h.index()]);
+            0.5 * length(cross(b - a, c - a))
+        };
+        let masses = Masses::by_areas(&mesh, area, def.density_kg_per_m2);
         let masses = masses.map_err(|error| SimulationError::Cloth(ClothError::Mass(error)))?;
-        let cloth = Cloth::new(&mesh, positions, masses, def.fabric);
+        let cloth = Cloth::with_rest(&mesh, positions, rest, masses, def.fabric);
         let mut cloth = cloth.map_err(SimulationError::Cloth)?;
         let solver = def.method.solver();
         let mut strengths = def.strengths;
@@ -558,8 +570,14 @@ impl Simulation {
     ///
     /// [`InputError::NoSeam`] if no seam has this name.
     pub fn unpick(&mut self, name: &str) -> Result<usize, InputError> {
-        let (number, links) = self.seams.named(name)?;
         self.edits.clear();
+        self.unpick_more(name)
+    }
+
+    /// Unpicks seams, and adds the edits to those that there are.
+    pub(crate) fn unpick_more(&mut self, name: &str) -> Result<usize, InputError> {
+        let (number, links) = self.seams.named(name)?;
+        let before = self.edits.iter().count();
         self.healing.end(&links, &self.mesh);
         let ends = |&h: &_| [self.mesh.origin(h), self.mesh.target(h)];
         let ends: Vec<VertexId> = links.iter().flat_map(ends).collect();
@@ -568,7 +586,7 @@ impl Simulation {
         self.follow();
         self.strengthen();
         self.note("unpick", [number]);
-        Ok(self.edits.iter().count())
+        Ok(self.edits.iter().count() - before)
     }
 
     /// Has another wind blow from now on, or none. Other loads stay.

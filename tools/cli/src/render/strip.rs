@@ -28,6 +28,7 @@ pub(super) fn draw(
         let mut scene = source.scene(&frame, None)?;
         scene.duration_s = args.seconds.unwrap_or(scene.duration_s);
         tear::name_vertices(&mut scene, &opened.document);
+        scene.rest = tear::check::rest(opened, &source)?;
         let run = Run::new(mesh.clone(), positions, scene, &frame);
         run.map_err(|error| tear::check::refused(&error, opened, &source))
     };

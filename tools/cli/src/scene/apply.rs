@@ -26,6 +26,11 @@ impl SceneFile {
         top.and_then(|top| top.word("up")).unwrap_or(Axis::Y)
     }
 
+    /// The metres for 1 of `vt`, if texture coordinates are the shape at rest.
+    pub(crate) fn vt_m(&self) -> Option<f64> {
+        self.table("fabric").and_then(|fabric| fabric.get("vt_m"))
+    }
+
     /// The scene for a mesh with this frame, or all that is wrong; the method may be chosen on the command line.
     pub(crate) fn scene(&self, frame: &Frame, solver: Option<&Method>) -> Result<Scene, Stop> {
         let top = self.table("").expect("a file has a top");
@@ -47,6 +52,10 @@ impl SceneFile {
         self.fill(&mut scene.cuts, "cut", faults, Self::cut);
         self.fill(&mut scene.seams, "seam", faults, Self::seam);
         self.fill(&mut scene.strengths, "strength", faults, Self::strength);
+        let unpicks = self.tables("seam");
+        let unpicks =
+            unpicks.filter_map(|seam| Some((seam.get("unpick_at_s")?, seam.get("name")?)));
+        scene.unpicks = unpicks.collect();
         scene.cuts.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
         if let Some(table) = self.table("tear") {
             match self.tear(table, frame) {

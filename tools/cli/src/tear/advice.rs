@@ -50,10 +50,13 @@ fn fault(warning: Warning, run: &Run, number: &dyn Fn(usize) -> usize) -> Fault 
             let message = format!("{steps:.1e} steps of {step} s are planned{at}");
             (message, help.into())
         }
-        Warning::LateCut(time_s) | Warning::LateHold { from_s: time_s, .. } => {
+        Warning::LateCut(time_s)
+        | Warning::LateUnpick(time_s)
+        | Warning::LateHold { from_s: time_s, .. } => {
             let time = short(time_s);
             let what = match warning {
                 Warning::LateHold { hold, .. } => format!("hold {} is never taken", hold + 1),
+                Warning::LateUnpick(_) => format!("no seam is unpicked at {time} s"),
                 _ => format!("the cut at {time} s is never made"),
             };
             let over = short(run.steps_planned() as f64 * run.step_s());

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use tearmesh::{FaceId, HalfEdgeId, Vector, VertexId};
+use tearmesh::{FaceId, HalfEdgeId, Point, Vector, VertexId};
 use tearmesh_cloth::scene::{Preset, Run, RunError, Scene, TimedCut};
 use tearmesh_cloth::{
     ClothError, Method, SeamFault, SimulationError, Stretch, TearingError, Threshold,
@@ -119,6 +119,37 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
     let help = "take toughness_j_per_m or principal_stretch, or add modulus_n_per_m to [fabric]";
     let message = format!("`threshold_n` {lack}");
     blame(("tear", 0, "threshold_n"), &message, help)
+}
+
+/// The places at rest of corners, by their texture coordinates, if the scene has a unit of them.
+pub(crate) fn rest(opened: &Opened, source: &SceneFile) -> Result<Vec<Point>, Stop> {
+    let (mut rest, document) = (Vec::new(), &opened.document);
+    let Some(unit_m) = source.vt_m() else {
+        return Ok(rest);
+    };
+    for face in 0..document.triangles().len() {
+        let corner = |i| match document.texture(document.corner(face, i).texture? as usize) {
+            &[u, v, ..] => Some(Point::new(u * unit_m, v * unit_m, 0.0)),
+            _ => None,
+        };
+        let wrong = match [0, 1, 2].map(corner) {
+            [Some(a), Some(b), Some(c)] => {
+                rest.extend([a, b, c]);
+                match (b - a).cross(&(c - a)).z {
+                    twice if twice > 0.0 => continue,
+                    0.0 => "has no area",
+                    _ => "is flipped",
+                }
+            }
+            _ => "has no place",
+        };
+        let line = document.line_of_triangle(face);
+        let message = format!("the face on line {line} {wrong} in texture coordinates");
+        return Err(source
+            .blame(("fabric", 0, "vt_m"), "E-SCENE-VT", message)
+            .into());
+    }
+    Ok(rest)
 }
 
 /// Why a scene cannot be played with this mesh.

@@ -208,6 +208,11 @@ fn observe(
     }
     let Disturbance { mesh, offsets_m } = Disturbance::new(subject.mesh, seed);
     let scene = subject.scene.clone();
+    // A rest shape is that of corners as they were.
+    let mesh = match scene.rest.is_empty() {
+        true => mesh,
+        false => subject.mesh.clone(),
+    };
     let run = Run::new(mesh, subject.positions, scene, subject.frame)?;
     let run = run.in_smaller_steps(step_divisor);
     let mut run = run.displaced(|v| offsets_m[v.index()])?;

@@ -103,6 +103,12 @@ impl Run {
         let held = held.map(|(number, hold)| Held::new(number, hold, &mesh, points, frame));
         let held = held.collect::<Result<Vec<_>, _>>()?;
         check_cuts(&scene.cuts)?;
+        let is_seam = |name: &String| scene.seams.iter().any(|seam| seam.name == *name);
+        let is_usable =
+            |(at_s, name): &(f64, String)| *at_s >= 0.0 && at_s.is_finite() && is_seam(name);
+        if let Some(number) = scene.unpicks.iter().position(|unpick| !is_usable(unpick)) {
+            return Err(RunError::Unpick { number });
+        }
         let loads = Loads {
             gravity_m_per_s2: Some(scene.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
@@ -116,6 +122,7 @@ impl Run {
             method: scene.solver.clone(),
             tearing: scene.tearing,
             strengths: strengths(&scene, &mesh, points, frame)?,
+            rest: scene.rest.clone(),
             seams: scene.seams.clone(),
             loads,
             step_s: scene.step_s,
@@ -267,6 +274,7 @@ impl Run {
         let step_s = self.step_s();
         let (system, balance) = (self.sim.cloth.system_mut(), &mut self.balance);
         held::take_and_release(&mut self.held, now, step_s, system, balance);
+        self.unpick(now);
         self.cut(now)?;
         self.blow(now);
         let substeps = self.sim.step_observed(Some(&mut self.balance))?;
@@ -297,6 +305,19 @@ impl Run {
         let velocities = self.cloth().system().velocities().iter();
         let fastest = velocities.map(|v| dot(*v, *v)).fold(0.0, f64::max).sqrt();
         self.tally.farthest_m = self.tally.farthest_m.max(fastest * substep_s);
+    }
+
+    /// Unpicks the seams whose time has come.
+    fn unpick(&mut self, now: u64) {
+        let (unpicks, step_s) = (self.scene.unpicks.iter(), self.step_s());
+        let due = unpicks.filter(|(at_s, _)| held::step_at(*at_s, step_s) == now);
+        let due: Vec<String> = due.map(|(_, name)| name.clone()).collect();
+        for name in due {
+            let before = Measured::of(self.cloth());
+            let done = self.sim.unpick_more(&name);
+            done.expect("seams that are unpicked have their names");
+            self.compare(&before);
+        }
     }
 
     /// Makes the cuts whose time has come.

@@ -35,6 +35,9 @@ pub enum Warning {
     /// A cut comes after the last step.
     /// Its time is given, in seconds.
     LateCut(f64),
+    /// A seam would be unpicked after the last step.
+    /// Its time is given, in seconds.
+    LateUnpick(f64),
     /// A hold begins after the last step.
     LateHold {
         /// The index of the hold, from 0.
@@ -107,7 +110,9 @@ impl Warning {
         match self {
             Warning::Size(_) => "W-SIM-SIZE",
             Warning::Endless(_) => "W-SIM-ENDLESS",
-            Warning::LateCut(_) | Warning::LateHold { .. } => "W-SCENE-LATE",
+            Warning::LateCut(_) | Warning::LateUnpick(_) | Warning::LateHold { .. } => {
+                "W-SCENE-LATE"
+            }
             Warning::Soft(_) => "W-SIM-SOFT",
             Warning::Coarse(_) => "W-SIM-COARSE",
             Warning::Rigid => "W-SIM-RIGID",
@@ -203,7 +208,10 @@ fn late(run: &Run) -> impl Iterator<Item = Warning> {
     let holds = scene.holds.iter().map(|hold| hold.from_s).enumerate();
     let holds = holds.filter(|&(_, from_s)| run.steps_planned() > 0 && !run.reaches(from_s));
     let holds = holds.map(|(hold, from_s)| Warning::LateHold { hold, from_s });
-    cuts.map(Warning::LateCut).chain(holds)
+    let unpicks = scene.unpicks.iter().map(|(at_s, _)| *at_s);
+    let unpicks = unpicks.filter(|&at_s| !run.reaches(at_s));
+    let cuts = cuts.map(Warning::LateCut);
+    cuts.chain(unpicks.map(Warning::LateUnpick)).chain(holds)
 }
 
 /// The balls of a scene, by the indices of colliders, and their radii in metres.

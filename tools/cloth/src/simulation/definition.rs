@@ -1,6 +1,6 @@
 //! The definition of a simulation: its material, method, loads and rules.
 
-use tearmesh::Vector;
+use tearmesh::{Point, Vector};
 
 use crate::fabric::Fabric;
 use crate::load::Loads;
@@ -24,6 +24,8 @@ pub struct SimulationDef {
     /// The strength of each vertex, as a multiple of the threshold; empty, as by default, for 1
     /// everywhere.
     pub strengths: Vec<f64>,
+    /// The rest shape of faces: a place in metres for each corner, face by face. Empty for where they are.
+    pub rest: Vec<Point>,
     /// The seams of a garment, whose panels are the mesh; none by default.
     pub seams: Vec<Seam>,
     /// The loads: by default gravity along −y, and the drag of still air.
@@ -45,6 +47,7 @@ impl Default for SimulationDef {
             method: Method::Verlet,
             tearing: Some(Tearing::default()),
             strengths: Vec::new(),
+            rest: Vec::new(),
             seams: Vec::new(),
             loads: Loads {
                 gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),

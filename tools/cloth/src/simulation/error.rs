@@ -25,6 +25,13 @@ pub enum SimulationError {
     Loads(SettingError),
     /// The rules for tearing, or the strengths of vertices, cannot be used.
     Tearing(TearingError),
+    /// The number of places at rest is not that of corners.
+    Rest {
+        /// The number of places.
+        given: usize,
+        /// The number of corners.
+        corners: usize,
+    },
     /// The step, in seconds, is not positive and finite.
     Step(f64),
 }
@@ -36,6 +43,9 @@ impl fmt::Display for SimulationError {
             SimulationError::Seams(error) => error.fmt(f),
             SimulationError::Loads(error) => error.fmt(f),
             SimulationError::Tearing(error) => error.fmt(f),
+            SimulationError::Rest { given, corners } => {
+                write!(f, "there are {given} places at rest for {corners} corners")
+            }
             SimulationError::Step(s) => write!(f, "a step of {s} s is not positive and finite"),
         }
     }

@@ -49,6 +49,11 @@ pub enum RunError {
         /// The index of the hold in the scene, from 0.
         number: usize,
     },
+    /// A seam is unpicked at a time that is negative or not finite, or has another name.
+    Unpick {
+        /// The index of the entry, from 0.
+        number: usize,
+    },
     /// The rays of a cut span no plane.
     Cut {
         /// The index of the cut in the scene, from 0.
@@ -93,6 +98,11 @@ impl fmt::Display for RunError {
             RunError::Moves { number } => {
                 write!(f, "the times of hold {} do not ascend", number + 1)
             }
+            RunError::Unpick { number } => write!(
+                f,
+                "unpick {} has no time that is finite and at least 0, or no seam of its name",
+                number + 1
+            ),
             RunError::Cut { number, error } => write!(f, "cut {}: {error}", number + 1),
             RunError::CutTime { number, given_s } => write!(
                 f,
