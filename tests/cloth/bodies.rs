@@ -2,6 +2,7 @@
 
 mod moving;
 mod oracle;
+mod places;
 
 use std::sync::Arc;
 

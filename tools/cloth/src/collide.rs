@@ -14,8 +14,9 @@
 //!
 //! A look at a body says how far a particle may go before it has to be looked at again. So what is far away,
 //! or rests in a fold, costs a comparison. And a particle that goes farther in a substep than the thickness
-//! and a cell may come out at the other side of a limb of two cells, which are the thinnest that a grid shows: the
-//! step is then divided.
+//! and a cell may come out at the other side of a limb of two cells, which are the thinnest that a grid shows: if
+//! its way leads in and out, or in to where the skin faces another way, the step is divided. What is light and stiff
+//! may go far in the shortest part of an implicit step, but comes out where it went in.
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
@@ -152,6 +153,9 @@ impl Solid<'_> {
     /// The looks at a point that is pushed out: one for each cell on its way, as a rule.
     const LOOKS: u32 = 4;
 
+    /// The parts of a way that are looked at; a longer one may have led anywhere.
+    const PARTS_MAX: f64 = 64.0;
+
     /// Looks at particles, and then at the middles of faces, where that is due.
     fn move_out(&self, collider: usize, looks: &mut Looks, system: &mut System) {
         let look = &mut looks.at[collider];
@@ -218,13 +222,33 @@ impl Solid<'_> {
         })
     }
 
-    /// Whether a particle went so far in this substep that it may be at the wrong side.
+    /// Whether a particle may have come to another side of the body in this substep than where it went in. Its way
+    /// is looked at in parts of a thickness and a cell.
     fn has_passed(&self, system: &System, particle: usize) -> bool {
         let before = self.seen(system.scratch.before[particle], 0);
-        let way_m = length(self.seen(system.positions[particle], 1) - before);
-        let is_far = way_m > self.thickness_m + self.body.cell_m();
+        let way = self.seen(system.positions[particle], 1) - before;
+        let (way_m, part_m) = (length(way), self.thickness_m + self.body.cell_m());
         let is_free = system.model.inverse_masses[particle] > 0.0;
-        is_free && is_far && self.body.distance_m(before) - self.thickness_m < way_m
+        let is_clear = self.body.distance_m(before) - self.thickness_m >= way_m;
+        if !(is_free && way_m > part_m) || is_clear {
+            return false;
+        }
+        let parts = (way_m / part_m).ceil().min(Self::PARTS_MAX);
+        let mut entered = None;
+        for part in 1..=parts as u32 {
+            let x = before + way * (f64::from(part) / parts);
+            if self.body.distance_m(x) < self.thickness_m {
+                let Some(normal) = self.body.outward(x) else {
+                    return true;
+                };
+                if dot(*entered.get_or_insert(normal), normal) <= 0.0 {
+                    return true;
+                }
+            } else if entered.is_some() {
+                return true;
+            }
+        }
+        parts >= Self::PARTS_MAX
     }
 
     /// Moves a particle, or the corners of a face, until it is as far from the skin as it should be, or the
