@@ -5,7 +5,7 @@ use std::sync::Arc;
 use tearmesh::{Scissor, Vector};
 use tearmesh_cloth::{Collider, Fabric, Method, Simulation, SimulationDef, Wounds};
 
-use super::{MU, body, dummy, is_outside, sheet};
+use super::{MU, body, dummy, sheet};
 use crate::parts::{gravity_along_y, onto, plane};
 
 #[test]
