@@ -67,6 +67,9 @@ impl Side {
 /// # Ok::<(), tearmesh::PlaneError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "(Point, Vector)"))]
+#[cfg_attr(feature = "serde", serde(into = "(Point, Vector)"))]
 pub struct Plane {
     point: Point,
     /// The given normal, scaled by a power of two: exact, so that points that lie
@@ -168,8 +171,25 @@ impl fmt::Display for PlaneError {
 
 impl std::error::Error for PlaneError {}
 
+impl TryFrom<(Point, Vector)> for Plane {
+    type Error = PlaneError;
+
+    fn try_from((point, normal): (Point, Vector)) -> Result<Plane, PlaneError> {
+        Plane::new(point, normal)
+    }
+}
+
+impl From<Plane> for (Point, Vector) {
+    fn from(plane: Plane) -> (Point, Vector) {
+        (plane.point, plane.normal)
+    }
+}
+
 /// A ray: an origin and a direction, which need not be a unit vector.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "(Point, Vector)"))]
+#[cfg_attr(feature = "serde", serde(into = "(Point, Vector)"))]
 pub struct Ray {
     origin: Point,
     direction: Vector,
@@ -198,6 +218,20 @@ impl Ray {
     #[must_use]
     pub fn direction(&self) -> Vector {
         self.direction
+    }
+}
+
+impl TryFrom<(Point, Vector)> for Ray {
+    type Error = RayError;
+
+    fn try_from((origin, direction): (Point, Vector)) -> Result<Ray, RayError> {
+        Ray::new(origin, direction)
+    }
+}
+
+impl From<Ray> for (Point, Vector) {
+    fn from(ray: Ray) -> (Point, Vector) {
+        (ray.origin, ray.direction)
     }
 }
 

@@ -11,6 +11,8 @@ macro_rules! id {
     ($(#[$doc:meta])* $name:ident, $letter:literal, $noun:literal, $limit:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(try_from = "u32", into = "u32"))]
         pub struct $name(u32);
 
         impl $name {
@@ -70,6 +72,14 @@ macro_rules! id {
         impl fmt::Debug for $name {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 fmt::Display::fmt(self, f)
+            }
+        }
+
+        impl TryFrom<u32> for $name {
+            type Error = &'static str;
+
+            fn try_from(index: u32) -> Result<$name, &'static str> {
+                $name::new(index as usize).ok_or("an index beyond all ids")
             }
         }
 

@@ -99,6 +99,7 @@ pub struct Scissor {
 
 /// The method of a cut. All methods accept the same rays and return the same report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum CutMethod {
     /// Inserts vertices where the plane crosses edges, so that the seam is straight. It adds faces,

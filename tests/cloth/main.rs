@@ -8,6 +8,8 @@ mod balance;
 mod bending;
 mod bodies;
 mod damping;
+#[cfg(feature = "serde")]
+mod data;
 mod defaults;
 #[path = "../support/digest.rs"]
 mod digest;

@@ -23,6 +23,7 @@ use crate::xpbd::{Pbd, Xpbd};
 /// ```
 #[must_use]
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Method {
     /// Provot's mass-spring model with its limiter ([`Provot`]). The tearing rule
     /// uses lengths before the limiter changes them.

@@ -23,7 +23,7 @@ use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, Scissor, ScissorError, VertexId};
 
 use crate::fabric::Fabric;
-use crate::load::{Collider, Wind};
+use crate::load::{Collider, Loads, Wind};
 use crate::method::Method;
 use crate::seam::Seam;
 use crate::system::error::SettingError;
@@ -31,6 +31,7 @@ use crate::system::error::SettingError;
 /// The plan of a simulation: the fabric, the method, and the timed events.
 #[must_use]
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scene {
     /// The duration of the scene, in seconds.
     pub duration_s: f64,
@@ -68,9 +69,24 @@ pub struct Scene {
     pub strengths: Vec<(Region, f64)>,
 }
 
+impl Scene {
+    /// Returns the loads with which the scene begins.
+    #[must_use]
+    pub fn loads(&self) -> Loads {
+        Loads {
+            gravity_m_per_s2: Some(self.gravity_m_per_s2)
+                .filter(|gravity| *gravity != Vector::zeros()),
+            drag_per_s: Some(self.drag_per_s).filter(|drag| *drag != 0.0),
+            wind: self.wind.map(|wind| wind.at(0.0)),
+            colliders: self.colliders.clone(),
+        }
+    }
+}
+
 /// Wind whose velocity may sway: u(t) = steady + sway · triangle(t / period). The triangle wave
 /// starts at 0, rises, and stays within −1 … 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SwayingWind {
     /// The wind without its sway.
     pub steady: Wind,
@@ -115,6 +131,7 @@ impl SwayingWind {
 /// releases it, the previous one takes over: it holds the vertex where it then is, or leads it
 /// along its own path from there.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HeldVertices {
     /// The vertices that are held, selected by their positions at rest.
     pub region: Region,
@@ -143,6 +160,7 @@ impl HeldVertices {
 
 /// A part of a cloth, selected by positions at rest or by ids.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Region {
     /// The vertices within a radius of the vertex that is nearest to a place. With radius 0 it is
     /// just that vertex.
@@ -218,6 +236,7 @@ impl Region {
 
 /// A cut at a given time, through the cloth as it is then.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TimedCut {
     /// The time of the cut, in seconds. At 0 the cloth is at rest.
     pub at_s: f64,

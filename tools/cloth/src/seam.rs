@@ -32,6 +32,7 @@ use tearmesh::{Defect, DisjointSets, HalfEdgeId, Mesh, TornError, VertexId};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Seam {
     /// The name by which it is unpicked. Seams that share a name are unpicked together.
     pub name: String,

@@ -23,7 +23,6 @@ use super::{Frame, Scene, SwayingWind, TimedCut};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::energy::{elastic_j, kinetic_j, potential_j};
-use crate::load::Loads;
 use crate::method::Softness;
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
@@ -109,13 +108,6 @@ impl Run {
         if let Some(number) = scene.unpicks.iter().position(|unpick| !is_usable(unpick)) {
             return Err(RunError::Unpick { number });
         }
-        let loads = Loads {
-            gravity_m_per_s2: Some(scene.gravity_m_per_s2)
-                .filter(|gravity| *gravity != Vector::zeros()),
-            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag != 0.0),
-            wind: scene.wind.map(|wind| wind.at(0.0)),
-            colliders: scene.colliders.clone(),
-        };
         let def = SimulationDef {
             density_kg_per_m2: scene.areal_density_kg_per_m2,
             fabric: scene.fabric,
@@ -124,7 +116,7 @@ impl Run {
             strengths: strengths(&scene, &mesh, points, frame)?,
             rest: scene.rest.clone(),
             seams: scene.seams.clone(),
-            loads,
+            loads: scene.loads(),
             step_s: scene.step_s,
             // A step of our own choice is not refused because of what tore since.
             when_unstable: match scene.step_s {
