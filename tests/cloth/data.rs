@@ -1,5 +1,5 @@
-//! Scenes and what they hold, as data: written and read they are the same to the bit, and what no
-//! constructor makes is not read.
+//! Scenes and what they hold, as data: written and read they are the same to the bit, and what cannot be played is
+//! not read.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use tearmesh::geometry::Ray;
 use tearmesh::{CutMethod, Plane, Point, Vector, VertexId, shapes};
 use tearmesh_cloth::scene::{HeldVertices, Region, Run, Scene, TimedCut};
 use tearmesh_cloth::{
-    Bending, Body, Buckling, Collider, Fabric, Method, Tearing, Threshold, Weave, implicit,
+    Bending, Body, Buckling, Collider, Fabric, Method, Seam, Tearing, Threshold, Weave, implicit,
 };
 
 use crate::digest;
@@ -124,26 +124,75 @@ fn methods_fabrics_thresholds_and_ready_scenes_are_read_as_they_were_written() {
 }
 
 #[test]
-fn what_no_constructor_makes_is_not_read() {
+fn what_cannot_be_played_is_not_read() {
     let good = serde_json::to_value(staged(8, scene).scene()).expect("data");
+    let seam = |one: &[usize], other: &[usize]| {
+        let side = |numbers: &[usize]| numbers.iter().copied().filter_map(VertexId::new).collect();
+        let (name, one, other) = ("side".to_owned(), side(one), side(other));
+        serde_json::to_value(Seam { name, one, other }).expect("data")
+    };
     read(&good).map(drop).expect("the scene itself");
     for (place, bad, said) in [
+        ("/duration_s", json!(-1), "duration_s is -1"),
+        (
+            "/areal_density_kg_per_m2",
+            json!(0),
+            "density, step or strength",
+        ),
+        ("/step_s", json!(0), "density, step"),
+        ("/drag_per_s", json!(-0.5), "drag_per_s"),
+        ("/fabric/damping_s", json!(-1), "damping_s"),
+        (
+            "/fabric/stretch/Membrane/modulus_n_per_m",
+            json!(0),
+            "modulus_n_per_m",
+        ),
         ("/fabric/bend/Buckling/law", json!(0.5), "above 0.592"),
+        (
+            "/solver",
+            json!({"Pbd": {"sweeps": 1, "stiffness": 2, "bend_stiffness": 0}}),
+            "stiffness",
+        ),
+        ("/wind/period_s", json!(0), "wind.period_s"),
+        ("/wind/steady/coefficient", json!(-1), "wind.coefficient"),
         ("/colliders/0/shape/Plane/1", json!([0, 0, 0]), "normal"),
+        (
+            "/colliders/1/shape/Sphere/radius_m",
+            json!(-0.1),
+            "radius_m",
+        ),
+        ("/colliders/1/friction", json!(-0.1), "friction"),
+        (
+            "/colliders/2/shape/Body/thickness_m",
+            json!(1e-9),
+            "thickness_m",
+        ),
         ("/colliders/2/shape/Body/body/2", json!(1e-9), "too small"),
         (
             "/colliders/2/shape/Body/body/1/0",
             json!([0, 1, 99]),
             "lacks a usable point",
         ),
+        ("/holds/1/until_s", json!(0.01), "hold 2"),
+        ("/holds/1/moves/1/0", json!(0), "hold 2"),
+        ("/cuts/0/at_s", json!(-1), "cut 1"),
         ("/cuts/0/rays/0/1", json!([0, 0, 0]), "direction"),
+        (
+            "/cuts/0/rays/1",
+            good["cuts"][0]["rays"][0].clone(),
+            "cut 1",
+        ),
         ("/cuts/0/method", json!("Freehand"), "unknown variant"),
+        ("/tearing/threshold/Stretch", json!(1), "threshold is 1"),
+        ("/tearing/weakening", json!(2), "weakening"),
+        ("/strengths/0/1", json!(0), "strength"),
         (
             "/strengths/0/0/Vertices/0",
             json!(u32::MAX),
             "beyond all ids",
         ),
         ("/gravity_m_per_s2", json!([0, null, 0]), "null"),
+        ("/seams", json!([seam(&[1, 2], &[3])]), "seam 1"),
     ] {
         let mut data = good.clone();
         *data.pointer_mut(place).expect(place) = bad;

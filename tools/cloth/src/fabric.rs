@@ -11,6 +11,7 @@ use crate::system::error::SettingError;
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 pub struct Fabric {
     /// The resistance of edges to stretch.
     pub stretch: Stretch,

@@ -45,6 +45,8 @@ mod constraint;
 mod contact;
 mod crush;
 mod damping;
+#[cfg(feature = "serde")]
+mod data;
 pub mod energy;
 mod fabric;
 mod follow;

@@ -32,6 +32,7 @@ use crate::system::error::SettingError;
 #[must_use]
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 pub struct Scene {
     /// The duration of the scene, in seconds.
     pub duration_s: f64,

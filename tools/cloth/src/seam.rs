@@ -180,11 +180,16 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
 }
 
 impl Seam {
-    fn check(&self, seam: usize, panels: &Mesh) -> Result<(), SeamError> {
+    pub(crate) fn check_counts(&self, seam: usize) -> Result<(), SeamError> {
         let counts = [self.one.len(), self.other.len()];
         if counts[0] != counts[1] || counts[0] < 2 {
             return Err(SeamError::new(seam, [], SeamFault::Counts(counts)));
         }
+        Ok(())
+    }
+
+    fn check(&self, seam: usize, panels: &Mesh) -> Result<(), SeamError> {
+        self.check_counts(seam)?;
         for side in [&self.one, &self.other] {
             let mut sorted = side.clone();
             sorted.sort_unstable();

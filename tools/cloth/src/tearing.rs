@@ -112,6 +112,7 @@ pub enum Threshold {
 /// The rules by which a cloth tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 pub struct Tearing {
     /// The threshold at which an edge tears.
     pub threshold: Threshold,

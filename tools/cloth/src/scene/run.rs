@@ -19,10 +19,11 @@ use tearmesh::{CutReport, Edits, Mesh, PositionError, Positions, VertexId};
 
 use self::gain::Watch;
 use self::held::Held;
-use super::{Frame, Scene, SwayingWind, TimedCut};
+use super::{Frame, Scene, SwayingWind};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::energy::{elastic_j, kinetic_j, potential_j};
+use crate::load::Path;
 use crate::method::Softness;
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};
@@ -94,14 +95,11 @@ impl Run {
         scene: Scene,
         frame: &Frame,
     ) -> Result<Run, RunError> {
-        if let Some(wind) = scene.wind {
-            wind.check().map_err(RunError::Wind)?;
-        }
+        scene.check()?;
         let points = positions.as_slice();
         let held = scene.holds.iter().enumerate();
         let held = held.map(|(number, hold)| Held::new(number, hold, &mesh, points, frame));
         let held = held.collect::<Result<Vec<_>, _>>()?;
-        check_cuts(&scene.cuts)?;
         let is_seam = |name: &String| scene.seams.iter().any(|seam| seam.name == *name);
         let is_usable =
             |(at_s, name): &(f64, String)| *at_s >= 0.0 && at_s.is_finite() && is_seam(name);
@@ -503,18 +501,32 @@ impl Run {
 }
 
 /// Refuses cuts that cannot be made, or whose times do not ascend.
-fn check_cuts(cuts: &[TimedCut]) -> Result<(), RunError> {
-    let mut last_s = 0.0;
-    for (number, cut) in cuts.iter().enumerate() {
-        let given_s = cut.at_s;
-        if !(given_s >= last_s && given_s.is_finite()) {
-            return Err(RunError::CutTime { number, given_s });
+impl Scene {
+    /// Refuses wind, holds and cuts with which no mesh could be played.
+    pub(crate) fn check(&self) -> Result<(), RunError> {
+        let wind = self.wind.as_ref().map_or(Ok(()), SwayingWind::check);
+        wind.map_err(RunError::Wind)?;
+        for (number, hold) in self.holds.iter().enumerate() {
+            let later = |until_s: f64| until_s > hold.from_s;
+            let finite = hold.from_s >= 0.0 && hold.from_s.is_finite();
+            let way = hold.moves.iter().map(|&(s, d)| (s, Point::from(d)));
+            let leads = hold.moves.is_empty() || Path::new(way).is_some();
+            if !finite || !hold.until_s.is_none_or(later) || !leads {
+                return Err(RunError::Moves { number });
+            }
         }
-        last_s = given_s;
-        let scissor = cut.scissor();
-        scissor.map_err(|error| RunError::Cut { number, error })?;
+        let mut last_s = 0.0;
+        for (number, cut) in self.cuts.iter().enumerate() {
+            let given_s = cut.at_s;
+            if !(given_s >= last_s && given_s.is_finite()) {
+                return Err(RunError::CutTime { number, given_s });
+            }
+            last_s = given_s;
+            let scissor = cut.scissor();
+            scissor.map_err(|error| RunError::Cut { number, error })?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// The strength of each vertex by the regions of a scene; empty for 1 everywhere.

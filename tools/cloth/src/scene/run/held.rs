@@ -99,17 +99,9 @@ impl Held {
         frame: &Frame,
     ) -> Result<Held, RunError> {
         let name = ("hold", number);
-        let vertices = vertices_in(&hold.region, name, mesh, points, frame)?;
-        let later = |until_s: f64| until_s > hold.from_s;
-        let finite = hold.from_s >= 0.0 && hold.from_s.is_finite();
-        let way = hold.moves.iter().map(|&(s, d)| (s, Point::from(d)));
-        let leads = hold.moves.is_empty() || Path::new(way).is_some();
-        if !finite || !hold.until_s.is_none_or(later) || !leads {
-            return Err(RunError::Moves { number });
-        }
         Ok(Held {
             hold: hold.clone(),
-            vertices,
+            vertices: vertices_in(&hold.region, name, mesh, points, frame)?,
             since: None,
         })
     }

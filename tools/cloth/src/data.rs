@@ -1,0 +1,47 @@
+//! Data that is read: what would be refused where it is used is refused where it is read.
+
+use std::error::Error;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::scene::Scene;
+use crate::{Fabric, Method, SettingError, Tearing};
+
+/// What is read field by field, and is then refused for what a check says.
+macro_rules! checked {
+    ($data:ident, $check:expr) => {
+        impl Serialize for $data {
+            fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+                $data::serialize(self, to)
+            }
+        }
+
+        impl<'de> Deserialize<'de> for $data {
+            fn deserialize<D: Deserializer<'de>>(from: D) -> Result<$data, D::Error> {
+                let read = $data::deserialize(from)?;
+                $check(&read).map_err(D::Error::custom).map(|()| read)
+            }
+        }
+    };
+}
+
+checked!(Fabric, Fabric::check);
+checked!(Method, |method: &Method| method.solver().check());
+checked!(Scene, check);
+checked!(Tearing, Tearing::check);
+
+/// Refuses a scene that no mesh could be played with.
+fn check(scene: &Scene) -> Result<(), Box<dyn Error>> {
+    SettingError::unless_positive("duration_s", scene.duration_s)?;
+    let factors = scene.strengths.iter().map(|(_, factor)| *factor);
+    let numbers = [scene.areal_density_kg_per_m2, scene.step_s.unwrap_or(1.0)];
+    for number in factors.chain(numbers) {
+        SettingError::unless_above_0("a density, step or strength", number)?;
+    }
+    for (number, seam) in scene.seams.iter().enumerate() {
+        seam.check_counts(number)?;
+    }
+    scene.check()?;
+    Ok(scene.loads().check()?)
+}
