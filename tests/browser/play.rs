@@ -126,7 +126,7 @@ impl Played {
         let log = String::from_utf8(log).expect("a log is text");
         let settings = Player::settings_of(&log).expect("settings");
         let document = settings.document(&[]).expect("a sheet");
-        let native = Player::replayed(&document, &log).expect("a replay");
+        let native = Player::replayed(&document, settings, &log).expect("a replay");
         assert_eq!(format!("{:016x}", native.digest()), digest, "native");
         assert!(native.obj().expect("a file") == obj, "the same file");
         self.take("sheet-32.log");

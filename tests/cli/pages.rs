@@ -14,6 +14,11 @@ const CUT: &str = "cut sheet.obj --rays 0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1";
 
 /// The text of a page.
 fn text(html: &str) -> Value {
+    content(html).0
+}
+
+/// The text of a page, and the bytes behind it.
+pub(crate) fn content(html: &str) -> (Value, Vec<u8>) {
     let (_, data) = html.split_once("type=\"text/plain\">").expect("data");
     let (data, _) = data.split_once('<').expect("an end");
     let packed = base64::engine::general_purpose::STANDARD.decode(data);
@@ -22,7 +27,8 @@ fn text(html: &str) -> Value {
     let mut inflated = flate2::read::ZlibDecoder::new(&packed[..]);
     inflated.read_to_end(&mut bytes).expect("zlib");
     let length = u32::from_le_bytes(bytes[..4].try_into().expect("four bytes")) as usize;
-    serde_json::from_slice(&bytes[4..4 + length]).expect("JSON")
+    let behind = bytes.split_off(4 + length);
+    (serde_json::from_slice(&bytes[4..]).expect("JSON"), behind)
 }
 
 /// The moments of a page in a file.

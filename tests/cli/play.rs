@@ -1,6 +1,11 @@
-//! Pages that are played: how large their mesh may be. (What is done on them is in `tests/browser`.)
+//! Pages that are played: what mesh and what scene they have. (What is done on them is in `tests/browser`.)
 
-use crate::harness::Folder;
+use tearmesh::{Point, Ray, Vector};
+use tearmesh_cloth::ColliderShape;
+use tearmesh_play::{Player, Settings};
+
+use crate::harness::{Folder, root};
+use crate::pages::content;
 
 #[test]
 fn a_mesh_that_is_too_large_is_refused_with_its_number() {
@@ -17,4 +22,80 @@ fn a_mesh_that_is_too_large_is_refused_with_its_number() {
     );
     assert!(!folder.path("many.html").exists());
     assert_eq!(tearmesh_play::VERTICES_MAX, 20_000);
+}
+
+/// A folder with a garment, and the settings of its page.
+fn garment() -> (Folder, &'static str) {
+    let folder = Folder::new();
+    for name in ["dress.obj", "dress.toml", "dummy.obj"] {
+        let from = root().join("tests/data").join(name);
+        folder.write(name, std::fs::read(from).expect(name));
+    }
+    let lines =
+        "cloth file dress.obj\nscene file dress.toml\nup y\nmethod scene\nthreshold scene\n";
+    (folder, lines)
+}
+
+#[test]
+fn a_garment_of_a_scene_file_is_sewn_round_its_body_cut_and_repeated() {
+    let (folder, lines) = garment();
+    let said = folder.done("play dress.obj --scene dress.toml -o dress.html");
+    // What comes later is left to the hand, and is named.
+    let left = said.contains("W-PLAY-HAND") && said.contains("hold 1, cut 1");
+    assert!(said.contains("scene dress.toml") && left, "{said}");
+    let (text, obj) = content(&folder.read("dress.html"));
+    let mut settings: Settings = lines.parse().expect("settings");
+    let document = settings.document(&obj).expect("a document");
+    let lost = Player::new(&document, settings.clone()).map(drop);
+    let why = "the scene is in a file that is not here";
+    assert_eq!(lost, Err(why.to_owned()));
+    let plan = text["plan"].as_str().expect("a plan");
+    settings.plan = Some(serde_json::from_str(plan).expect("a scene"));
+
+    let mut player = Player::new(&document, settings.clone()).expect("a player");
+    assert_eq!(player.simulation().open_pairs(), 38);
+    player.advance(1.2, 100_000).expect("steps");
+    let facts = player.facts();
+    assert_eq!((facts.held_first, facts.sewn, facts.left), (0, 38, 0));
+    let sim = player.simulation();
+    assert_eq!(sim.mesh().components().count(), 1);
+    // It hangs from the shoulders, and is nowhere inside.
+    let shape = &sim.cloth().system().loads().colliders[0].shape;
+    let ColliderShape::Body { body, .. } = shape else {
+        panic!("{shape:?}");
+    };
+    let points = sim.cloth().positions().iter();
+    let deepest = points.map(|&x| body.distance_m(x)).fold(1.0, f64::min);
+    assert!(deepest > 0.0, "{deepest}");
+    let ray = |y: f64| Ray::new(Point::new(0.0, y, 3.0), -Vector::z()).expect("a ray");
+    let splits = player.cut([ray(0.14), ray(0.34)], true).expect("a cut");
+    assert!(splits > 3, "{splits}");
+    player.advance(0.1, 100_000).expect("steps");
+    let again = Player::replayed(&document, settings, &player.log()).expect("a replay");
+    assert_eq!(again.digest(), player.digest());
+    folder.write("torn.obj", player.obj().expect("a file"));
+    folder.done("check torn.obj");
+}
+
+#[test]
+fn a_scene_file_that_cannot_be_played_is_refused_as_by_tear() {
+    let (folder, _) = garment();
+    let said = folder.ends("play --scene dress.toml -o x.html", 2);
+    assert!(said.contains("a scene file is of a mesh"), "{said}");
+    folder.write("unknown.toml", "[[hold]]\nvertices = [9999]\n");
+    folder.write("key.toml", "[fabric]\nmodulus = 3\n");
+    folder.write(
+        "never.toml",
+        "[tear]\nnever = true\n[[strength]]\nvertices = [1]\nfactor = 2\n",
+    );
+    for scene in ["unknown.toml", "key.toml", "never.toml", "waltz"] {
+        let [play, tear] = [("play", "x.html"), ("tear", "x.obj")].map(|(verb, output)| {
+            let line = format!("{verb} dress.obj --scene {scene} -o {output}");
+            let answer = folder.run(&line);
+            let said = answer.seen();
+            let from = said.find("E-SCENE").unwrap_or_else(|| panic!("{said}"));
+            (answer.exit, said[from..].lines().next().map(str::to_owned))
+        });
+        assert_eq!(play, tear);
+    }
 }

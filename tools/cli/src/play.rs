@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use tearmesh::CutMethod;
+use tearmesh_cloth::scene::{Frame, Preset, Scene};
 use tearmesh_obj::TornDocument;
 use tearmesh_view::PlayPage;
 
@@ -9,9 +11,10 @@ use crate::args::PlayArgs;
 use crate::choice::Choice as _;
 use crate::exit::Stop;
 use crate::say::{Fault, count};
+use crate::scene::SceneFile;
 use crate::session::{self, Opened};
 use crate::streams::Streams;
-use crate::{output, page};
+use crate::{output, page, tear};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -20,16 +23,33 @@ pub(crate) fn run(
     streams: &mut Streams<'_>,
 ) -> Result<String, Stop> {
     let unnamed = || Ok(PathBuf::from("play.html"));
+    let source = SceneFile::find(&args.scene, streams)?;
+    let is_file = Preset::of(source.name()).is_none();
+    if is_file && args.input.is_none() {
+        let message = "a scene file is of a mesh";
+        return Err(Stop::usage(message, "name the OBJ file of the cloth"));
+    }
     let path = page::place(args.output.as_ref(), unnamed, args.input.as_slice())?;
+    let up = args.up.unwrap_or_else(|| source.up());
     let mut made = PlayPage {
         title: "Cloth".to_owned(),
         file: None,
-        scene: args.scene.clone(),
-        up: args.up.word().to_owned(),
+        scene: page::title(Some(source.name())),
+        plan: None,
+        up: up.word().to_owned(),
     };
     let mut cloth = "a sheet of 1 m".to_owned();
     if let Some(input) = &args.input {
-        let (input, opened) = session::look(input, &args.look, faults, streams)?;
+        let (input, mut opened) = session::look(input, &args.look, faults, streams)?;
+        if is_file {
+            let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
+            let scene = source.scene(&frame, None)?;
+            tear::check::tearing(false, &scene, &source)?;
+            let run = tear::begin(scene, &opened, &frame, &source)?;
+            tear::record_seams(&run, &mut opened, &source)?;
+            faults.extend(left(run.scene()));
+            made.plan = Some(serde_json::to_string(run.scene()).expect("a scene is data"));
+        }
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
         let vertices = count(opened.mesh.vertex_count(), "vertex", "vertices");
@@ -40,9 +60,25 @@ pub(crate) fn run(
     if path == Path::new("-") {
         return Ok(String::new());
     }
-    let (scene, path) = (&args.scene, path.display());
+    let (scene, path) = (&made.scene, path.display());
     let words = format!("play: {cloth}, scene {scene} · wrote {path}: open it in a browser");
     Ok(words)
+}
+
+/// A warning of all that the page leaves to hands.
+fn left(scene: &Scene) -> Option<Fault> {
+    let holds = scene.holds.iter().map(|hold| {
+        let is_kept = hold.from_s == 0.0 && hold.until_s.is_none() && hold.moves.is_empty();
+        ("hold", is_kept)
+    });
+    let cuts = scene.cuts.iter();
+    let cuts = cuts.map(|cut| ("cut", cut.at_s == 0.0 && cut.method == CutMethod::Exact));
+    let all = (1..).zip(holds).chain((1..).zip(cuts));
+    let left = all.filter(|(_, (_, is_kept))| !is_kept);
+    let names: Vec<String> = left.map(|(n, (what, _))| format!("{what} {n}")).collect();
+    let message = "the page leaves to the hand what moves, begins or ends later, or is not exact";
+    let message = format!("{message}: {}", names.join(", "));
+    (!names.is_empty()).then(|| Fault::warning("W-PLAY-HAND", message))
 }
 
 /// The file that the page is given: as it was read, and repaired where that was wanted.

@@ -51,19 +51,11 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
     let mut scene = source.scene(&frame, args.solver.as_ref())?;
     settle(args, cuts, &mut scene);
-    name_vertices(&mut scene, &opened.document);
-    scene.rest = check::rest(&opened, &source)?;
-    check::tearing(args, &scene, &source)?;
+    check::tearing(args.threshold_newton.is_some(), &scene, &source)?;
     check::known_forces(args, &scene)?;
-    let run = Run::new(opened.mesh.clone(), &opened.positions, scene, &frame);
-    let run = run.map_err(|error| check::refused(&error, &opened, &source))?;
-    check::seams(args, &run, &opened, &source)?;
-    if !run.scene().seams.is_empty() {
-        // The record of the file that is written says which vertices are copies of one.
-        let torn = opened.document.clone().torn_from(&run.mesh().roots());
-        let torn = torn.map_err(|error| Fault::error("E-SCENE-SEAM", error.to_string()));
-        opened.document = torn?.0;
-    }
+    let run = begin(scene, &opened, &frame, &source)?;
+    check::points_stay(args, &run, &source)?;
+    record_seams(&run, &mut opened, &source)?;
     session.faults.extend(check::moved(&opened));
     let number = |v| opened.document.number_of_vertex(v);
     session.faults.extend(advice::before(&run, &frame, &number));
@@ -77,6 +69,35 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         guard: Guard::new(),
     };
     play.perform(run, session)
+}
+
+/// A scene that is about to begin, or why it cannot.
+pub(crate) fn begin(
+    mut scene: Scene,
+    opened: &Opened,
+    frame: &Frame,
+    source: &SceneFile,
+) -> Result<Run, Stop> {
+    name_vertices(&mut scene, &opened.document);
+    scene.rest = check::rest(opened, source)?;
+    let run = Run::new(opened.mesh.clone(), &opened.positions, scene, frame);
+    run.map_err(|error| check::refused(&error, opened, source))
+}
+
+/// Has the record of the file that is written say which vertices are copies of one that is sewn.
+pub(crate) fn record_seams(run: &Run, opened: &mut Opened, source: &SceneFile) -> Result<(), Stop> {
+    if run.scene().seams.is_empty() {
+        return Ok(());
+    }
+    if opened.document.has_record() {
+        let message = "a file that was torn has no panels to be sewn";
+        let help = "sew the panels in the file from before it was torn";
+        return Err(check::clash(source, ("seam", 0, ""), message, help));
+    }
+    let torn = opened.document.clone().torn_from(&run.mesh().roots());
+    let torn = torn.map_err(|error| Fault::error("E-SCENE-SEAM", error.to_string()));
+    opened.document = torn?.0;
+    Ok(())
 }
 
 /// Puts what was typed in the place of what the scene says.
@@ -99,7 +120,7 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
 
 /// A scene names vertices by their numbers in the file, among which copies for fans may be. A number
 /// that no `v` has stays one that no vertex has.
-pub(crate) fn name_vertices(scene: &mut Scene, document: &Document) {
+fn name_vertices(scene: &mut Scene, document: &Document) {
     let holds = scene.holds.iter_mut().map(|hold| &mut hold.region);
     let strengths = scene.strengths.iter_mut().map(|(region, _)| region);
     let named = holds.chain(strengths).filter_map(|region| match region {

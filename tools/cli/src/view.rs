@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use tearmesh_cloth::scene::Axis;
 use tearmesh_obj::Repair;
 use tearmesh_view::{Moment, Page};
 
@@ -31,7 +30,7 @@ pub(crate) fn run(
         let args = PlayArgs {
             input: Some(input.clone()),
             scene: "rip".to_owned(),
-            up: Axis::Y,
+            up: None,
             output: args.output.clone(),
             look: args.look.clone(),
         };

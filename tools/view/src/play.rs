@@ -16,7 +16,7 @@ use crate::shade;
 ///
 /// ```
 /// let [title, scene, up] = ["Cloth", "rip", "y"].map(String::from);
-/// let page = tearmesh_view::PlayPage { title, file: None, scene, up };
+/// let page = tearmesh_view::PlayPage { title, file: None, scene, plan: None, up };
 /// let mut html = Vec::new();
 /// page.write(&mut html)?;
 /// assert!(tearmesh_view::is_page(&html));
@@ -28,8 +28,10 @@ pub struct PlayPage {
     pub title: String,
     /// The name and the content of the OBJ file of the cloth; `None` for a sheet of 1 m.
     pub file: Option<(String, Vec<u8>)>,
-    /// The scene that the page begins with: `rip`, `hang`, `flag`, `trouser` or `fall`.
+    /// The scene that the page begins with: `rip`, `hang`, `flag`, `trouser` or `fall`, or the name of a file.
     pub scene: String,
+    /// The scene of the file, as JSON; `None` for one that stands ready.
+    pub plan: Option<String>,
     /// The upward direction: an axis, such as `y` or `-z`.
     pub up: String,
 }
@@ -49,6 +51,7 @@ impl PlayPage {
             "title": self.title,
             "file": file.map(|(name, _)| name),
             "scene": self.scene,
+            "plan": self.plan,
             "up": self.up,
             "angle": ANGLE_OF_VIEW,
             "colors": colors(),

@@ -12,7 +12,9 @@ Examples:
   tearmesh play -o play.html
       a sheet of 1 m that hangs by its upper edge: open the page in a browser, grab the sheet, and rip it
   tearmesh play flag.obj --scene flag -o play.html
-      a flag in the wind, to be cut while it waves";
+      a flag in the wind, to be cut while it waves
+  tearmesh play dress.obj --scene dress.toml -o play.html
+      a garment that is sewn round a body";
 
 /// Make a page on which a cloth is grabbed, ripped, cut and mended.
 ///
@@ -27,16 +29,17 @@ pub(crate) struct PlayArgs {
     #[arg(value_name = "IN")]
     pub(crate) input: Option<PathBuf>,
 
-    /// rip, hang, flag, trouser or fall, as of `tear`.
+    /// rip, hang, flag, trouser, fall, or a scene file in TOML, as of `tear`.
     ///
-    /// What such a scene holds is held, and its wind blows. What it moves or cuts is left to the hand. The
-    /// default, `rip`, holds the highest 3 % of the cloth.
-    #[arg(long, value_name = "SCENE", default_value = "rip", value_parser = SCENES, hide_possible_values = true)]
+    /// What the scene holds from the beginning is held, its wind blows, its seams are sewn, and its colliders are
+    /// there. What it moves or cuts later is left to the hand. The default, `rip`, holds the highest 3 % of the
+    /// cloth. A scene file needs the mesh that it is of.
+    #[arg(long, value_name = "SCENE", default_value = "rip")]
     pub(crate) scene: String,
 
-    /// The direction that is up: x, y, z, -x, -y or -z.
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up_axis, default_value = "y")]
-    pub(crate) up: Axis,
+    /// The direction that is up: x, y, z, -x, -y or -z (default: that of the scene file, or y).
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up_axis)]
+    pub(crate) up: Option<Axis>,
 
     /// Where to write the page; `-` is standard output.
     ///
@@ -47,5 +50,3 @@ pub(crate) struct PlayArgs {
     #[command(flatten)]
     pub(crate) look: LookArgs,
 }
-
-const SCENES: [&str; 5] = ["rip", "hang", "flag", "trouser", "fall"];

@@ -22,15 +22,11 @@ pub(super) fn draw(
     streams: &mut Streams<'_>,
 ) -> Result<Picture, Stop> {
     let source = SceneFile::find(args.scene.as_deref().unwrap_or_default(), streams)?;
-    let (mesh, positions) = (&opened.mesh, &opened.positions);
-    let frame = Frame::new(mesh, positions.as_slice(), source.up());
+    let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), source.up());
     let begin = || {
         let mut scene = source.scene(&frame, None)?;
         scene.duration_s = args.seconds.unwrap_or(scene.duration_s);
-        tear::name_vertices(&mut scene, &opened.document);
-        scene.rest = tear::check::rest(opened, &source)?;
-        let run = Run::new(mesh.clone(), positions, scene, &frame);
-        run.map_err(|error| tear::check::refused(&error, opened, &source))
+        tear::begin(scene, opened, &frame, &source)
     };
     let mut run = begin()?;
     // It is played twice.

@@ -60,29 +60,26 @@ pub(super) fn moved(opened: &Opened) -> Option<Fault> {
     mesh.half_edges().any(is_apart).then_some(fault)
 }
 
-/// Refuses seams of what was torn before, and frames with the faces of the last one, which has fewer vertices than
-/// the first where seams were sewn.
-pub(super) fn seams(
-    args: &TearArgs,
-    run: &Run,
-    opened: &Opened,
+/// Refuses frames with the faces of the last one, which has fewer vertices than the first where seams were sewn.
+pub(super) fn points_stay(args: &TearArgs, run: &Run, source: &SceneFile) -> Result<(), Stop> {
+    let is_last = args.cache.is_some() || args.frames_topology == Topology::Final;
+    if run.scene().seams.is_empty() || !is_last {
+        return Ok(());
+    }
+    let message = "vertices that are sewn are in no point cache, and not in frames with the faces of the last one";
+    let help = "--frames DIR, in which each frame has its own faces";
+    Err(clash(source, ("seam", 0, ""), message, help))
+}
+
+/// That something in a scene file cannot go with something else.
+pub(super) fn clash(
     source: &SceneFile,
-) -> Result<(), Stop> {
-    let seams = &run.scene().seams;
-    let (message, help) = match () {
-        () if seams.is_empty() => return Ok(()),
-        () if args.cache.is_some() || args.frames_topology == Topology::Final => (
-            "vertices that are sewn are in no point cache, and not in frames with the faces of the last one",
-            "--frames DIR, in which each frame has its own faces",
-        ),
-        () if opened.document.has_record() => (
-            "a file that was torn has no panels to be sewn",
-            "sew the panels in the file from before it was torn",
-        ),
-        () => return Ok(()),
-    };
-    let fault = source.blame(("seam", 0, ""), "E-SCENE-CLASH", message.to_owned());
-    Err(fault.help(help).into())
+    at: (&str, usize, &str),
+    message: &str,
+    help: &str,
+) -> Stop {
+    let fault = source.blame(at, "E-SCENE-CLASH", message.to_owned());
+    fault.help(help).into()
 }
 
 /// Refuses a table of forces where the method knows none.
@@ -95,16 +92,12 @@ pub(super) fn known_forces(args: &TearArgs, scene: &Scene) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Refuses what would make no difference to how the scene tears.
-pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Result<(), Stop> {
-    let blame = |at, message: &str, help: &str| {
-        let fault = source.blame(at, "E-SCENE-CLASH", message.to_owned());
-        Err(fault.help(help).into())
-    };
+/// Refuses what would make no difference to how the scene tears, where a force may have been typed.
+pub(crate) fn tearing(is_typed: bool, scene: &Scene, source: &SceneFile) -> Result<(), Stop> {
     if scene.tearing.is_none() && source.has("strength") {
         let message = "nothing tears in this scene, however strong it is";
         let help = "add --threshold, or a threshold in [tear] of a scene file";
-        return blame(("strength", 0, ""), message, help);
+        return Err(clash(source, ("strength", 0, ""), message, help));
     }
     let threshold = scene.tearing.map(|tearing| tearing.threshold);
     let is_force = matches!(threshold, Some(Threshold::Force(_)));
@@ -112,13 +105,13 @@ pub(super) fn tearing(args: &TearArgs, scene: &Scene, source: &SceneFile) -> Res
         return Ok(());
     }
     let lack = "is the pull of springs, and this fabric is of triangles";
-    if args.threshold_newton.is_some() {
+    if is_typed {
         let message = format!("`--threshold-newton` {lack}");
         return Err(Stop::usage(message, "take --toughness"));
     }
     let help = "take toughness_j_per_m or principal_stretch, or add modulus_n_per_m to [fabric]";
     let message = format!("`threshold_n` {lack}");
-    blame(("tear", 0, "threshold_n"), &message, help)
+    Err(clash(source, ("tear", 0, "threshold_n"), &message, help))
 }
 
 /// The places at rest of corners, by their texture coordinates, if the scene has a unit of them.
@@ -153,7 +146,7 @@ pub(crate) fn rest(opened: &Opened, source: &SceneFile) -> Result<Vec<Point>, St
 }
 
 /// Why a scene cannot be played with this mesh.
-pub(crate) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
+pub(super) fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
     let said = error.to_string();
     let of_mesh = |message: String, help: &str| Fault::error("E-SIM-MESH", message).help(help);
     let fault = match *error {

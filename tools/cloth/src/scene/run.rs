@@ -111,7 +111,7 @@ impl Run {
             fabric: scene.fabric,
             method: scene.solver.clone(),
             tearing: scene.tearing,
-            strengths: strengths(&scene, &mesh, points, frame)?,
+            strengths: scene.vertex_strengths(&mesh, points, frame)?,
             rest: scene.rest.clone(),
             seams: scene.seams.clone(),
             loads: scene.loads(),
@@ -502,6 +502,30 @@ impl Run {
 
 /// Refuses cuts that cannot be made, or whose times do not ascend.
 impl Scene {
+    /// Returns the strength of each vertex by the regions of the scene; nothing for 1 everywhere.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError`] if a region contains no vertex, or names one that the mesh does not have.
+    pub fn vertex_strengths(
+        &self,
+        mesh: &Mesh,
+        points: &[Point],
+        frame: &Frame,
+    ) -> Result<Vec<f64>, RunError> {
+        if self.tearing.is_none() || self.strengths.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut strengths = vec![1.0; mesh.vertex_count()];
+        for (number, (region, strength)) in self.strengths.iter().enumerate() {
+            let name = ("strength", number);
+            for v in held::vertices_in(region, name, mesh, points, frame)? {
+                strengths[v.index()] = *strength;
+            }
+        }
+        Ok(strengths)
+    }
+
     /// Refuses wind, holds and cuts with which no mesh could be played.
     pub(crate) fn check(&self) -> Result<(), RunError> {
         let wind = self.wind.as_ref().map_or(Ok(()), SwayingWind::check);
@@ -527,26 +551,6 @@ impl Scene {
         }
         Ok(())
     }
-}
-
-/// The strength of each vertex by the regions of a scene; empty for 1 everywhere.
-fn strengths(
-    scene: &Scene,
-    mesh: &Mesh,
-    points: &[Point],
-    frame: &Frame,
-) -> Result<Vec<f64>, RunError> {
-    if scene.tearing.is_none() || scene.strengths.is_empty() {
-        return Ok(Vec::new());
-    }
-    let mut strengths = vec![1.0; mesh.vertex_count()];
-    for (number, (region, strength)) in scene.strengths.iter().enumerate() {
-        let name = ("strength", number);
-        for v in held::vertices_in(region, name, mesh, points, frame)? {
-            strengths[v.index()] = *strength;
-        }
-    }
-    Ok(strengths)
 }
 
 /// What edits are to keep.

@@ -5,6 +5,7 @@ use std::cell::RefCell;
 
 use tearmesh::{Point, Ray, Vector};
 use tearmesh_cloth::Wind;
+use tearmesh_cloth::scene::Scene;
 use tearmesh_obj::Document;
 
 use crate::player::Player;
@@ -16,6 +17,8 @@ struct Module {
     text: Vec<u8>,
     /// The file that was dropped on the page last.
     obj: Vec<u8>,
+    /// The scene of the file.
+    plan: Option<Scene>,
     /// The document of the player, and the cloth that it is of. It is leaked, since the player borrows it; a page
     /// that shows twenty files has twenty of them.
     document: Option<(ClothSource, &'static Document)>,
@@ -73,12 +76,24 @@ extern "C" fn take_file() {
     });
 }
 
+/// Takes the scene of a file in the room, as JSON; whether it could.
+#[unsafe(no_mangle)]
+extern "C" fn take_scene() -> bool {
+    MODULE.with_borrow_mut(|module| {
+        let read = serde_json::from_slice(&module.input);
+        let read = read.map_err(|why| module.text = why.to_string().into_bytes());
+        module.plan = read.ok();
+        module.plan.is_some()
+    })
+}
+
 /// Lets a cloth go, by the settings in the room; whether it could.
 #[unsafe(no_mangle)]
 extern "C" fn start() -> bool {
     MODULE.with_borrow_mut(|module| {
         let settings = module.input_text().parse();
-        let started = settings.and_then(|settings: Settings| {
+        let started = settings.and_then(|mut settings: Settings| {
+            settings.plan = module.plan.clone();
             let document = module.document(&settings)?;
             Player::new(document, settings)
         });
@@ -91,9 +106,10 @@ extern "C" fn start() -> bool {
 extern "C" fn replay() -> bool {
     MODULE.with_borrow_mut(|module| {
         let text = module.input_text();
-        let replayed = Player::settings_of(&text).and_then(|settings| {
+        let replayed = Player::settings_of(&text).and_then(|mut settings| {
+            settings.plan = module.plan.clone();
             let document = module.document(&settings)?;
-            Player::replayed(document, &text)
+            Player::replayed(document, settings, &text)
         });
         module.replace(replayed)
     })

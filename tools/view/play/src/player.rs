@@ -2,12 +2,11 @@
 
 use std::fmt::Display;
 
-use tearmesh::geometry::{Plane, Point, Ray, length};
+use tearmesh::geometry::{Plane, Point, Ray};
 use tearmesh::{CutLayers, Edits, Mesh, Positions, Scissor, VertexId};
-use tearmesh_cloth::scene::{Frame, Scene, SwayingWind};
+use tearmesh_cloth::scene::{Frame, SwayingWind};
 use tearmesh_cloth::{
-    ClothBuffers, Collider, Event, HandId, InputLog, Loads, Simulation, SimulationDef, Tearing,
-    Threshold, Wind, Wounds,
+    ClothBuffers, Collider, Event, HandId, InputLog, Simulation, SimulationDef, Wind, Wounds,
 };
 use tearmesh_obj::{Document, TornDocument};
 
@@ -21,10 +20,10 @@ use crate::settings::Settings;
 /// let settings: Settings =
 ///     "cloth sheet 8\nscene rip\nup y\nmethod xpbd\nthreshold 1.5\n".parse()?;
 /// let document = settings.document(&[])?;
-/// let mut player = Player::new(&document, settings)?;
+/// let mut player = Player::new(&document, settings.clone())?;
 /// player.advance(0.1, 1000)?;
 ///
-/// let again = Player::replayed(&document, &player.log())?;
+/// let again = Player::replayed(&document, settings, &player.log())?;
 /// assert_eq!(again.digest(), player.digest());
 /// # Ok::<(), String>(())
 /// ```
@@ -69,10 +68,11 @@ const SWAYS_PER_S: f64 = 20.0;
 const HEAD: &str = "tearmesh play 1\n";
 
 impl<'d> Player<'d> {
-    /// Lets the cloth of a document go.
+    /// Lets the cloth of a document go, in a scene that stands ready or in that of a file.
     ///
-    /// What the scene holds without moving it is held; if nothing is, the first that it moves. A cut at the very
-    /// beginning is made. Everything later is left to the person. A cloth that nothing holds falls onto a floor.
+    /// What the scene holds from the beginning without moving it is held; if nothing is, the first that it moves.
+    /// Seams are sewn, and a cut at the very beginning is made. Everything later is left to the person. A cloth
+    /// that nothing holds falls onto a floor, unless it can fall onto something else.
     ///
     /// # Errors
     ///
@@ -89,13 +89,17 @@ impl<'d> Player<'d> {
         Ok(player)
     }
 
-    /// Repeats a [log](Player::log) with the document that it was made with.
+    /// Repeats a [log](Player::log) with the document that it was made with and [its
+    /// settings](Player::settings_of).
     ///
     /// # Errors
     ///
     /// Why it cannot be repeated, in words.
-    pub fn replayed(document: &'d Document, log: &str) -> Result<Player<'d>, String> {
-        let settings = Player::settings_of(log)?;
+    pub fn replayed(
+        document: &'d Document,
+        settings: Settings,
+        log: &str,
+    ) -> Result<Player<'d>, String> {
         let (_, inputs) = split_log(log).ok_or("the log has no inputs")?;
         let inputs = words(inputs.parse::<InputLog>())?;
         let start = Start::new(document, &settings)?;
@@ -364,11 +368,11 @@ impl Start {
         let points = document.positions();
         let positions = words(Positions::new(points.iter().copied()))?;
         let frame = Frame::new(&mesh, points, settings.up);
-        let scene = settings.scene(&frame);
-        let still = scene.holds.iter().filter(|hold| hold.moves.is_empty());
-        let mut still: Vec<_> = still.collect();
+        let scene = settings.scene(&frame)?;
+        let first = || scene.holds.iter().filter(|hold| hold.from_s == 0.0);
+        let mut still: Vec<_> = first().filter(|hold| hold.moves.is_empty()).collect();
         if still.is_empty() {
-            still.extend(scene.holds.first());
+            still.extend(first().next());
         }
         let held = still.iter();
         let held = held.flat_map(|hold| hold.region.vertices(&mesh, points, &frame));
@@ -376,40 +380,37 @@ impl Start {
         held.sort_unstable();
         held.dedup();
         let first = scene.cuts.iter().filter(|cut| cut.at_s == 0.0);
-        let cuts = first.filter_map(|cut| Scissor::new(cut.rays[0], cut.rays[1]).ok());
+        let cuts = first.filter_map(|cut| {
+            let scissor = Scissor::new(cut.rays[0], cut.rays[1]).ok();
+            scissor.map(|scissor| scissor.through(cut.through))
+        });
+        let mut loads = scene.loads();
+        if held.is_empty() && loads.colliders.is_empty() {
+            let up = frame.up.vector();
+            let below = frame.point([0.0; 3]) - up * (0.5 * frame.size_m());
+            let floor = Plane::new(below, up).map(Collider::plane);
+            loads.colliders.extend(floor);
+        }
         Ok(Start {
             cuts: cuts.collect(),
-            def: definition(&scene, settings, &frame, held.is_empty()),
+            def: SimulationDef {
+                density_kg_per_m2: scene.areal_density_kg_per_m2,
+                fabric: scene.fabric,
+                method: scene.solver.clone(),
+                tearing: scene.tearing,
+                strengths: words(scene.vertex_strengths(&mesh, points, &frame))?,
+                seams: scene.seams,
+                loads,
+                step_s: scene.step_s,
+                is_recorded: true,
+                ..SimulationDef::default()
+            },
             mesh,
             positions,
             held,
             wind: scene.wind,
             size_m: frame.size_m(),
         })
-    }
-}
-
-fn definition(scene: &Scene, settings: &Settings, frame: &Frame, is_loose: bool) -> SimulationDef {
-    let gravity = scene.gravity_m_per_s2;
-    let floor = || {
-        let below = frame.point([0.0; 3]) - frame.up.vector() * (0.5 * frame.size_m());
-        let plane = Plane::new(below, frame.up.vector()).ok();
-        plane.map(Collider::plane)
-    };
-    let threshold = settings.threshold.map(Threshold::Stretch);
-    SimulationDef {
-        density_kg_per_m2: scene.areal_density_kg_per_m2,
-        fabric: scene.fabric,
-        method: scene.solver.clone(),
-        tearing: threshold.map(Tearing::new),
-        loads: Loads {
-            gravity_m_per_s2: Some(gravity).filter(|gravity| length(*gravity) > 0.0),
-            drag_per_s: Some(scene.drag_per_s).filter(|drag| *drag > 0.0),
-            wind: scene.wind.map(|wind| wind.at(0.0)),
-            colliders: is_loose.then(floor).flatten().into_iter().collect(),
-        },
-        is_recorded: true,
-        ..SimulationDef::default()
     }
 }
 

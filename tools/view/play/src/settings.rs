@@ -3,8 +3,8 @@
 use std::str::FromStr;
 
 use tearmesh::shapes;
-use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::{Axis, Frame, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Preset, Scene};
+use tearmesh_cloth::{Method, Tearing, Threshold};
 use tearmesh_obj::Document;
 
 /// The settings of a cloth that is played with. As text, each is a line: its name, and its value.
@@ -19,11 +19,16 @@ use tearmesh_obj::Document;
 pub struct Settings {
     /// The cloth.
     pub cloth: ClothSource,
-    scene: fn(&Frame) -> Scene,
+    /// `None` for that of a file.
+    scene: Option<Preset>,
+    /// The scene of the file, which is not in the text.
+    pub plan: Option<Scene>,
     /// The upward direction.
     pub up: Axis,
-    method: Method,
-    /// The ratio of length to rest length at which an edge tears; `None` for never.
+    /// `None` for that of the scene.
+    method: Option<Method>,
+    /// The ratio of length to rest length at which an edge tears, infinite for never; `None` for the rules of the
+    /// scene.
     pub threshold: Option<f64>,
     /// All of them, as they were read.
     pub(crate) text: String,
@@ -45,12 +50,23 @@ pub const VERTICES_MAX: usize = 20_000;
 pub const CELLS_MAX: u32 = 128;
 
 impl Settings {
-    /// Returns the scene for a cloth in this frame, with the chosen method.
-    pub(crate) fn scene(&self, frame: &Frame) -> Scene {
-        Scene {
-            solver: self.method.clone(),
-            ..(self.scene)(frame)
+    /// Returns the scene for a cloth in this frame, with what was chosen. Where a scene that stands ready would
+    /// strengthen the cloth for its own grip, hands grip where they grab.
+    pub(crate) fn scene(&self, frame: &Frame) -> Result<Scene, String> {
+        let ready = self.scene.map(|ready| Scene {
+            strengths: Vec::new(),
+            ..ready(frame)
+        });
+        let scene = ready.or_else(|| self.plan.clone());
+        let mut scene = scene.ok_or("the scene is in a file that is not here")?;
+        if let Some(method) = &self.method {
+            scene.solver = method.clone();
         }
+        if let Some(ratio) = self.threshold {
+            let tearing = Tearing::new(Threshold::Stretch(ratio));
+            scene.tearing = ratio.is_finite().then_some(tearing);
+        }
+        Ok(scene)
     }
 
     /// Reads the cloth. `obj` is the content of its file, for one that has a file.
@@ -115,14 +131,22 @@ impl FromStr for Settings {
         let source = source.or(sheet.map(ClothSource::Sheet));
         let cloth = source.ok_or_else(|| unknown("cloth", cloth))?;
         let threshold = match threshold {
-            "never" => None,
+            "scene" => None,
+            "never" => Some(f64::INFINITY),
             ratio => Some(ratio.parse().map_err(|_| unknown("threshold", ratio))?),
         };
         Ok(Settings {
             cloth,
-            scene: find(&Scene::PRESETS, scene).ok_or(unknown("scene", scene))?,
+            scene: match scene.starts_with("file ") {
+                true => None,
+                false => Some(find(&Scene::PRESETS, scene).ok_or(unknown("scene", scene))?),
+            },
+            plan: None,
             up: find(&Axis::NAMED, up).ok_or(unknown("direction", up))?,
-            method: Method::named(method).ok_or(unknown("method", method))?,
+            method: match method {
+                "scene" => None,
+                name => Some(Method::named(name).ok_or(unknown("method", name))?),
+            },
             threshold,
             text: text.to_owned(),
         })

@@ -181,7 +181,10 @@ class Scene {
     gl.uniformMatrix4fv(names.matrix, false, camera.matrix(box));
     gl.uniform3fv(names.eye, camera.eye);
     gl.uniform1f(names.nearer, nearer);
-    if (names.places) gl.uniform1i(names.places, 0);
+    if (names.places) {
+      gl.uniform1i(names.places, 0);
+      gl.bindTexture(gl.TEXTURE_2D, this.texture);
+    }
     return names;
   }
 

@@ -19,6 +19,7 @@ class Cloth {
     return answer;
   }
   file(bytes) { this.give(bytes); this.wasm.take_file(); }
+  scene(plan) { this.give(new TextEncoder().encode(plan)); this.ask(this.wasm.take_scene()); }
   start(settings) { this.give(new TextEncoder().encode(settings)); this.ask(this.wasm.start()); }
   replay(log) { this.give(new TextEncoder().encode(log)); this.ask(this.wasm.replay()); }
   get positions() { return this.block(0, Float32Array); }

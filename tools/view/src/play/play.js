@@ -7,6 +7,8 @@ const short = (x) => String(Number(x.toPrecision(4))).replace("-", "−");
 const BUDGET_MS = 12, LONGEST_S = 1 / 20, FRAME_MS = 1000 / 60;
 // The force of the wind that is chosen, in kg/(m² s): that of the scene `flag`.
 const WIND = 1.5;
+// What the cloth lies on is grey.
+const GREY = [[158, 158, 158]];
 
 async function open() {
   if (!("DecompressionStream" in window)) throw new Error("This page needs a browser of 2023 or later.");
@@ -19,7 +21,7 @@ async function open() {
   const prefersDark = matchMedia("(prefers-color-scheme: dark)");
   let scene = new Scene(canvas);
   let file = null, isDark, hasEdges = false, mode = "hand", isPaused = false, isStopped = false;
-  let lattice, box, places, corners, facts, topology = "";
+  let solids = null, allSolids, lattice, box, places, corners, facts, topology = "";
   // The first point of a cut, a line that is being drawn, and the OBJ file before the last cut.
   let first = null, drawn = null, before = null;
 
@@ -47,9 +49,13 @@ async function open() {
   const name = () => (file ? file.name : `sheet-${$("source").value}.obj`);
   const stem = () => name().replace(/\.obj$/i, "");
 
+  const isOfFile = () => $("held").value.startsWith("file ");
+
   function start() {
     const values = Object.fromEntries(["held", "up", "method", "threshold"].map((id) => [id, $(id).value]));
     const source = $("source").value;
+    // The scene of a file is of its own mesh.
+    if (isOfFile() && !(source === "file" && file.name === data.file)) values.held = $("held").value = "rip";
     const settings = `cloth ${source === "file" ? `file ${file.name}` : `sheet ${source}`}\nscene ${values.held}\nup ${values.up}\nmethod ${values.method}\nthreshold ${values.threshold}\n`;
     const isStarted = tried(() => (cloth.start(settings), true)) ?? false;
     if (isStarted) begin();
@@ -68,16 +74,48 @@ async function open() {
     const raw = cloth.positions, all = boxOf(raw, cloth.indices);
     const side = Math.max(...sub(all.most, all.least)) || 1;
     lattice = { origin: all.least, side };
+    solids = isOfFile() ? allSolids ??= makeSolids() : null;
     refresh();
     aim();
     const up = $("up").selectedOptions[0].textContent;
-    const held = facts.heldFirst === 0 ? "Nothing holds it; the floor is half its size below."
+    const held = facts.heldFirst === 0 ? `Nothing holds it${isOfFile() ? "" : "; the floor is half its size below"}.`
       : $("held").value === "rip" ? `Held by its highest 3 % along ${up}: ${facts.heldFirst} vertices.`
       : `Held by ${facts.heldFirst} vertices.`;
     $("holds").textContent = held + (side > 20 ? ` It is ${short(side)} m long: is the file in millimetres?` : "");
     if ($("wind").value !== "scene") blow();
     slow.length = 0;
     cost = told = 0;
+  }
+
+  // What the scene of a file has the cloth lie on: bodies and balls.
+  function makeSolids() {
+    const raw = [], corners = [];
+    for (const { shape } of JSON.parse(data.plan).colliders) {
+      const [points, faces] = shape.Body?.body ?? (shape.Sphere ? ball(shape.Sphere) : [[], []]), first = raw.length / 3;
+      for (const p of points) raw.push(...p);
+      for (const f of faces) corners.push(...f.map((v) => first + v));
+    }
+    if (!corners.length) return null;
+    const places = Float64Array.from(raw, (x, i) => (x - lattice.origin[i % 3]) / lattice.side);
+    const made = { scene: new Scene(canvas), box: boxOf(places, corners) };
+    made.scene.setState({ corners: Uint32Array.from(corners), pieces: new Uint32Array(corners.length / 3) });
+    made.scene.setPlaces(places);
+    return made;
+  }
+
+  // The points and faces of a ball, round the axis z.
+  function ball({ centre, radius_m: radius }) {
+    const points = [], faces = [], rows = 16, around = 32;
+    for (let i = 0; i <= rows; i++) {
+      for (let j = 0; j < around; j++) {
+        const [polar, turn] = [Math.PI * i / rows, 2 * Math.PI * j / around];
+        const out = [Math.sin(polar) * Math.cos(turn), Math.sin(polar) * Math.sin(turn), Math.cos(polar)];
+        points.push(add(centre, times(out, radius)));
+        const [a, b] = [i * around + j, i * around + (j + 1) % around];
+        if (i < rows) faces.push([a, a + around, b], [b, a + around, b + around]);
+      }
+    }
+    return [points, faces];
   }
 
   // Looks at the broad side, a little from the side and from above.
@@ -95,7 +133,7 @@ async function open() {
 
   // Sees the cloth, and where it will go: a cloth that nothing holds, down to the floor.
   function fit() {
-    const room = times(sub(box.most, box.least), 0.12), down = times(camera.upright, facts.heldFirst ? 0 : -0.5);
+    const room = times(sub(box.most, box.least), 0.12), down = times(camera.upright, facts.heldFirst || isOfFile() ? 0 : -0.5);
     const seen = { least: sub(box.least, room), most: add(box.most, room) };
     down.forEach((x, axis) => { seen[x < 0 ? "least" : "most"][axis] += x; });
     camera.goHome();
@@ -122,6 +160,11 @@ async function open() {
       pins = Array.from(cloth.held.entries()).filter(([, is]) => is).map(([v]) => v);
     }
     box = boxOf(places, corners);
+    if (solids) {
+      for (const [end, wins] of [["least", Math.min], ["most", Math.max]]) {
+        box[end] = box[end].map((x, axis) => wins(x, solids.box[end][axis]));
+      }
+    }
     scene.setPlaces(places);
     for (const kind of ["boundary", "seam"]) scene.setEdges(kind, ends[kind]);
   }
@@ -282,6 +325,7 @@ async function open() {
   function draw() {
     const colors = isDark ? data.colors.dark : data.colors.light;
     scene.begin(colors.background);
+    solids?.scene.drawFaces(camera, box, GREY, data.light);
     scene.drawFaces(camera, box, data.colors.pieces, data.light);
     if (hasEdges) scene.drawEdges(camera, box, colors.edge, 0.45);
     scene.drawLines("boundary", camera, box, colors.boundary, 1.7);
@@ -488,7 +532,7 @@ async function open() {
     const bytes = new Uint8Array(await dropped.arrayBuffer());
     const head = new TextDecoder().decode(bytes.subarray(0, 16));
     if (head.startsWith("tearmesh play 1")) return replay(new TextDecoder().decode(bytes));
-    const had = file, source = $("source").value;
+    const had = file, source = $("source").value, held = $("held").value;
     use(bytes, dropped.name);
     if (start()) return pause(false);
     // A file that is refused changes nothing.
@@ -497,6 +541,7 @@ async function open() {
     else $("source").querySelector("[value=file]").remove();
     file = had;
     $("source").value = source;
+    $("held").value = held;
     $("title").textContent = had ? had.name : data.title;
     say(`${dropped.name}: ${why}`, 30);
   }
@@ -546,6 +591,7 @@ async function open() {
   canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
   canvas.addEventListener("webglcontextrestored", () => {
     scene = Object.assign(new Scene(canvas), { isFiner: scene.isFiner });
+    solids &&= allSolids = makeSolids();
     topology = "";
     refresh();
   });
@@ -553,7 +599,16 @@ async function open() {
   prefersDark.addEventListener("change", () => setTheme(prefersDark.matches));
   setTheme(prefersDark.matches);
   camera.size = [$("stage").clientWidth || 1, $("stage").clientHeight || 1];
-  $("held").value = data.scene;
+  if (data.plan) {
+    cloth.scene(data.plan);
+    $("held").prepend(new Option(data.scene, `file ${data.scene}`));
+    // It has a method and rules of its own.
+    for (const id of ["method", "threshold"]) {
+      $(id).prepend(new Option("of the scene", "scene"));
+      $(id).value = "scene";
+    }
+  }
+  $("held").value = data.plan ? `file ${data.scene}` : data.scene;
   $("up").value = data.up;
   if (data.file) use(bytes.slice(4 + length), data.file);
   choose("hand");
