@@ -8,7 +8,7 @@ use serde_json::json;
 use tearmesh_play::Player;
 
 use crate::chrome::Chrome;
-use crate::harness::Folder;
+use crate::harness::{Folder, content, root};
 use crate::random::Random;
 use crate::screen::is_seam;
 
@@ -117,24 +117,33 @@ impl Played {
 
     /// Saves the log, and compares three times: as it was lived, repeated natively, repeated in the browser.
     fn repeats(&mut self) {
+        self.repeats_as("sheet-32");
+    }
+
+    /// Does so with files that have a name.
+    fn repeats_as(&mut self, stem: &str) {
+        let [log_name, obj_name] = [".log", "-torn.obj"].map(|end| format!("{stem}{end}"));
         self.chrome
             .value("pause.textContent === 'Pause' && pause.click()");
         self.chrome.drawn();
-        let log = self.saved("record", "sheet-32.log");
+        let log = self.saved("record", &log_name);
         let digest = self.digest();
-        let obj = self.saved("save", "sheet-32-torn.obj");
+        let obj = self.saved("save", &obj_name);
         let log = String::from_utf8(log).expect("a log is text");
-        let settings = Player::settings_of(&log).expect("settings");
-        let document = settings.document(&[]).expect("a sheet");
+        let mut settings = Player::settings_of(&log).expect("settings");
+        let (page, file) = content(&self.folder.read("play.html"));
+        let plan = page["plan"].as_str();
+        settings.plan = plan.map(|plan| serde_json::from_str(plan).expect("a scene"));
+        let document = settings.document(&file).expect("a cloth");
         let native = Player::replayed(&document, settings, &log).expect("a replay");
         assert_eq!(format!("{:016x}", native.digest()), digest, "native");
         assert!(native.obj().expect("a file") == obj, "the same file");
-        self.take("sheet-32.log");
+        self.take(&log_name);
         self.wait("it is repeated", |played| {
             played.chrome.text("say").starts_with("Repeated")
         });
         assert_eq!(self.digest(), digest, "in the browser");
-        let again = self.saved("save", "sheet-32-torn.obj");
+        let again = self.saved("save", &obj_name);
         assert!(again == obj, "the same file, repeated");
     }
 }
@@ -261,6 +270,47 @@ fn fingers_pull_pin_and_turn() {
     played.chrome.size(390, 844);
     played.chrome.drawn();
     assert!(!played.chrome.sticks_out());
+    played.chrome.was_quiet();
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn a_shirt_is_sewn_round_a_body_cut_and_ripped() {
+    let folder = Folder::new();
+    for name in ["dress.obj", "dress.toml", "dummy.obj"] {
+        let from = root().join("tests/data").join(name);
+        folder.write(name, fs::read(from).expect(name));
+    }
+    let Some(mut played) = Played::within(folder, "dress.obj --scene dress.toml") else {
+        return;
+    };
+    // The body is drawn where the cloth leaves it bare: its neck is grey.
+    let size = [680.0, 640.0];
+    let grey =
+        |[r, g, b]: [u8; 3]| r.abs_diff(g) < 2 && g.abs_diff(b) < 2 && (60..190).contains(&r);
+    let bare = played.chrome.screen(size).places(grey).len();
+    assert!(bare > 500, "{bare} grey pixels");
+    played.until("pieces", |pieces| pieces == 1.0);
+    played.until("vertices", |vertices| vertices == 794.0);
+    played.chrome.press("front");
+    played.chrome.press("cut");
+    played.chrome.drag([330.0, 330.0], [345.0, 450.0]);
+    assert!(played.chrome.text("say").starts_with("Cut: "));
+    played.chrome.press("hand");
+    played.pull([325.0, 470.0], [105.0, 550.0], 1.2);
+    played.chrome.mouse("mouseReleased", [105.0, 550.0]);
+    assert!(played.fact("tears") > 10.0, "the pull rips it");
+    played.repeats_as("dress");
+    played.folder.done("check dress-torn.obj");
+    // Another mesh is played in a scene that stands ready, and without the body.
+    played
+        .folder
+        .write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    played.take("other.obj");
+    played.until("faces", |faces| faces == 1.0);
+    let ready = played.chrome.value("held.value");
+    assert_eq!(ready.as_str(), Some("rip"));
+    assert!(played.chrome.screen(size).places(grey).len() < bare / 4);
     played.chrome.was_quiet();
 }
 

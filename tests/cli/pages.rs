@@ -1,34 +1,18 @@
 //! Pages: by `view`, and those that other verbs leave beside a mesh.
 
 use std::fs;
-use std::io::Read as _;
 
-use base64::Engine as _;
 use serde_json::Value;
 
-use crate::harness::Folder;
 #[cfg(unix)]
 use crate::harness::interrupted_at;
+use crate::harness::{Folder, content};
 
 const CUT: &str = "cut sheet.obj --rays 0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1";
 
 /// The text of a page.
 fn text(html: &str) -> Value {
     content(html).0
-}
-
-/// The text of a page, and the bytes behind it.
-pub(crate) fn content(html: &str) -> (Value, Vec<u8>) {
-    let (_, data) = html.split_once("type=\"text/plain\">").expect("data");
-    let (data, _) = data.split_once('<').expect("an end");
-    let packed = base64::engine::general_purpose::STANDARD.decode(data);
-    let packed = packed.expect("base64");
-    let mut bytes = Vec::new();
-    let mut inflated = flate2::read::ZlibDecoder::new(&packed[..]);
-    inflated.read_to_end(&mut bytes).expect("zlib");
-    let length = u32::from_le_bytes(bytes[..4].try_into().expect("four bytes")) as usize;
-    let behind = bytes.split_off(4 + length);
-    (serde_json::from_slice(&bytes[4..]).expect("JSON"), behind)
 }
 
 /// The moments of a page in a file.

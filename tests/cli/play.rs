@@ -4,8 +4,7 @@ use tearmesh::{Point, Ray, Vector};
 use tearmesh_cloth::ColliderShape;
 use tearmesh_play::{Player, Settings};
 
-use crate::harness::{Folder, root};
-use crate::pages::content;
+use crate::harness::{Folder, content, root};
 
 #[test]
 fn a_mesh_that_is_too_large_is_refused_with_its_number() {
