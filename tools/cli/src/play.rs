@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use tearmesh::CutMethod;
-use tearmesh_cloth::scene::{Frame, Preset, Scene};
+use tearmesh_cloth::scene::{Frame, HeldVertices, Preset, Scene};
 use tearmesh_obj::TornDocument;
 use tearmesh_view::PlayPage;
 
@@ -67,18 +67,16 @@ pub(crate) fn run(
 
 /// A warning of all that the page leaves to hands.
 fn left(scene: &Scene) -> Option<Fault> {
-    let holds = scene.holds.iter().map(|hold| {
-        let is_kept = hold.from_s == 0.0 && hold.until_s.is_none() && hold.moves.is_empty();
-        ("hold", is_kept)
-    });
-    let cuts = scene.cuts.iter();
-    let cuts = cuts.map(|cut| ("cut", cut.at_s == 0.0 && cut.method == CutMethod::Exact));
-    let all = (1..).zip(holds).chain((1..).zip(cuts));
-    let left = all.filter(|(_, (_, is_kept))| !is_kept);
-    let names: Vec<String> = left.map(|(n, (what, _))| format!("{what} {n}")).collect();
+    let holds = (1..).zip(&scene.holds);
+    let holds = holds.filter(|(_, hold)| **hold != HeldVertices::still(hold.region.clone()));
+    let cuts = (1..).zip(&scene.cuts);
+    let cuts = cuts.filter(|(_, cut)| cut.at_s > 0.0 || cut.method != CutMethod::Exact);
+    let names = holds.map(|(number, _)| format!("hold {number}"));
+    let names = names.chain(cuts.map(|(number, _)| format!("cut {number}")));
+    let names = names.collect::<Vec<_>>().join(", ");
     let message = "the page leaves to the hand what moves, begins or ends later, or is not exact";
-    let message = format!("{message}: {}", names.join(", "));
-    (!names.is_empty()).then(|| Fault::warning("W-PLAY-HAND", message))
+    let fault = Fault::warning("W-PLAY-HAND", format!("{message}: {names}"));
+    (!names.is_empty()).then_some(fault)
 }
 
 /// The file that the page is given: as it was read, and repaired where that was wanted.

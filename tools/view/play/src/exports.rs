@@ -92,12 +92,7 @@ extern "C" fn take_scene() -> bool {
 extern "C" fn start() -> bool {
     MODULE.with_borrow_mut(|module| {
         let settings = module.input_text().parse();
-        let started = settings.and_then(|mut settings: Settings| {
-            settings.plan = module.plan.clone();
-            let document = module.document(&settings)?;
-            Player::new(document, settings)
-        });
-        module.replace(started)
+        module.replace(settings, Player::new)
     })
 }
 
@@ -106,12 +101,8 @@ extern "C" fn start() -> bool {
 extern "C" fn replay() -> bool {
     MODULE.with_borrow_mut(|module| {
         let text = module.input_text();
-        let replayed = Player::settings_of(&text).and_then(|mut settings| {
-            settings.plan = module.plan.clone();
-            let document = module.document(&settings)?;
-            Player::replayed(document, settings, &text)
-        });
-        module.replace(replayed)
+        let again = |document, settings| Player::replayed(document, settings, &text);
+        module.replace(Player::settings_of(&text), again)
     })
 }
 
@@ -277,11 +268,20 @@ impl Module {
         String::from_utf8_lossy(&self.input).into_owned()
     }
 
-    fn replace(&mut self, player: Result<Player<'static>, String>) -> bool {
-        let player = player.map_err(|why| self.text = why.into_bytes());
-        let is_there = player.is_ok();
-        if let Ok(player) = player {
-            self.player = Some(player);
+    /// Puts a player in the place of the one before; whether there is one for these settings.
+    fn replace(
+        &mut self,
+        settings: Result<Settings, String>,
+        player: impl FnOnce(&'static Document, Settings) -> Result<Player<'static>, String>,
+    ) -> bool {
+        let made = settings.and_then(|mut settings| {
+            settings.plan = self.plan.clone();
+            player(self.document(&settings)?, settings)
+        });
+        let made = made.map_err(|why| self.text = why.into_bytes()).ok();
+        let is_there = made.is_some();
+        if is_there {
+            self.player = made;
             self.draw();
         }
         is_there
