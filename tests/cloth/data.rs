@@ -8,7 +8,8 @@ use tearmesh::geometry::Ray;
 use tearmesh::{CutMethod, Plane, Point, Vector, VertexId, shapes};
 use tearmesh_cloth::scene::{HeldVertices, Region, Run, Scene, TimedCut};
 use tearmesh_cloth::{
-    Bending, Body, Buckling, Collider, Fabric, Method, Seam, Tearing, Threshold, Weave, implicit,
+    Bending, Body, Buckling, Collider, ColliderShape, Fabric, Method, Path, Seam, Tearing,
+    Threshold, Weave, implicit,
 };
 
 use crate::digest;
@@ -34,6 +35,10 @@ fn scene(up: &tearmesh_cloth::scene::Frame) -> Scene {
         until_s: Some(0.15),
         moves: vec![(0.02, Vector::zeros()), (0.1, Vector::new(0.0, -0.3, 0.1))],
     };
+    let mut moved = Collider::body(Arc::new(body)).with_friction(0.4);
+    if let ColliderShape::Body { motion, .. } = &mut moved.shape {
+        motion.moves = Path::new([(0.0, Point::origin()), (0.2, Point::new(0.1, 0.0, 0.3))]);
+    }
     let cut = TimedCut {
         at_s: 0.05,
         rays: [ray(0.3), ray(0.7)],
@@ -50,7 +55,7 @@ fn scene(up: &tearmesh_cloth::scene::Frame) -> Scene {
         colliders: vec![
             Collider::plane(floor.expect("a plane")),
             Collider::sphere(Point::new(0.5, 0.5, -0.2), 0.1).with_friction(0.3),
-            Collider::body(Arc::new(body)).with_friction(0.4),
+            moved,
         ],
         holds: vec![HeldVertices::still(top()), pulled],
         cuts: vec![cut],
@@ -148,6 +153,11 @@ fn what_cannot_be_played_is_not_read() {
             "modulus_n_per_m",
         ),
         ("/fabric/bend/Buckling/law", json!(0.5), "above 0.592"),
+        (
+            "/colliders/2/shape/Body/motion/moves",
+            json!([[1, [0, 0, 0]], [0, [0, 0, 0]]]),
+            "times that ascend",
+        ),
         (
             "/solver",
             json!({"Pbd": {"sweeps": 1, "stiffness": 2, "bend_stiffness": 0}}),

@@ -5,8 +5,10 @@ use std::error::Error;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use tearmesh::Point;
+
 use crate::scene::Scene;
-use crate::{Fabric, Method, SettingError, Tearing};
+use crate::{Fabric, Method, Path, SettingError, Tearing};
 
 /// What is read field by field, and is then refused for what a check says.
 macro_rules! checked {
@@ -30,6 +32,20 @@ checked!(Fabric, Fabric::check);
 checked!(Method, |method: &Method| method.solver().check());
 checked!(Scene, check);
 checked!(Tearing, Tearing::check);
+
+impl From<Path> for Vec<(f64, Point)> {
+    fn from(path: Path) -> Vec<(f64, Point)> {
+        path.points.to_vec()
+    }
+}
+
+impl TryFrom<Vec<(f64, Point)>> for Path {
+    type Error = &'static str;
+
+    fn try_from(points: Vec<(f64, Point)>) -> Result<Path, &'static str> {
+        Path::new(points).ok_or("a path has points that are finite, at times that ascend")
+    }
+}
 
 /// Refuses a scene that no mesh could be played with.
 fn check(scene: &Scene) -> Result<(), Box<dyn Error>> {

@@ -113,8 +113,11 @@ impl Loads {
                     SettingError::unless_positive("colliders.radius_m", *radius_m)?;
                 }
                 ColliderShape::Body {
-                    body, thickness_m, ..
+                    body,
+                    thickness_m,
+                    motion,
                 } => {
+                    finite("colliders.motion.about", motion.about.coords)?;
                     let (given, setting) = (*thickness_m, "colliders.thickness_m");
                     let holds = given >= body.error_worst_m() && given.is_finite();
                     let allowed = "at least the largest error of the body's grid";
@@ -218,6 +221,11 @@ impl ColliderShape {
 /// The path of a grabbed particle: straight from point to point, at rest before the first time and
 /// after the last.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<(f64, Point)>", into = "Vec<(f64, Point)>")
+)]
 pub struct Path {
     /// When to be where; at least one, ascending. Shared by all particles that the path leads.
     pub(crate) points: Arc<[(f64, Point)]>,

@@ -22,6 +22,7 @@ use crate::load::Path;
 /// assert!((corner - Point::new(1.0, 2.0, -1.0)).norm() < 1e-12);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RigidMotion {
     /// The path of its offset from where it was made, in metres; `None` if it has none.
     pub moves: Option<Path>,
