@@ -186,6 +186,17 @@ fn a_vertex_without_a_face_keeps_its_number() {
     assert_eq!((mesh.check(), nothing.check()), (vec![], vec![]));
 }
 
+#[test]
+fn a_torn_mesh_is_not_the_one_that_its_indices_make() {
+    let mut torn = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect("two faces");
+    for vertex in [v(1), v(2)] {
+        split::vertex(&mut torn, vertex, &[f(1)], &mut Edits::new()).expect("a split");
+    }
+    let apart = Mesh::build(6, torn.indices().as_chunks().0).expect("two faces");
+    assert_eq!(apart.indices(), torn.indices());
+    assert_ne!(apart, torn);
+}
+
 /// A cut asked for the positions of vertices that its own splits had just made; and a chord across a
 /// face without a point was passed over in silence.
 #[test]

@@ -246,6 +246,9 @@ fn logs_that_differ_in_one_record_have_different_cursors() {
         "insert 0 edge 0 32",
         "insert 0 edge 0 16",
         "insert 1 edge 0 32",
+        "insert 3 face 0 1 2 1",
+        "insert 3 face 0 1 1 2",
+        "insert 3 face 0 3 4 1",
         "slide any 0 1 32",
         "slide any 0 1 16",
         "slide any 1 0 16",
@@ -253,7 +256,9 @@ fn logs_that_differ_in_one_record_have_different_cursors() {
         let script: Script = format!("grid 2 2 0\n{operation}")
             .parse()
             .expect("a script");
-        let cursor = script.run(|_, _| {}).edits.cursor();
+        let edits = script.run(|_, _| {}).edits;
+        assert_eq!(edits.is_empty(), operation.is_empty());
+        let cursor = edits.cursor();
         assert!(!cursors.contains(&cursor), "{operation}");
         cursors.push(cursor);
     }

@@ -1,7 +1,9 @@
 //! Points and planes, and values between values.
 
 use tearmesh::geometry::between;
-use tearmesh::{Blend, Plane, PlaneError, Point, Positions, Ray, RayError, Side, Vector};
+use tearmesh::{
+    Blend, FaceId, Mesh, Plane, PlaneError, Point, Positions, Ray, RayError, Side, Vector, classify,
+};
 
 #[test]
 fn between_equal_values_is_that_value_bit_for_bit() {
@@ -17,6 +19,10 @@ fn between_equal_values_is_that_value_bit_for_bit() {
     let half = between(Point::new(1.0, 2.0, 3.0), Point::new(2.0, 4.0, 1.0), 0.5);
     assert_eq!(half, Point::new(1.5, 3.0, 2.0));
     assert_eq!(2.0.between(&4.0, 0.25), 2.5);
+    assert_eq!(2.0_f32.between(&4.0, 0.25), 2.5);
+    assert_eq!(f32::weighted([&1.0, &2.0, &4.0], [0.25, 0.25, 0.5]), 2.75);
+    let [one, other] = [2.0, 4.0].map(|x| Vector::x() * x);
+    assert_eq!(one.between(&other, 0.25), Vector::x() * 2.5);
 }
 
 #[test]
@@ -26,6 +32,18 @@ fn a_point_on_an_oblique_plane_has_offset_zero() {
         let offset = plane.offset(Point::new(3.0, 3.0, z));
         assert_eq!((offset == 0.0, Side::of(offset)), (z == -1.0, side));
     }
+}
+
+/// Each order of its corners rounds to another sum of their offsets.
+#[test]
+fn the_side_of_a_face_does_not_depend_on_its_first_corner() {
+    let points = [1e16, -1.0, -1e16].map(|x| [x, 0.0, 0.0]);
+    let plane = Plane::new(Point::origin(), Vector::x()).expect("usable");
+    let sides = [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(|face| {
+        let mesh = Mesh::build(3, &[face]).expect("a face");
+        classify::face(&mesh, FaceId::new(0).expect("an id"), &plane, &points[..])
+    });
+    assert!(sides.iter().all(|&side| side == sides[0]), "{sides:?}");
 }
 
 #[test]

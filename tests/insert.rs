@@ -1,6 +1,6 @@
 //! Insertions and merges at the ends of what numbers and ids allow. (All else of them is in lock step.)
 
-use tearmesh::insert::{InsertRefusal, Plan};
+use tearmesh::insert::{ChordEnd, InsertRefusal, Plan};
 use tearmesh::mend::{Stitch, StitchError};
 use tearmesh::{Edits, FaceId, HalfEdgeId, Mesh, VertexId, mend, shapes, split};
 
@@ -43,6 +43,48 @@ fn refused(whole: &Mesh, plan: &Plan) -> Option<InsertRefusal> {
     assert_eq!(mesh.check(), []);
     assert!(refusal.is_none() || mesh == *whole && edits.is_empty());
     refusal
+}
+
+/// Of all that cross a face with three points on its edges, no two are in one triangulation.
+#[test]
+fn chords_count_in_whatever_order_they_are_given() {
+    let (square, _) = shapes::grid(1, 1);
+    let mut shared = square.half_edges().filter(|&h| square.pair(h).is_some());
+    let sides = [(); 2].map(|()| shared.next().expect("an edge with two faces"));
+    for which in 0..16 {
+        let made = [false, true].map(|is_backward| {
+            let (mut mesh, mut plan) = (square.clone(), Plan::new());
+            let on_shared = [0.25, 0.75].map(|t| plan.on_edge(sides[0], t));
+            let mut chords = [0, 1].map(|side| {
+                let (h, which) = (sides[side], which >> (2 * side));
+                let beside = ChordEnd::Point(plan.on_edge(h.next(), 0.5));
+                let one = [beside, ChordEnd::Corner(h.prev())][which & 1];
+                (h.face(), [one, ChordEnd::Point(on_shared[which >> 1 & 1])])
+            });
+            if is_backward {
+                chords.reverse();
+            }
+            chords.into_iter().for_each(|(f, ends)| plan.chord(f, ends));
+            plan.apply(&mut mesh, &mut Edits::new()).expect("chords");
+            mesh
+        });
+        assert_eq!(made[0], made[1], "chords {which}");
+    }
+}
+
+/// The second point is on the edge from a corner to the first, which each piece of the star has elsewhere.
+#[test]
+fn a_point_on_an_edge_of_the_star_divides_it() {
+    let (square, _) = shapes::grid(1, 1);
+    for corner in 0..3 {
+        let mut plan = Plan::new();
+        let face = square.faces().next().expect("a face");
+        let first = [0.25, 0.25, 0.5];
+        plan.in_face(face, first);
+        let halfway = [0, 1, 2].map(|i| (first[i] + f64::from(u8::from(i == corner))) / 2.0);
+        plan.in_face(face, halfway);
+        assert_eq!(refused(&square, &plan), None, "toward corner {corner}");
+    }
 }
 
 /// Two points that rounding alone tells apart, given from either side of an edge: they are
