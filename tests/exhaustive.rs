@@ -109,7 +109,6 @@ fn edits_of_meshes(kinds: Kinds, faces_max: usize, in_a_row: usize) -> Count {
             }
         });
     }
-    println!("up to {faces_max} faces, {in_a_row} edits in a row: {count:?}");
     count
 }
 

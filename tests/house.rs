@@ -61,9 +61,7 @@ fn no_files_use_each_other_in_a_circle() {
     let mut told = Vec::new();
     for &(folder, root, least) in CRATES {
         let files = files_of(folder, root, None);
-        let (count, edges) = (files.names.len(), files.edges.len());
-        println!("{folder}: {count} files, {edges} edges");
-        assert!(count >= least, "{folder}: {:?}", files.names);
+        assert!(files.names.len() >= least, "{folder}: {:?}", files.names);
         let circles = files.circles().into_iter();
         told.extend(circles.map(|circle| format!("in {folder}:\n    {circle}")));
     }

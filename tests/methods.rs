@@ -55,10 +55,6 @@ fn methods_of_the_paper_leave_what_it_says() {
         };
         let separated = |report: &CutReport| usize::from(report.separated);
         let [is_divided, _, by_alternating] = [&partition, &uniform, &alternating].map(|one| one.1);
-        println!(
-            "{name}: {is_divided}, {}, {by_alternating} divided",
-            uniform.1
-        );
         // "The mesh not being completely divided."
         assert!(uniform.1 <= 2 && sum(&uniform, separated) == 0, "{name}");
         let splits = sum(&uniform, |report| report.splits);

@@ -225,7 +225,6 @@ fn the_first_hit_is_that_of_exact_numbers() {
     for lattice in &lattices {
         tally.shoot(lattice, &mut random, 2 * cases());
     }
-    println!("{tally:?}");
     let least = tally.rays / 20;
     assert!(tally.inside > least && tally.on_edges > least && tally.on_vertices > least);
     assert!(tally.missed > least / 4 && tally.ties > least && tally.at_the_origin > least / 4);

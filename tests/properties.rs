@@ -78,7 +78,6 @@ fn every_step_agrees_with_the_oracle() {
         });
     });
     let done = sum.get();
-    println!("{cases} scripts: {done:?}");
     let least = cases as usize / 10;
     assert!(done.splits > 10 * least && done.insertions > 10 * least && done.merges > 10 * least);
     assert!(done.slides > 10 * least && done.refused > 10 * least);
@@ -219,7 +218,6 @@ impl Triangles {
 /// Every list of up to three oriented triangles on six vertices, and of up to four on five.
 #[test]
 fn all_small_lists_are_built_as_the_oracle_says() {
-    let mut lists = 0;
     for (vertices, most) in [(6, 3), (5, 4)] {
         let mut all = Vec::new();
         for a in 0..vertices {
@@ -232,10 +230,8 @@ fn all_small_lists_are_built_as_the_oracle_says() {
         let mut list = Vec::new();
         all_lists(&all, most, &mut list, &mut |list| {
             building_agrees_with_the_oracle(vertices as usize, list);
-            lists += 1;
         });
     }
-    println!("{lists} lists of triangles");
 }
 
 /// Shows every list of up to `most` triangles, none later in `all` than the next.

@@ -133,6 +133,5 @@ fn exact_cuts_in_lock_step_with_fractions() {
             divided += usize::from(mesh.face_count() > faces);
         }
     }
-    println!("{cuts} cuts, {divided} that divide faces, {torn_before} after another one");
     assert!(divided > cuts / 2 && torn_before > cuts / 3);
 }

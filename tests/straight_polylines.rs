@@ -109,7 +109,6 @@ fn a_polyline_is_one_slit() {
             Err(faults) => panic!("a false alarm: {}", said(&faults)),
         }
     });
-    println!("{count} polylines, {tips:?} of them with 0, 1 and 2 tips");
     assert!(count >= 60 && tips[1] > 5 && tips[2] > 5, "{tips:?}");
 }
 
@@ -141,7 +140,6 @@ fn every_bug_of_a_polyline_is_found() {
             }
         }
     });
-    println!("{tried} bugs in polylines");
     assert!(tried >= 700, "only {tried} bugs");
     assert_eq!(missed, [], "of {tried} bugs");
 }

@@ -92,7 +92,6 @@ fn regression_a_tip_near_an_edge_leaves_no_thin_face() {
 fn tips_keep_faces_from_getting_thin() {
     for snap in [0.02, Scissor::SNAP, 0.2] {
         let bound = snap * (1.0 - snap) * (1.0 - 1e-9);
-        let mut overshoots = Vec::new();
         for_slits(4451, |sheet, ends| {
             let (_, report, least) = slit(sheet, ends, snap, false);
             assert!(report.separated || report.splits == 0, "{ends:?}");
@@ -100,13 +99,7 @@ fn tips_keep_faces_from_getting_thin() {
                 least >= bound,
                 "snap {snap}: {least} by {ends:?} in {sheet:?}"
             );
-            let over = report.tip_overshoots.iter();
-            overshoots.extend(over.map(|over| over.abs() / sheet.mean_edge()));
         });
-        overshoots.sort_by(f64::total_cmp);
-        let at = |part: f64| overshoots[(part * (overshoots.len() - 1) as f64) as usize];
-        let [median, nine_tenths, most] = [0.5, 0.9, 1.0].map(at);
-        println!("snap {snap}: off by {median:.1e}, {nine_tenths:.3}, {most:.3} edges at most");
     }
 }
 

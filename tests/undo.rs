@@ -346,10 +346,6 @@ fn insertions_that_keep_nothing_apart_are_undone() {
         let (whole, _) = plain.restored(mesh, &plan);
         assert_eq!(whole, input, "after sewing\n{script}");
     }
-    println!(
-        "{sewn} sewn; {removed} vertices taken out before that, {left} left, {kept_by_value} of them by the \
-         values at corners; {partly} times some of both"
-    );
     assert!(2 * sewn > count && partly > count && removed > count && left > count);
     assert!(10 * kept_by_value > count);
 }

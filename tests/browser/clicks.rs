@@ -99,7 +99,6 @@ fn cut_at_random(
             false => missed += 1,
         }
     }
-    println!("{mesh}: {hit} cuts, {missed} beside the mesh");
 }
 
 /// Clicks two points, and checks what the page shows. False if they miss the mesh, which is checked too.

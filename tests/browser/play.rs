@@ -161,7 +161,6 @@ fn a_mouse_rips_and_mends_and_saves_what_checks() {
     assert!(played.chrome.screen(size).places(is_seam).is_empty());
     played.pull(MIDDLE, BELOW, 2.0);
     let (tears, vertices) = (played.fact("tears"), played.fact("vertices"));
-    println!("ripped: {tears} tears, {vertices} vertices");
     assert!(tears > 40.0 && vertices > 1120.0, "{tears} tears");
     assert!(played.chrome.screen(size).places(is_seam).len() > 300);
     played.chrome.mouse("mouseReleased", BELOW);
@@ -244,13 +243,11 @@ fn fingers_pull_pin_and_turn() {
     assert!(coarse.apart_from(&fine) > 300, "it is finer");
     played.chrome.key("n");
     // One pins.
-    let pins = played.fact("pins");
     played.chrome.value("reset.click()");
     played.chrome.press("pin");
     played.chrome.touch("touchStart", &[MIDDLE]);
     played.chrome.touch("touchEnd", &[]);
     played.until("pins", |now| now == 34.0);
-    println!("{pins} pins before");
     // Keys work after a click on a box or on the list of keys; that of the pointer's place unpins.
     played.chrome.press("front");
     played
@@ -389,55 +386,4 @@ fn a_file_is_played_and_a_bad_one_changes_nothing() {
     let said = played.chrome.text("say");
     assert!(said.contains("20001 vertices"), "{said}");
     played.chrome.was_quiet();
-}
-
-/// Not asserted, since a busy machine takes what it takes: printed for whoever measures.
-#[test]
-#[ignore = "needs chromium"]
-fn frame_times_are_printed() {
-    let Some(mut played) = Played::open("") else {
-        return;
-    };
-    let page = fs::metadata(played.folder.path("play.html")).expect("a page");
-    let module = "[...atob(module.textContent)].length";
-    let module = played.chrome.value(module).as_u64().expect("a length");
-    let version = played.chrome.call("Browser.getVersion", &json!({}));
-    let browser = version["product"].as_str().unwrap_or_default();
-    let [page, module] = [page.len() / 1000, module * 4 / 3000];
-    println!("page {page} kB, of which the module is {module} kB");
-    println!(
-        "{browser}, headless, without a graphics card; {}",
-        processor()
-    );
-    for (cells, method) in ["32", "64"]
-        .into_iter()
-        .flat_map(|n| [(n, "verlet"), (n, "xpbd")])
-    {
-        played.choose("method", method);
-        played.choose("source", cells);
-        played.chrome.value("fit.click()");
-        played.pull(MIDDLE, BELOW, 1.5);
-        let times = ["median", "p95"].map(|time| {
-            let time = played
-                .chrome
-                .value(&format!("document.body.dataset.{time}"));
-            time.as_str().unwrap_or_default().to_owned()
-        });
-        let tears = played.fact("tears");
-        println!(
-            "{cells} x {cells} cells, {method:6}: {:>6} ms median, {:>6} ms p95 of 1/60 s, {tears} tears",
-            times[0], times[1]
-        );
-        played.chrome.mouse("mouseReleased", BELOW);
-    }
-    played.chrome.was_quiet();
-}
-
-/// The name of the processor, and how many there are.
-fn processor() -> String {
-    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = info.lines().find(|line| line.starts_with("model name"));
-    let name = name.and_then(|line| line.split(": ").nth(1));
-    let count = std::thread::available_parallelism().map_or(1, usize::from);
-    format!("{} × {count}", name.unwrap_or("an unknown processor"))
 }

@@ -36,7 +36,6 @@ fn a_simulation_is_played_and_can_be_turned() {
     // A shadow is on the ground below, which is the background but darker.
     let is_shadow = |[r, g, b]: [u8; 3]| r == g && r.abs_diff(b) < 4 && (120..240).contains(&r);
     let dark = before.places(is_shadow).len();
-    println!("{dark} pixels of shadow");
     assert!(dark > 5000, "{dark} pixels of shadow");
     chrome.set("time", "0");
     assert_eq!(chrome.text("clock"), "0.00 s");
@@ -73,7 +72,6 @@ fn a_simulation_is_played_and_can_be_turned() {
     chrome.press("clear");
     assert_eq!(chrome.text("line"), "");
     let red = chrome.screen(size).places(is_seam).len();
-    println!("{red} red pixels at the end");
     assert!(red > 400, "{red} red pixels");
 
     let before = chrome.hidden_text("render");
@@ -109,7 +107,6 @@ fn a_seam_is_red_by_day_and_by_night_and_names_do_not_break_out() {
         assert_eq!(chrome.value("document.scripts.length"), json!(2));
         // 1.4 of the flag's height of 2, which takes some 500 pixels; the line is 2.4 wide.
         let red = chrome.screen([680.0, 640.0]).places(is_seam).len();
-        println!("{theme}: {red} red pixels");
         assert!((500..1400).contains(&red), "{theme}: {red} red pixels");
     }
     chrome.press("draw");
@@ -170,7 +167,6 @@ fn every_moment_is_in_the_frame() {
         chrome.set("time", &moment.to_string());
         chrome.screen(size).places(is_cloth).len()
     });
-    println!("{counts:?} pixels of cloth");
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
     assert!(counts[3] * 2 > counts[0], "all of it is seen: {counts:?}");
     chrome.was_quiet();

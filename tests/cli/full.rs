@@ -129,5 +129,4 @@ fn standard_output_may_end_at_any_byte() {
             }
         }
     }
-    println!("{cases} ends of standard output");
 }

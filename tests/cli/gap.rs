@@ -208,7 +208,6 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
         let cut = format!("{first} --method {method}");
         gapped_cut(name, &mesh, &cut, (gap, &second), &mut tally);
     }
-    println!("{tally:?}");
     assert!(tally.divided > 40 && tally.moved > 4000 && tally.clamped > 50);
 }
 
@@ -252,7 +251,6 @@ fn real_files_with_a_gap_are_what_they_were() {
         let partition = plane + " --method partition";
         gapped_cut(&name, &bytes, &partition, ("5%", &across), &mut tally);
     }
-    println!("{tally:?}");
     assert!(tally.made > 40);
 }
 
@@ -341,6 +339,5 @@ fn a_gap_beside_a_hub_takes_time_linear_in_its_faces() {
         start.elapsed().as_secs_f64()
     };
     let [few, many] = [5_000, 20_000].map(|faces| seconds(faces).min(seconds(faces)));
-    println!("{few} s, {many} s");
     assert!(many < 9.0 * few, "{few} s, {many} s");
 }

@@ -88,7 +88,6 @@ fn the_map_applied_by_hand_gives_what_is_written() {
             let of_vertices = largest_error(&map["vertices"], &before.vertices, &after.vertices);
             let [own, other] = [&before, &after].map(at_corners);
             let of_corners = largest_error(&map["corners"], &own, &other);
-            println!("{options}: {of_vertices:e} {of_corners:e}");
             assert!(of_vertices <= 1e-15 && of_corners <= 1e-15, "{options}");
             // A face is part of the one at whose corners its own come from.
             let [faces, corners] =

@@ -67,7 +67,6 @@ fn takes_no_more_than_promised(name: &str, faces: &str) {
         let rays = ["--rays", "0.1,0,5:0,0,-1", "0.2,1,5:0,0,-1", "--dry-run"];
         let rays = if verb == "cut" { &rays[..] } else { &[] };
         let (exit, peak) = exit_and_peak(&[&["tearmesh", verb, path], rays].concat());
-        println!("{verb:5} {name:24} {exit}, peak {peak:7} KiB of {allowed:7}");
         assert_eq!(exit, if verb == "cut" { "Input" } else { "NothingCut" });
         assert!(peak <= allowed, "{verb} {name}: {peak} KiB of {allowed}");
     }
@@ -85,7 +84,6 @@ fn regression_repairing_many_fans_keeps_to_the_memory() {
     let args = ["tearmesh", "cut", path, "--repair", "-q", "-o", out];
     let (exit, peak) = exit_and_peak(&[&args[..], &rays].concat());
     let allowed = 12 * file.len() / 1024;
-    println!("300,000 fans: {exit}, peak {peak:7} KiB of {allowed:7}");
     assert_eq!(exit, "Done");
     assert!(peak <= allowed, "{peak} KiB of {allowed}");
 }

@@ -151,10 +151,6 @@ fn a_page_of_120_moments_of_1000_vertices_is_small() {
         .iter()
         .map(|one| one["vertices"].as_u64().expect("a count"));
     let (vertices, bytes) = (vertices.sum::<u64>(), folder.read("t.html").len());
-    println!(
-        "{} moments, {vertices} vertices in all, {bytes} bytes",
-        moments.len()
-    );
     assert!(moments.len() >= 120 && vertices >= 120_000);
     let page = bytes as f64 * 120_000.0 / vertices as f64;
     assert!(page <= 600_000.0, "{page} bytes for each 120 · 1,000");

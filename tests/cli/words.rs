@@ -52,7 +52,6 @@ fn cuts_on_a_lattice_are_told_as_they_are() {
             }
         }
     }
-    println!("{cases} cuts, {twice} of them made twice");
     assert!(twice > 100);
 }
 

@@ -314,7 +314,6 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         }
         assert!(mesh.check().is_empty());
     }
-    println!("{counts:?} edits; {seen:?} triangles, edges of membranes and bends");
     assert!(seen.iter().all(|&seen| seen > 10_000), "{seen:?}");
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
 }

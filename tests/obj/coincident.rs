@@ -72,7 +72,6 @@ fn torn_edges_are_sewn_without_a_record() {
             sewn += pairs.edges();
         }
     }
-    println!("{sewn} pairs sewn");
     assert!(sewn > 500, "{sewn}");
 }
 

@@ -101,7 +101,7 @@ fn shape(random: &mut Random) -> Vec<Place> {
 
 #[test]
 fn triangulation_avoids_thin_faces_where_one_can() {
-    let (mut possible, mut impossible) = (0, 0);
+    let mut possible = 0;
     for seed in 0..3000 {
         let polygon = shape(&mut Random(seed));
         let [least, best] = altitudes(&polygon);
@@ -113,10 +113,7 @@ fn triangulation_avoids_thin_faces_where_one_can() {
                 "case {seed}: {least} of {best}: {polygon:?}"
             );
             possible += 1;
-        } else {
-            impossible += 1;
         }
     }
-    println!("{possible} polygons of 3000 can do without thin faces, {impossible} cannot");
     assert!(possible > 2000, "{possible}");
 }

@@ -112,7 +112,6 @@ fn the_surface_stays_whatever_was_moved() {
         kept += usize::from(edited > 0);
         smaller += usize::from(after.0.len() < lines.0.len());
     }
-    println!("600 files: edited vertices kept in {kept}, something taken out of {smaller}");
     assert!(kept > 100 && smaller > 100, "{kept} {smaller}");
 }
 
@@ -156,7 +155,6 @@ fn other_numbers_at_an_inserted_vertex_are_kept() {
         assert!(is_there, "{name}, seed {seed}: the {kind} is gone");
         *tried.entry((kind, edited > 0)).or_insert(0) += 1;
     }
-    println!("{tried:?}");
     let kept = ["v", "vt", "vn"].map(|kind| tried[&(kind, true)]);
     assert!(kept.into_iter().all(|count| count > 3), "{tried:?}");
 }

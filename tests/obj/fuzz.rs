@@ -36,7 +36,6 @@ fn seeds_survive_random_deeds() {
             meshes += usize::from(same_bytes::check_file(&lines.concat(), &deeds));
         }
     }
-    println!("{meshes} meshes");
     assert!(meshes > 1000, "{meshes}");
 }
 

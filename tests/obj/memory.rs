@@ -175,10 +175,6 @@ fn reading_takes_no_more_memory_than_promised() {
     for (name, file) in files {
         let allowed = (64 << 10).max(12 * file.len() / 1024);
         let peak = peak(&file);
-        println!(
-            "{name:24} {:6} KiB, peak {peak:7} KiB of {allowed:7}",
-            file.len() / 1024
-        );
         if peak > allowed {
             over.push(name);
         }

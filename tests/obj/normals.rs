@@ -68,6 +68,5 @@ fn an_inserted_normal_is_the_mean_of_those_it_is_between() {
             }
         }
     }
-    println!("{on_edges} normals on edges, {in_faces} in faces");
     assert!(on_edges > 500 && in_faces > 200, "{on_edges} {in_faces}");
 }

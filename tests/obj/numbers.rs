@@ -166,6 +166,5 @@ fn mending_a_part_moves_no_line() {
         assert!(moves_none, "seed {seed}:\n{torn}\n->\n{mended}");
         parts += usize::from(mended.len() < torn.len());
     }
-    println!("400 files: a part of the last cut of {parts} undone");
     assert!(parts > 200, "{parts}");
 }

@@ -68,7 +68,7 @@ fn positions_may_change_and_copies_that_part_are_vertices() {
 
 #[test]
 fn damaged_records_do_no_harm() {
-    let (mut used, mut plain, mut forged) = (0, 0, 0);
+    let (mut plain, mut forged) = (0, 0);
     let of_name = |name: &str| files().into_iter().find(|(other, _)| other == name);
     let seeds = (0..12)
         .map(|seed| ("late", seed))
@@ -122,9 +122,8 @@ fn damaged_records_do_no_harm() {
                 let line = format!("{}{digit}{}", &line[..at], &line[at + 1..]);
                 let mut changed = lines.clone();
                 changed[i] = &line;
-                let counts_of_texture = !warned(&changed);
-                assert!(!counts_of_texture || i == 0, "{name}: {line}");
-                used += usize::from(counts_of_texture);
+                // In the first line the counts of texture coordinates and normals may be others.
+                assert!(i == 0 || warned(&changed), "{name}: {line}");
                 // The same by someone who knows the checksum.
                 let items = &changed[1..lines.len() - 1];
                 let hash = items.iter().flat_map(|item| item.bytes().chain([b'\n']));
@@ -135,6 +134,5 @@ fn damaged_records_do_no_harm() {
             }
         }
     }
-    println!("{plain} damaged, {used} with other counts of vt or vn, {forged} forged");
     assert!(plain > 200 && forged > 200);
 }
