@@ -326,25 +326,6 @@ fn an_edge_between_held_ends_takes_what_it_stores() {
     }
 }
 
-/// What is crushed to half is damped by as much as it had, at the most.
-#[test]
-fn damping_takes_no_more_than_a_crushed_sheet_had() {
-    for cells in [4, 10] {
-        let crushed = staged(cells, |frame| Scene {
-            gravity_m_per_s2: Vector::zeros(),
-            drag_per_s: 0.0,
-            duration_s: 0.3,
-            tearing: None,
-            ..Scene::fall(frame.up)
-        });
-        let points = crushed.cloth().positions().to_vec();
-        let crushed = crushed.displaced(|v| points[v.index()].coords * -0.5);
-        let balance = play(crushed.expect("places that can be used")).energy_balance();
-        let part = -balance.made_j() / balance.began_j;
-        assert!((0.1..1.0).contains(&part), "{part}: {balance:?}");
-    }
-}
-
 #[test]
 fn no_method_makes_energy_in_the_scenes_that_stand_ready() {
     let coarse = Scene::PRESETS.map(|(scene, _)| Method::NAMES.map(|method| (16, scene, method)));
