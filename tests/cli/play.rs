@@ -1,7 +1,8 @@
 //! Pages that are played: what mesh and what scene they have. (What is done on them is in `tests/browser`.)
 
 use tearmesh::{Point, Ray, Vector};
-use tearmesh_cloth::ColliderShape;
+use tearmesh_cloth::scene::Scene;
+use tearmesh_cloth::{Collider, ColliderShape, RigidMotion};
 use tearmesh_play::{Player, Settings};
 
 use crate::harness::{Folder, content, root};
@@ -74,6 +75,32 @@ fn a_garment_of_a_scene_file_is_sewn_round_its_body_cut_and_repeated() {
     assert_eq!(again.digest(), player.digest());
     folder.write("torn.obj", player.obj().expect("a file"));
     folder.done("check torn.obj");
+}
+
+#[test]
+fn what_moves_in_a_scene_file_is_named_and_bodies_stand_still() {
+    let (folder, _) = garment();
+    let scene = folder.read("dress.toml");
+    let moved = "[[collider]]\nmoves = [[0, 0, 0, 0], [1, 0, 0.1, 0]]\n";
+    let scene = scene.replace("[[collider]]\n", moved);
+    let unpicked = "name = \"left side\"\nunpick_at_s = 2\n";
+    folder.write(
+        "moved.toml",
+        scene.replace("name = \"left side\"\n", unpicked),
+    );
+    let said = folder.done("play dress.obj --scene moved.toml -o dress.html");
+    assert!(
+        said.contains("hold 1, cut 1, seam `left side`, collider 1"),
+        "{said}"
+    );
+    let (text, _) = content(&folder.read("dress.html"));
+    let plan: Scene =
+        serde_json::from_str(text["plan"].as_str().expect("a plan")).expect("a scene");
+    let still = |collider: &Collider| match &collider.shape {
+        ColliderShape::Body { motion, .. } => *motion == RigidMotion::default(),
+        _ => false,
+    };
+    assert!(plan.colliders.iter().all(still));
 }
 
 #[test]

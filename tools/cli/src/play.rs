@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use tearmesh::CutMethod;
 use tearmesh_cloth::scene::{Frame, HeldVertices, Preset, Scene};
+use tearmesh_cloth::{ColliderShape, RigidMotion};
 use tearmesh_obj::TornDocument;
 use tearmesh_view::PlayPage;
 
@@ -47,8 +48,9 @@ pub(crate) fn run(
             tear::check::tearing(false, &scene, &source)?;
             let run = tear::begin(scene, &opened, &frame, &source)?;
             tear::record_seams(&run, &mut opened, &source)?;
-            faults.extend(left(run.scene()));
-            made.plan = Some(serde_json::to_string(run.scene()).expect("a scene is data"));
+            let mut scene = run.scene().clone();
+            faults.extend(left(&mut scene));
+            made.plan = Some(serde_json::to_string(&scene).expect("a scene is data"));
         }
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
@@ -65,17 +67,29 @@ pub(crate) fn run(
     Ok(words)
 }
 
-/// A warning of all that the page leaves to hands.
-fn left(scene: &Scene) -> Option<Fault> {
+/// A warning of all that the page leaves to hands. Bodies that move are set to stand still.
+fn left(scene: &mut Scene) -> Option<Fault> {
     let holds = (1..).zip(&scene.holds);
     let holds = holds.filter(|(_, hold)| **hold != HeldVertices::still(hold.region.clone()));
     let cuts = (1..).zip(&scene.cuts);
     let cuts = cuts.filter(|(_, cut)| cut.at_s > 0.0 || cut.method != CutMethod::Exact);
-    let names = holds.map(|(number, _)| format!("hold {number}"));
-    let names = names.chain(cuts.map(|(number, _)| format!("cut {number}")));
-    let names = names.collect::<Vec<_>>().join(", ");
+    let mut names: Vec<String> = holds.map(|(number, _)| format!("hold {number}")).collect();
+    names.extend(cuts.map(|(number, _)| format!("cut {number}")));
+    names.extend(
+        scene
+            .unpicks
+            .iter()
+            .map(|(_, seam)| format!("seam `{seam}`")),
+    );
+    for (number, collider) in (1..).zip(&mut scene.colliders) {
+        if let ColliderShape::Body { motion, .. } = &mut collider.shape
+            && std::mem::take(motion) != RigidMotion::default()
+        {
+            names.push(format!("collider {number}"));
+        }
+    }
     let message = "the page leaves to the hand what moves, begins or ends later, or is not exact";
-    let fault = Fault::warning("W-PLAY-HAND", format!("{message}: {names}"));
+    let fault = Fault::warning("W-PLAY-HAND", format!("{message}: {}", names.join(", ")));
     (!names.is_empty()).then_some(fault)
 }
 

@@ -399,6 +399,7 @@ impl Start {
                 method: scene.solver.clone(),
                 tearing: scene.tearing,
                 strengths: words(scene.vertex_strengths(&mesh, points, &frame))?,
+                rest: scene.rest,
                 seams: scene.seams,
                 loads,
                 step_s: scene.step_s,
