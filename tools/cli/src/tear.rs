@@ -266,10 +266,10 @@ impl Play<'_> {
         let fill = |mut out: &mut dyn Write| records.torn.write(mesh, &positions, &mut out);
         session.write(mesh, fill)?;
         if let Some(still) = &records.still {
-            let (shown, points, texture) = still.shown((mesh, positions.as_slice()));
-            let (colliders, time_s) = (&run.scene().colliders, run.elapsed_s());
-            let shown = with_bodies((shown, points, texture), colliders, time_s);
-            let (shown, points, texture) = shown;
+            let end = (mesh, positions.as_slice());
+            let (shown, time_s) = still.shown(end, run.elapsed_s());
+            let colliders = &run.scene().colliders;
+            let (shown, points, texture) = with_bodies(shown, colliders, time_s);
             session.show_mesh(&self.opened.document, &shown, &points[..], up, &texture)?;
         }
         // A measurement, like the report: a dry run is often made for it.

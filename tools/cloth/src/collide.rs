@@ -24,7 +24,7 @@ use crate::body::Body;
 use crate::contact::{Contact, Corners, Look, Looks, Pressed};
 use crate::energy;
 use crate::load::{Collider, ColliderShape};
-use crate::rigid::Pose;
+use crate::path::Pose;
 use crate::solver::Failure;
 use crate::system::System;
 

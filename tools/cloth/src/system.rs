@@ -20,8 +20,9 @@ use crate::constraint::{Constraint, ConstraintId, Constraints};
 use crate::contact::{Contact, Looks, Pressed};
 use crate::guard::Guard;
 use crate::incidence::room_for;
-use crate::load::{Loads, Path};
+use crate::load::Loads;
 use crate::pair;
+use crate::path::Path;
 use crate::triangle::Triangle;
 
 /// A mass-spring system: particles, constraints, triangles and loads.

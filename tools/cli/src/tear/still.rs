@@ -12,7 +12,7 @@ use crate::picture::Texture;
 #[derive(Default)]
 pub(super) struct Still {
     at_s: Option<f64>,
-    kept: Option<(Mesh, Vec<Point>, Texture)>,
+    kept: Option<(Mesh, Vec<Point>, Texture, f64)>,
     /// Up to date with the run.
     pub(super) texture: Texture,
     /// The most splits of a frame so far, by tearing and by cuts, and all splits before this frame.
@@ -57,17 +57,19 @@ impl Still {
 
     fn keep(&mut self, run: &Run) {
         let points = run.cloth().positions().to_vec();
-        self.kept = Some((run.mesh().clone(), points, self.texture.clone()));
+        let (mesh, texture) = (run.mesh().clone(), self.texture.clone());
+        self.kept = Some((mesh, points, texture, run.elapsed_s()));
     }
 
     /// The moment, or the end.
     pub(super) fn shown<'s>(
         &'s self,
-        end: (&'s Mesh, &'s [Point]),
-    ) -> (&'s Mesh, &'s [Point], &'s Texture) {
+        (mesh, points): (&'s Mesh, &'s [Point]),
+        end_s: f64,
+    ) -> ((&'s Mesh, &'s [Point], &'s Texture), f64) {
         match &self.kept {
-            Some((mesh, points, texture)) => (mesh, points, texture),
-            None => (end.0, end.1, &self.texture),
+            Some((mesh, points, texture, time_s)) => ((mesh, points, texture), *time_s),
+            None => ((mesh, points, &self.texture), end_s),
         }
     }
 }

@@ -23,7 +23,7 @@ use super::{Frame, Scene, SwayingWind};
 use crate::balance::{Balance, EnergyBalance};
 use crate::blow_up::BlowUpSite;
 use crate::energy::{elastic_j, kinetic_j, potential_j};
-use crate::load::Path;
+use crate::path::Path;
 use crate::method::Softness;
 use crate::sheet::Cloth;
 use crate::simulation::{Simulation, SimulationDef, SimulationError};

@@ -9,8 +9,8 @@
 use tearmesh::geometry::{Point, length};
 use tearmesh::{Edit, Merge, VertexId};
 
-use crate::load::Path;
 use crate::method::FRAME_S;
+use crate::path::Path;
 
 /// The id of a hand of a [`Simulation`](super::Simulation). No two hands of a simulation have the same, at
 /// whatever times they hold.

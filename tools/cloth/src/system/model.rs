@@ -6,10 +6,11 @@ use super::counters::Counters;
 use crate::blow_up::BlowUpSite;
 use crate::constraint::Constraints;
 use crate::crush::Crush;
-use crate::load::{Loads, Path};
+use crate::load::Loads;
 use crate::mass_scaling::MassScaling;
 use crate::matrix::{Hessian, Weights};
 use crate::pair::{self, Pull};
+use crate::path::Path;
 use crate::triangle::Triangles;
 
 /// All but positions and velocities.

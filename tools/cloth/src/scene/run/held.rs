@@ -8,7 +8,7 @@ use tearmesh::{Edits, Mesh, VertexId};
 
 use super::error::RunError;
 use crate::balance::Balance;
-use crate::load::Path;
+use crate::path::Path;
 use crate::scene::{Frame, HeldVertices, Region};
 use crate::simulation::follow;
 use crate::system::System;

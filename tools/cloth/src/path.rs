@@ -1,9 +1,51 @@
-//! Rigid motion of bodies: a path, and turns about a point.
+//! Paths along which particles are led, and rigid motion of bodies: a path, and turns about a point.
 
-use tearmesh::geometry::{Point, Vector, cross, length};
+use std::sync::Arc;
+
+use tearmesh::geometry::{Point, Vector, check_point, cross, length};
 
 use crate::bend::sinc_of_root;
-use crate::load::Path;
+
+/// The path of a grabbed particle: straight from point to point, at rest before the first time and
+/// after the last.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(try_from = "Vec<(f64, Point)>", into = "Vec<(f64, Point)>")
+)]
+pub struct Path {
+    /// When to be where; at least one, ascending. Shared by all particles that the path leads.
+    pub(crate) points: Arc<[(f64, Point)]>,
+}
+
+impl Path {
+    /// Creates the path through these points at these times in seconds. Returns `None` unless there
+    /// is at least one point, times and the differences between them are finite, times ascend
+    /// strictly, and no coordinate is beyond [`COORDINATE_MAX`](tearmesh::COORDINATE_MAX). So
+    /// everything that [`Path::at`] returns is finite.
+    #[must_use]
+    pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
+        let points: Arc<[_]> = points.into_iter().collect();
+        let usable = |&(s, p): &(f64, Point)| s.is_finite() && check_point(p).is_ok();
+        let between = |pair: &[(f64, Point)]| pair[1].0 - pair[0].0;
+        let mut between = points.windows(2).map(between);
+        let ascending = between.all(|took_s| took_s > 0.0 && took_s.is_finite());
+        (!points.is_empty() && ascending && points.iter().all(usable)).then_some(Path { points })
+    }
+
+    /// Returns the point of the path at `elapsed_s` seconds. It is the first point before the path
+    /// begins, and the last one after it ends.
+    #[must_use]
+    pub fn at(&self, elapsed_s: f64) -> Point {
+        let after = self.points.partition_point(|&(s, _)| s <= elapsed_s);
+        if after == 0 || after == self.points.len() {
+            return self.points[after.saturating_sub(1)].1;
+        }
+        let ((s, p), (t, q)) = (self.points[after - 1], self.points[after]);
+        p + (q - p) * ((elapsed_s - s) / (t - s))
+    }
+}
 
 /// How a body moves: from where it was made along a path, while it turns about a point.
 ///
