@@ -72,21 +72,6 @@ fn chords_count_in_whatever_order_they_are_given() {
     }
 }
 
-/// The second point is on the edge from a corner to the first, which each piece of the star has elsewhere.
-#[test]
-fn a_point_on_an_edge_of_the_star_divides_it() {
-    let (square, _) = shapes::grid(1, 1);
-    for corner in 0..3 {
-        let mut plan = Plan::new();
-        let face = square.faces().next().expect("a face");
-        let first = [0.25, 0.25, 0.5];
-        plan.in_face(face, first);
-        let halfway = [0, 1, 2].map(|i| (first[i] + f64::from(u8::from(i == corner))) / 2.0);
-        plan.in_face(face, halfway);
-        assert_eq!(refused(&square, &plan), None, "toward corner {corner}");
-    }
-}
-
 /// Two points that rounding alone tells apart, given from either side of an edge: they are
 /// refused, or every child still covers something.
 #[test]
