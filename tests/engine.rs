@@ -11,6 +11,7 @@ use tearmesh::{
     shapes,
 };
 
+use crate::cases::cases;
 use crate::random::Random;
 use crate::scripts::scripts;
 use crate::surfaces::{File, corpus};
@@ -162,7 +163,10 @@ fn normals_that_follow_are_those_made_anew_and_means_by_area() {
             all += mesh.vertex_count();
         });
     }
-    assert!(edits > 10_000 && 4 * renewed < all, "{renewed} of {all}");
+    assert!(
+        edits > 6 * cases() && 4 * renewed < all,
+        "{renewed} of {all}"
+    );
 }
 
 /// The buffers that an engine would have of a mesh: a vertex for each pair of a vertex and a value, in
