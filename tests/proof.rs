@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use tearmesh::insert::Point;
 use tearmesh::script::{Step, World};
-use tearmesh::{Edit, FaceId, HalfEdgeId, MergeRefusal, Mesh, SplitRefusal, VertexId};
+use tearmesh::{Edit, Edits, FaceId, HalfEdgeId, MergeRefusal, Mesh, SplitRefusal, VertexId, mend};
 
 use crate::exhaustive::{for_each_gluing, glued};
 use crate::scripts::script;
@@ -26,7 +26,8 @@ fn scripts_are_judged_by_the_proof() {
     let mut lines = BufWriter::new(judge.stdin.take().expect("a pipe"));
     write_builds(&mut lines).expect("the judge reads on");
     for seed in 0..SCRIPTS {
-        write_script(&mut lines, seed).expect("the judge reads on");
+        let torn = write_script(&mut lines, seed).expect("the judge reads on");
+        write_sewing(&mut lines, &torn).expect("the judge reads on");
     }
     drop(lines);
     assert!(judge.wait().expect("an end").success(), "the proof objects");
@@ -86,16 +87,37 @@ fn write_build(
     mesh.map_or(Ok(()), |mesh| write_state(to, &mesh))
 }
 
-fn write_script(to: &mut impl Write, seed: u64) -> std::io::Result<()> {
+/// Writes a script, and returns the mesh that it ends with.
+fn write_script(to: &mut impl Write, seed: u64) -> std::io::Result<Mesh> {
     writeln!(to, "script")?;
     let mut seen = 0;
     let mut told = Ok(());
-    script(seed).run(|world, step| {
+    let world = script(seed).run(|world, step| {
         if told.is_ok() && world.mesh.face_count() <= FACES_MAX {
             told = write_step(to, world, step, &mut seen);
         }
     });
-    told
+    told.map(|()| world.mesh)
+}
+
+/// Builds the panels of a torn mesh as those of a garment, and sews them vertex by vertex.
+fn write_sewing(to: &mut impl Write, torn: &Mesh) -> std::io::Result<()> {
+    if torn.face_count() > FACES_MAX {
+        return Ok(());
+    }
+    let (triangles, roots) = (torn.indices().as_chunks().0, torn.roots());
+    let mut mesh = Mesh::build_torn(triangles, &roots).expect("what scripts left can be sewn");
+    writeln!(to, "script")?;
+    write_state(to, &mesh)?;
+    let copy = |mesh: &Mesh| mesh.vertices().find(|&v| mesh.root(v) != v);
+    while let Some(gone) = copy(&mesh) {
+        let kept = mesh.root(gone);
+        let merge = mend::merge(&mut mesh, kept, gone, [1.0; 2], &mut Edits::new()).is_ok();
+        assert!(merge, "copies have one root");
+        writeln!(to, "merge {} {}", kept.index(), gone.index())?;
+        write_state(to, &mesh)?;
+    }
+    Ok(())
 }
 
 fn write_step(

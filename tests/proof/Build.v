@@ -171,3 +171,25 @@ Proof.
         [apply rt_step; left|apply rt_step; right|apply rt_refl|eapply rt_trans; eauto]; rewrite Ha; auto.
   - apply (no_two_faces_back_to_back S W).
 Qed.
+
+(* Mesh::build_torn: panels that were never one. The whole is built as it will be when all is sewn, and then the corners
+   get the vertices of their panels; a link is torn where its sides do not agree on both. *)
+Definition panels S V o := Mesh (faces S) (link S) (fun h => match link S h with
+  | Some g => negb ((o h =? o (next g)) && (o (next h) =? o g))
+  | None => false
+  end) o V.
+(* They are well-formed if corners of one vertex had one in the whole, so that all that holds of edits holds of sewing. *)
+Theorem panels_are_well_formed : forall S V o, well_formed S ->
+  (forall h, h < size S -> o h < V) ->
+  (forall h g, h < size S -> g < size S -> o h = o g -> origin S h = origin S g) ->
+  well_formed (panels S V o).
+Proof.
+  intros S V o W Hr Ho. constructor; simpl.
+  - apply (is_manifold S W).
+  - exact Hr.
+  - intros h g E. rewrite E, (link_is_involution _ _ (is_manifold S W) _ _ E). f_equal.
+    rewrite (Nat.eqb_sym (o g)), (Nat.eqb_sym (o (next g))). apply andb_comm.
+  - intros h E. rewrite E. auto.
+  - intros h g E. rewrite E, negb_false_iff, andb_true_iff, !Nat.eqb_eq. reflexivity.
+  - intros h g Hh Hg E. apply (one_root S W); auto.
+Qed.
