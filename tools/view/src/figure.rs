@@ -87,8 +87,9 @@ impl Figure {
         self.faces[h.face().index()][h.index() % 3]
     }
 
-    /// Adds short threads along the sides of tears that gape: their places and lengths follow from the index
-    /// of the half-edge, so a picture is the same each time, and a film does not flicker.
+    /// Adds short threads along the sides of tears that gape. They go on with the thread of the weave that leads
+    /// out of the cloth, or with none where there are no texture coordinates. Their places and lengths follow
+    /// from the index of the half-edge, so a picture is the same each time, and a film does not flicker.
     pub(crate) fn fringe(&mut self, mesh: &Mesh, place: &(impl Place + ?Sized)) {
         for (_, h) in lines(mesh, place, false).filter(|(kind, _)| *kind == Kind::Seam) {
             let [from, to] = [h, h.next()].map(|h| self.corner(h) as usize);
@@ -97,6 +98,7 @@ impl Figure {
             let Some(outward) = unit(cross(along, normal)) else {
                 continue;
             };
+            let outward = self.thread(h.face().index(), outward).unwrap_or(outward);
             for thread in 0..THREADS {
                 let [at, long, aside] = parts(h.index() as u64 * THREADS + thread);
                 let root = self.points[from] + along * at;
@@ -111,6 +113,22 @@ impl Figure {
                 self.lines.push((Kind::Thread, [first, first + 1]));
             }
         }
+    }
+
+    /// The direction of the thread, warp or weft, that goes more outward from a face.
+    fn thread(&self, face: usize, outward: Vector) -> Option<Vector> {
+        let corners = self.faces[face].map(|corner| corner as usize);
+        let [a, b, c] = corners.map(|corner| self.texture.get(corner).copied());
+        let ([a, b, c], [p, q, r]) = ([a?, b?, c?], corners.map(|corner| self.points[corner]));
+        // Along one texture coordinate the other one stays.
+        let along = |other: usize| {
+            let thread = (q - p) * (c[other] - a[other]) - (r - p) * (b[other] - a[other]);
+            let thread = unit(thread)?;
+            Some(thread * dot(thread, outward).signum())
+        };
+        let (warp, weft) = (along(0)?, along(1)?);
+        let is_warp = dot(warp, outward) >= dot(weft, outward);
+        Some(if is_warp { warp } else { weft })
     }
 
     /// Adds corners of one vertex that have one normal.
@@ -305,7 +323,7 @@ fn are_coincident(mesh: &Mesh, place: &(impl Place + ?Sized), [h, ghost]: [HalfE
 mod tests {
     use std::collections::HashMap;
 
-    use tearmesh::{CutMethod, Edits, Plane, Scissor, shapes};
+    use tearmesh::{CutMethod, Edits, PerCorner, Plane, Scissor, shapes};
 
     use super::*;
 
@@ -318,6 +336,40 @@ mod tests {
             }
         }
         count
+    }
+
+    #[test]
+    fn threads_go_on_with_the_weave_that_leads_out() {
+        // Slit across at 30 degrees to the lines of the texture, and opened.
+        let (mut mesh, mut positions) = shapes::grid(6, 6);
+        let texture = |h| {
+            let p = positions.at(mesh.origin(h));
+            [p.x, p.y]
+        };
+        let mut texture = PerCorner::new(mesh.half_edges().map(texture).collect());
+        let plane = Plane::new(Point::new(0.5, 0.5, 0.0), Vector::new(0.5, 0.8, 0.0));
+        let scissor = Scissor::by_plane(plane.expect("a plane"));
+        let edits = &mut Edits::new();
+        let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, edits);
+        assert!(cut.is_ok());
+        edits.replay(&mut texture);
+        let (_, at) = tearmesh::gap::gapped(&mesh, &positions, 0.1);
+        for (texture, lead) in [(texture.as_slice(), 1.0), (&[], 0.848)] {
+            let mut figure = Figure::new(&mesh, &at[..], -1.0, texture, false);
+            figure.fringe(&mesh, &at[..]);
+            let threads = figure
+                .lines
+                .iter()
+                .filter(|(kind, _)| *kind == Kind::Thread);
+            let mut sum = Vector::zeros();
+            for (_, [from, to]) in threads {
+                let [from, to] = [from, to].map(|&end| figure.points[end as usize]);
+                let way = to - from;
+                sum += way * way.y.signum();
+            }
+            let lead_found = sum.y / length(sum);
+            assert!((lead_found - lead).abs() < 0.01, "{lead_found} for {lead}");
+        }
     }
 
     #[test]

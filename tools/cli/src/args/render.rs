@@ -87,7 +87,7 @@ pub(crate) struct RenderArgs {
         value_parser = clap::value_parser!(u32).range(1..=8))]
     pub(crate) finer: u32,
 
-    /// Draw threads that hang out of tears.
+    /// Draw threads that hang out of tears, along the texture if the file has one.
     #[arg(long)]
     pub(crate) fringe: bool,
 
