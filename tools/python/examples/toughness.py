@@ -58,7 +58,7 @@ def run(toughness, seed):
     return forces
 
 
-def main(path, toughnesses=(2.0, 4.0, 8.0), seeds=5):
+def main(path="toughness.png", toughnesses=(2.0, 4.0, 8.0), seeds=5):
     opening = SPEED * FRAME * np.arange(1, round(DURATION / FRAME) + 1)
     for toughness in toughnesses:
         forces = np.array([run(toughness, seed) for seed in range(seeds)])
