@@ -96,15 +96,15 @@ impl Blend for Point {
 /// One value for each vertex. A split copies the value of the old vertex to the new one.
 ///
 /// ```
-/// use tearmesh::{shapes, split, Edits, FaceId, PerVertex, VertexId};
+/// use tearmesh::{shapes, split, Edits, PerVertex};
 ///
 /// let (mut mesh, _) = shapes::grid(1, 1);
 /// let mut speeds = PerVertex::new(vec![0.5, 1.0, 1.5, 2.0]);
 /// let mut edits = Edits::new();
-/// let v = VertexId::new(0).unwrap();
-/// split::vertex(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?;
+/// let (v, face) = (mesh.vertex(0), mesh.face(0));
+/// split::vertex(&mut mesh, v, &[face], &mut edits)?;
 /// edits.replay(&mut speeds);
-/// assert_eq!(speeds.at(VertexId::new(4).unwrap()), &0.5);
+/// assert_eq!(speeds.at(mesh.vertex(4)), &0.5);
 /// # Ok::<(), tearmesh::SplitRefusal>(())
 /// ```
 pub type PerVertex<T> = Values<VertexId, T>;
@@ -115,13 +115,13 @@ pub type PerVertex<T> = Values<VertexId, T>;
 /// are interpolated along it; its other corners with the same value change with them.
 ///
 /// ```
-/// use tearmesh::{shapes, insert::Plan, Edits, HalfEdgeId, PerCorner};
+/// use tearmesh::{shapes, insert::Plan, Edits, PerCorner};
 ///
 /// let (mut mesh, positions) = shapes::grid(1, 1);
 /// let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
 /// let mut uv = PerCorner::new(uv.map(|p| [p.x, p.y]).collect());
 /// let mut plan = Plan::new();
-/// plan.on_edge(HalfEdgeId::new(0).unwrap(), 0.25);
+/// plan.on_edge(mesh.half_edge(0), 0.25);
 /// let mut edits = Edits::new();
 /// plan.apply(&mut mesh, &mut edits)?;
 /// edits.replay(&mut uv);
@@ -134,12 +134,12 @@ pub type PerCorner<T> = Values<HalfEdgeId, T>;
 /// a copy. No other edit changes a face.
 ///
 /// ```
-/// use tearmesh::{shapes, insert::Plan, Edits, HalfEdgeId, PerFace};
+/// use tearmesh::{shapes, insert::Plan, Edits, PerFace};
 ///
 /// let (mut mesh, _) = shapes::grid(1, 1);
 /// let mut materials = PerFace::new(vec!["silk", "wool"]);
 /// let mut plan = Plan::new();
-/// plan.on_edge(HalfEdgeId::new(0).unwrap(), 0.5);
+/// plan.on_edge(mesh.half_edge(0), 0.5);
 /// let mut edits = Edits::new();
 /// plan.apply(&mut mesh, &mut edits)?;
 /// edits.replay(&mut materials);

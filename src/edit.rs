@@ -38,11 +38,11 @@ use crate::mesh::MeshSize;
 /// The log of the edits of a mesh.
 ///
 /// ```
-/// use tearmesh::{shapes, split, Edits, Plane, Positions, Vector, VertexId};
+/// use tearmesh::{shapes, split, Edits, Plane, Positions, Vector};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(2, 2);
 /// let mut edits = Edits::new();
-/// let centre = VertexId::new(4).unwrap();
+/// let centre = mesh.vertex(4);
 /// let plane = Plane::new(positions.at(centre), Vector::x())?;
 /// split::by_plane(&mut mesh, centre, &plane, &positions, &mut edits);
 /// edits.replay(&mut positions);
@@ -196,7 +196,7 @@ impl Edits {
     /// Values may be of any type, and need not implement any trait of this crate.
     ///
     /// ```
-    /// use tearmesh::{shapes, insert::Plan, Cursor, Edits, HalfEdgeId, Mix};
+    /// use tearmesh::{shapes, insert::Plan, Cursor, Edits, Mix};
     ///
     /// // The bone that moves each vertex: there is none between two bones.
     /// let (mut mesh, _) = shapes::grid(1, 1);

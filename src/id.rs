@@ -33,6 +33,15 @@ macro_rules! id {
                 self.0 as usize
             }
 
+            /// The id with this index, of which there have to be more.
+            #[inline]
+            #[track_caller]
+            pub(crate) fn among(count: usize, index: usize) -> Self {
+                let what = concat!("is not a ", $noun, " of this mesh, which has");
+                assert!(index < count, "I2: {}{index} {what} {count}", $letter);
+                Self(index as u32)
+            }
+
             /// The entry of this id in a table with one for each.
             #[inline]
             #[track_caller]

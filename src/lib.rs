@@ -12,7 +12,7 @@
 //! # Build, split, upload
 //!
 //! ```
-//! use tearmesh::{split, Edits, Mesh, Plane, Point, Positions, Vector, VertexId};
+//! use tearmesh::{split, Edits, Mesh, Plane, Point, Positions, Vector};
 //!
 //! // Four triangles round the vertex 4.
 //! let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
@@ -21,7 +21,7 @@
 //! let mut positions = Positions::new(points)?;
 //! let mut edits = Edits::new();
 //!
-//! let (v, old) = (VertexId::new(4).unwrap(), positions.len());
+//! let (v, old) = (mesh.vertex(4), positions.len());
 //! let plane = Plane::new(positions.at(v), Vector::new(1.0, -1.0, 0.0))?;
 //! match split::by_plane(&mut mesh, v, &plane, &positions, &mut edits) {
 //!     Some(split) => println!("{} took {} faces of {v}", split.new, split.corners.len()),
@@ -129,8 +129,8 @@ pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
 pub use mesh::{
-    BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fans, Invariant, Listed, Mesh,
-    TornError, Violation,
+    BuildError, Components, Corner, Corners, Defect, DerivedMesh, Faces, Fans, Invariant, Listed,
+    Mesh, TornError, Violation,
 };
 /// The linear algebra crate that defines [`Point`] and [`Vector`], in the version used by this
 /// crate.

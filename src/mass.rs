@@ -28,11 +28,11 @@ use crate::place::Place;
 /// The masses of all vertices of a mesh, updated from its log.
 ///
 /// ```
-/// use tearmesh::{shapes, split, Edits, FaceId, Masses, VertexId};
+/// use tearmesh::{shapes, split, Edits, Masses};
 ///
 /// let (mut mesh, positions) = shapes::grid(3, 3);
 /// let mut masses = Masses::area(&mesh, &positions, 1.0)?;
-/// let v = VertexId::new(5).unwrap();
+/// let v = mesh.vertex(5);
 /// let before = masses.at(v);
 ///
 /// let mut edits = Edits::new();

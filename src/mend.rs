@@ -47,13 +47,13 @@ use crate::place::Place;
 /// If a vertex is not in this mesh (I2).
 ///
 /// ```
-/// use tearmesh::{mend, shapes, split, Edits, FaceId, VertexId};
+/// use tearmesh::{mend, shapes, split, Edits};
 ///
 /// let (mut mesh, _) = shapes::grid(1, 1);
 /// let uncut = mesh.clone();
 /// let mut edits = Edits::new();
-/// let v = VertexId::new(0).unwrap();
-/// let new = split::vertex(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?.new;
+/// let (v, face) = (mesh.vertex(0), mesh.face(0));
+/// let new = split::vertex(&mut mesh, v, &[face], &mut edits)?.new;
 /// let merge = mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits)?;
 /// assert_eq!((merge.kept, merge.sewn.len()), (v, 1));
 /// assert_eq!(mesh, uncut);

@@ -20,6 +20,7 @@
 
 mod build;
 mod check;
+mod corner;
 mod defect;
 mod diagnose;
 mod pieces;
@@ -30,6 +31,7 @@ mod well_formed;
 use std::iter::FusedIterator;
 
 pub use check::{Invariant, Violation};
+pub use corner::Corner;
 pub use defect::{BuildError, Defect, Faces, Fans, Listed};
 pub use pieces::DerivedMesh;
 pub use torn::TornError;
@@ -140,6 +142,30 @@ impl Mesh {
     ) -> impl ExactSizeIterator<Item = VertexId> + DoubleEndedIterator + FusedIterator + Clone + use<>
     {
         (0..self.vertex_count() as u32).map(VertexId::from_u32)
+    }
+
+    /// Returns the vertex with this index, which has to be less than [`Mesh::vertex_count`].
+    #[inline]
+    #[must_use]
+    #[track_caller]
+    pub fn vertex(&self, index: usize) -> VertexId {
+        VertexId::among(self.vertex_count(), index)
+    }
+
+    /// Returns the face with this index, which has to be less than [`Mesh::face_count`].
+    #[inline]
+    #[must_use]
+    #[track_caller]
+    pub fn face(&self, index: usize) -> FaceId {
+        FaceId::among(self.face_count(), index)
+    }
+
+    /// Returns the half-edge with this index, which has to be less than [`Mesh::half_edge_count`].
+    #[inline]
+    #[must_use]
+    #[track_caller]
+    pub fn half_edge(&self, index: usize) -> HalfEdgeId {
+        HalfEdgeId::among(self.half_edge_count(), index)
     }
 
     /// Returns all faces, in ascending order of their ids.

@@ -35,10 +35,10 @@ use crate::mesh::Mesh;
 /// If a vertex is not in this mesh (I2).
 ///
 /// ```
-/// use tearmesh::{shapes, slide, Edits, VertexId};
+/// use tearmesh::{shapes, slide, Edits};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(2, 1);
-/// let [v, w] = [0, 1].map(|i| VertexId::new(i).unwrap());
+/// let [v, w] = [0, 1].map(|i| mesh.vertex(i));
 /// let mut edits = Edits::new();
 /// edits.replay(&mut positions); // They are those from before the slide.
 /// slide::toward(&mut mesh, v, w, 0.25, &mut edits)?;

@@ -46,12 +46,12 @@ use crate::place::Place;
 /// If `v` or a face is not in this mesh (I2).
 ///
 /// ```
-/// use tearmesh::{split, Edits, FaceId, Mesh, VertexId};
+/// use tearmesh::{split, Edits, Mesh};
 ///
 /// let mut mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
 /// let mut edits = Edits::new();
-/// let v = VertexId::new(1).unwrap();
-/// let split = split::vertex(&mut mesh, v, &[FaceId::new(1).unwrap()], &mut edits)?;
+/// let (v, face) = (mesh.vertex(1), mesh.face(1));
+/// let split = split::vertex(&mut mesh, v, &[face], &mut edits)?;
 /// assert_eq!((split.new.index(), split.corners.len(), split.torn.len()), (4, 1, 1));
 /// assert_eq!(mesh.indices(), [0, 1, 2, 2, 4, 3]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -32,11 +32,11 @@ use crate::split;
 /// If a vertex is not in this mesh (I2).
 ///
 /// ```
-/// use tearmesh::{Edits, HalfEdgeId, Mesh, VertexId, unshare};
+/// use tearmesh::{Edits, HalfEdgeId, Mesh, unshare};
 ///
 /// // Two triangles, sewn along the edge 1-2.
 /// let mut mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
-/// let seam = [1, 2].map(|v| VertexId::new(v).unwrap());
+/// let seam = [1, 2].map(|v| mesh.vertex(v));
 /// let is_seam = |h: HalfEdgeId| [1, 3].contains(&h.index());
 /// unshare::by_fan(&mut mesh, &seam, is_seam, &mut Edits::new());
 /// assert_eq!(mesh.indices(), [0, 1, 2, 5, 4, 3]);

@@ -7,8 +7,8 @@ mod values;
 use tearmesh::engine::DrawBuffers;
 use tearmesh::script::{Script, Step, World};
 use tearmesh::{
-    Blend, Cursor, Edit, Edits, FaceId, Follower, HalfEdgeId, Masses, Mesh, Mix, PerCorner,
-    PerFace, PerVertex, Positions, VertexId, shapes, slide, split,
+    Blend, Cursor, Edit, Edits, Follower, HalfEdgeId, Masses, Mesh, Mix, PerCorner, PerFace,
+    PerVertex, Positions, shapes, slide, split,
 };
 
 use crate::foreign::panic_of;
@@ -151,8 +151,8 @@ fn followers_keep_what_the_records_say_bit_for_bit() {
 
 /// The hub of a fan is split by a face.
 fn split_off(mesh: &mut Mesh, face: usize, edits: &mut Edits) {
-    let hub = VertexId::new(0).expect("an id");
-    let face = FaceId::new(face).expect("an id");
+    let hub = mesh.vertex(0);
+    let face = mesh.face(face);
     split::vertex(mesh, hub, &[face], edits).expect("others stay");
 }
 
@@ -317,7 +317,7 @@ fn lists_of_the_wrong_length_are_refused_by_every_edit() {
 
 /// The first vertex of a row of squares slides a quarter of the way to the second.
 fn slide_once(mesh: &mut Mesh, edits: &mut Edits) {
-    let [first, second] = [0, 1].map(|v| VertexId::new(v).expect("an id"));
+    let [first, second] = [0, 1].map(|v| mesh.vertex(v));
     slide::toward(mesh, first, second, 0.25, edits).expect("an edge");
 }
 

@@ -224,7 +224,12 @@ fn regression_foreign_ids_beside_own_ones_change_nothing() {
     let split = panic_of(|| split::vertex(&mut mesh, hub, &faces, &mut edits).is_ok());
     let slide = panic_of(|| slide::toward(&mut mesh, hub, foreign, 0.5, &mut edits).is_ok());
     assert_eq!(mesh, before, "the mesh is as it was");
+    let half_edge = panic_of(|| mesh.half_edge(12));
     for (panic, told) in [
+        (
+            half_edge,
+            "I2: h12 is not a half-edge of this mesh, which has 12",
+        ),
         (split, "I2: f9 is not a face of this mesh, which has 4"),
         (slide, "I2: v7 is not a vertex of this mesh, which has 5"),
     ] {

@@ -2,7 +2,7 @@
 
 use tearmesh::geometry::between;
 use tearmesh::{
-    Blend, FaceId, Mesh, Plane, PlaneError, Point, Positions, Ray, RayError, Side, Vector, classify,
+    Blend, Mesh, Plane, PlaneError, Point, Positions, Ray, RayError, Side, Vector, classify,
 };
 
 #[test]
@@ -41,7 +41,7 @@ fn the_side_of_a_face_does_not_depend_on_its_first_corner() {
     let plane = Plane::new(Point::origin(), Vector::x()).expect("usable");
     let sides = [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(|face| {
         let mesh = Mesh::build(3, &[face]).expect("a face");
-        classify::face(&mesh, FaceId::new(0).expect("an id"), &plane, &points[..])
+        classify::face(&mesh, mesh.face(0), &plane, &points[..])
     });
     assert!(sides.iter().all(|&side| side == sides[0]), "{sides:?}");
 }

@@ -1,8 +1,7 @@
 //! Masses: what is refused, what they start from, and what is conserved; and the sums that tell.
 
 use tearmesh::{
-    Edits, ExactSum, Follower as _, MassError, MassLedger, Masses, Mesh, VertexId, mend, shapes,
-    split,
+    Edits, ExactSum, Follower as _, MassError, MassLedger, Masses, Mesh, mend, shapes, split,
 };
 
 const USUAL: &str = "nothing unusual";
@@ -41,7 +40,7 @@ fn masses_that_cannot_be_exact_are_refused() {
 fn halving_is_refused_just_where_it_leaves_normal_numbers() {
     // The hub could be halved 79 times, a vertex of the rim once.
     let (mesh, positions) = shapes::fan(80, true);
-    let hub = VertexId::new(0).expect(USUAL);
+    let hub = mesh.vertex(0);
     let at_one = Masses::area(&mesh, &positions, 1.0).expect(USUAL).at(hub);
     let lightest = power_of_two(-1022 + 79 - (exponent_of(at_one)));
     let masses = Masses::half(&mesh, &positions, lightest).expect(USUAL);
@@ -59,7 +58,7 @@ fn halving_is_refused_just_where_it_leaves_normal_numbers() {
 fn copies_that_came_with_the_mesh_are_sewn_without_loss() {
     let (mut mesh, mut positions) = shapes::fan(6, true);
     let mut edits = Edits::new();
-    let hub = VertexId::new(0).expect(USUAL);
+    let hub = mesh.vertex(0);
     let split = |mesh: &mut Mesh, edits: &mut Edits| {
         let face = mesh.faces_of(hub).next().expect(USUAL);
         split::vertex(mesh, hub, &[face], edits).expect(USUAL).new
@@ -101,7 +100,7 @@ fn a_face_without_area_still_weighs_three_units() {
         [0.5, 0.5, 0.0],
     ];
     let masses = Masses::area(&mesh, &points[..], 2.0).expect(USUAL);
-    let lightest = masses.at(VertexId::new(3).expect(USUAL));
+    let lightest = masses.at(mesh.vertex(3));
     assert_eq!(lightest, power_of_two(1 - 52));
 }
 

@@ -27,7 +27,7 @@ fn a_sheet_does_what_its_parts_do() {
         for _ in 0..8 {
             let kind = random.below(4);
             let number = random.below(mesh.vertex_count());
-            let v = VertexId::new(number).expect("a vertex of the mesh");
+            let v = mesh.vertex(number);
             let first = edits.cursor();
             match kind {
                 0 => {

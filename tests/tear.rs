@@ -1,6 +1,6 @@
 //! The paper's tearing rule, against the rule written down once more for a list of triangles.
 
-use tearmesh::{Edits, HalfEdgeId, Positions, VertexId, shapes, tear};
+use tearmesh::{Edits, Positions, VertexId, shapes, tear};
 
 use crate::random::Random;
 
@@ -63,7 +63,7 @@ fn overstretched_edges_tear_by_the_rule_of_the_paper() {
         let mut edits = Edits::new();
         for _ in 0..30 {
             let h = random.below(mesh.half_edge_count());
-            let h = HalfEdgeId::new(h).expect("a half-edge");
+            let h = mesh.half_edge(h);
             let faces = mesh
                 .faces()
                 .map(|f| mesh.face_vertices(f).map(VertexId::index));

@@ -30,15 +30,15 @@ use crate::place::Place;
 ///
 /// ```
 /// use tearmesh::engine::DrawBuffers;
-/// use tearmesh::{shapes, split, Edits, FaceId, VertexId};
+/// use tearmesh::{shapes, split, Edits};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(2, 2);
 /// let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
 /// let mut buffers = DrawBuffers::new(&mesh, uv.map(|p| [p.x as f32, p.y as f32]).collect());
 /// let (mut on_gpu, mut index_buffer) = (buffers.places_f32(&positions), buffers.indices().to_vec());
 ///
-/// let (mut edits, v) = (Edits::new(), VertexId::new(4).unwrap());
-/// split::vertex(&mut mesh, v, &[FaceId::new(0).unwrap()], &mut edits)?;
+/// let (mut edits, v, face) = (Edits::new(), mesh.vertex(4), mesh.face(0));
+/// split::vertex(&mut mesh, v, &[face], &mut edits)?;
 /// edits.replay(&mut (&mut positions, &mut buffers));
 ///
 /// let changes = buffers.take_changes();

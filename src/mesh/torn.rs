@@ -30,13 +30,13 @@ impl Mesh {
     /// does not turn the triangles into an oriented 2-manifold.
     ///
     /// ```
-    /// use tearmesh::{Mesh, VertexId};
+    /// use tearmesh::Mesh;
     ///
     /// // Two triangles that shared the edge 1-2 until vertex 1 was split.
     /// let mesh = Mesh::build_torn(&[[0, 1, 2], [2, 4, 3]], &[0, 1, 2, 3, 1])?;
-    /// let v = VertexId::new(4).unwrap();
-    /// assert_eq!(mesh.root(v), VertexId::new(1).unwrap());
-    /// assert_eq!(mesh.corners_of(VertexId::new(2).unwrap()).count(), 2);
+    /// let v = mesh.vertex(4);
+    /// assert_eq!(mesh.root(v), mesh.vertex(1));
+    /// assert_eq!(mesh.corners_of(mesh.vertex(2)).count(), 2);
     /// # Ok::<(), tearmesh::TornError>(())
     /// ```
     pub fn build_torn(triangles: &[[u32; 3]], roots: &[u32]) -> Result<Mesh, TornError> {

@@ -27,10 +27,10 @@ impl Mesh {
     /// clockwise from the start.
     ///
     /// ```
-    /// use tearmesh::{Mesh, VertexId};
+    /// use tearmesh::Mesh;
     ///
     /// let mesh = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]])?;
-    /// let v = VertexId::new(1).unwrap();
+    /// let v = mesh.vertex(1);
     /// assert_eq!(mesh.corners_of(v).count(), 2);
     /// # Ok::<(), tearmesh::BuildError>(())
     /// ```

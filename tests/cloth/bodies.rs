@@ -6,7 +6,7 @@ mod places;
 
 use std::sync::Arc;
 
-use tearmesh::{Mesh, Point, Positions, Scissor, Vector, VertexId, shapes};
+use tearmesh::{Mesh, Point, Positions, Scissor, Vector, shapes};
 use tearmesh_cloth::{
     Balance, Body, BodyError, Cloth, Collider, ColliderShape, Fabric, Loads, Method, Simulation,
     SimulationDef, Solver, Unstable, Verlet, Wounds, implicit,
@@ -314,7 +314,7 @@ fn cloth_tears_and_heals_on_a_body() {
         sim.advance(0.2, 10_000).expect("it parts");
         sim.heal(Wounds::Cut(cut)).expect("it heals");
         sim.advance(0.3, 10_000).expect("it draws together");
-        let [one, other] = [0, 168].map(|corner| VertexId::new(corner).expect("an id"));
+        let [one, other] = [0, 168].map(|corner| sim.mesh().vertex(corner));
         sim.hold([other]).expect("a corner");
         let hand = sim.grab(one, 0.0).expect("the other corner");
         let whole = sim.mesh().vertex_count();

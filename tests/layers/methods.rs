@@ -53,7 +53,7 @@ fn methods_along_edges_stay_with_the_chosen_chains() {
         };
         let (corners, of_others) = (corners(kept), corners(&others));
         let is_at = |h: usize, faces: &BTreeSet<usize>| {
-            let across = mesh.pair(HalfEdgeId::new(h).expect("known"));
+            let across = mesh.pair(mesh.half_edge(h));
             let sides = [Some(h / 3), across.map(|h| h.face().index())];
             sides.into_iter().flatten().any(|f| faces.contains(&f))
         };

@@ -3,9 +3,7 @@
 //! The fuzz targets `obj_read` and `obj_roundtrip` and the replay of their seeds use this.
 
 use tearmesh::insert::Plan;
-use tearmesh::{
-    Cursor, Edits, FaceId, Follower as _, HalfEdgeId, Mesh, Positions, VertexId, mend, slide, split,
-};
+use tearmesh::{Cursor, Edits, FaceId, Follower as _, Mesh, Positions, mend, slide, split};
 use tearmesh_obj::{Document, TornDocument};
 
 /// A file, and behind a zero byte (which no OBJ file has) what is split. Whether it is a mesh.
@@ -28,7 +26,7 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
     let mut edits = Edits::new();
     for chunk in splits.chunks_exact(3).take(64) {
         let number = usize::from(chunk[0]) % mesh.vertex_count();
-        let v = VertexId::new(number).expect("a vertex of the mesh");
+        let v = mesh.vertex(number);
         let mask = u16::from_le_bytes([chunk[1], chunk[2]]);
         let mut faces: Vec<FaceId> = mesh.faces_of(v).collect();
         faces.sort();
@@ -97,10 +95,10 @@ fn divide_and_mend(
     for chunk in places.chunks_exact(3).take(16) {
         let place = usize::from(u16::from_le_bytes([chunk[1], chunk[2]]));
         if chunk[0] % 3 == 0 {
-            let f = FaceId::new(place % mesh.face_count()).expect("a face of the mesh");
+            let f = mesh.face(place % mesh.face_count());
             plan.in_face(f, [1.0, 1.0 + f64::from(chunk[0]), 2.0]);
         } else {
-            let h = HalfEdgeId::new(place % mesh.half_edge_count()).expect("a half-edge");
+            let h = mesh.half_edge(place % mesh.half_edge_count());
             plan.on_edge(h, (1.0 + f64::from(chunk[0])) / 257.0);
         }
     }
@@ -174,7 +172,7 @@ fn slide_some(mesh: &mut Mesh, places: &[u8], edits: &mut Edits) {
         .filter(|chunk| chunk[0] & 4 != 0)
     {
         let place = usize::from(u16::from_be_bytes([chunk[1], chunk[2]]));
-        let h = HalfEdgeId::new(place % mesh.half_edge_count()).expect("a half-edge");
+        let h = mesh.half_edge(place % mesh.half_edge_count());
         let [vertex, toward] = [mesh.origin(h), mesh.target(h)];
         if copies[roots[vertex.index()] as usize] == 1 {
             let t = (1.0 + f64::from(chunk[0])) / 257.0;

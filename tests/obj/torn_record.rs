@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use tearmesh::insert::Plan;
-use tearmesh::{HalfEdgeId, Point, mend};
+use tearmesh::{Point, mend};
 use tearmesh_obj::Document;
 
 use super::random::Random;
@@ -120,8 +120,8 @@ vt 6 6\nvn 1 0 0\nvn 0 1 0\nf 1/1/1 2/2/1 3/3/2\nf 3/3/2 2/2/1 4/4/2\nf 3/5/2 4/
         }
         work.edit(|mesh, _, edits| {
             let mut plan = Plan::new();
-            plan.on_edge(HalfEdgeId::new(1).expect("small"), 0.25); // 2-3
-            plan.on_edge(HalfEdgeId::new(6).expect("small"), 0.5); // 3-4
+            plan.on_edge(mesh.half_edge(1), 0.25); // 2-3
+            plan.on_edge(mesh.half_edge(6), 0.5); // 3-4
             plan.apply(mesh, edits).expect("two points");
         });
         let written = work.written();

@@ -56,7 +56,7 @@ impl<'d> Work<'d> {
     }
 
     fn vertex(&self, random: &mut Random) -> VertexId {
-        VertexId::new(random.below(self.mesh.vertex_count())).expect("a vertex")
+        self.mesh.vertex(random.below(self.mesh.vertex_count()))
     }
 
     /// Some points on edges and in faces.
@@ -64,11 +64,11 @@ impl<'d> Work<'d> {
         let mut plan = Plan::new();
         for _ in 0..=random.below(5) {
             if random.below(3) == 0 {
-                let f = FaceId::new(random.below(self.mesh.face_count())).expect("a face");
+                let f = self.mesh.face(random.below(self.mesh.face_count()));
                 plan.in_face(f, [(); 3].map(|()| 0.1 + random.next()));
             } else {
                 let h = random.below(self.mesh.half_edge_count());
-                let h = HalfEdgeId::new(h).expect("a half-edge");
+                let h = self.mesh.half_edge(h);
                 plan.on_edge(h, 0.1 + 0.8 * random.next());
             }
         }
@@ -219,11 +219,11 @@ impl<'d> Work<'d> {
                 }
                 "insert" => self.edit(|mesh, _, edits| {
                     let mut plan = Plan::new();
-                    plan.on_edge(HalfEdgeId::new(number(1)).expect("small"), 0.375);
+                    plan.on_edge(mesh.half_edge(number(1)), 0.375);
                     plan.apply(mesh, edits).expect("a point");
                 }),
                 "split" => self.edit(|mesh, _, edits| {
-                    let faces = (2..words.len()).map(|i| FaceId::new(number(i)).expect("small"));
+                    let faces = (2..words.len()).map(|i| mesh.face(number(i)));
                     let faces: Vec<FaceId> = faces.collect();
                     split::vertex(mesh, vertex(number(1)), &faces, edits).expect("a split");
                 }),
@@ -235,7 +235,7 @@ impl<'d> Work<'d> {
     /// Slides any vertex whose copies are all where it is, along any edge; whether there was one.
     pub(crate) fn slide_anywhere(&mut self, random: &mut Random) -> bool {
         let h = random.below(self.mesh.half_edge_count());
-        let h = HalfEdgeId::new(h).expect("a half-edge");
+        let h = self.mesh.half_edge(h);
         let ends = [self.mesh.origin(h), self.mesh.target(h)];
         let roots = self.mesh.roots();
         let copies = roots.iter().filter(|&&root| root == roots[ends[0].index()]);

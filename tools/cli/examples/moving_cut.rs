@@ -11,7 +11,7 @@ use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 
-use tearmesh::{PerCorner, Plane, Point, Scissor, Vector, VertexId, shapes};
+use tearmesh::{PerCorner, Plane, Point, Scissor, Vector, shapes};
 use tearmesh_cloth::{Loads, Simulation, SimulationDef, Wind};
 use tearmesh_view::{Camera, Picture, PictureSize, RenderOptions, fit, render};
 
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let mut sim = Simulation::new(mesh, &positions, def)?;
     let corners = [CELLS * (CELLS + 1), (CELLS + 1) * (CELLS + 1) - 1];
-    sim.hold(corners.map(|v| VertexId::new(v as usize).expect("small")))?;
+    sim.hold(corners.map(|v| sim.mesh().vertex(v as usize)))?;
 
     // 2. A camera that sees where it is, and where it will fall.
     let size = PictureSize::new(360, 480).expect("a size");

@@ -39,7 +39,7 @@ use crate::system::{SettingError, System};
 ///
 /// ```
 /// use tearmesh_cloth::{Cloth, Fabric, Loads, Unstable, Verlet};
-/// use tearmesh::{shapes, split, Edits, Masses, Plane, Vector, VertexId};
+/// use tearmesh::{shapes, split, Edits, Masses, Plane, Vector};
 ///
 /// let (mut mesh, positions) = shapes::grid(8, 8);
 /// let masses = Masses::area(&mesh, &positions, 0.15)?;
@@ -58,7 +58,7 @@ use crate::system::{SettingError, System};
 ///
 /// // Split a vertex while it hangs.
 /// let mut edits = Edits::new();
-/// let v = VertexId::new(40).unwrap();
+/// let v = mesh.vertex(40);
 /// let plane = Plane::new(cloth.positions()[40], Vector::y())?;
 /// split::by_plane(&mut mesh, v, &plane, cloth.positions(), &mut edits);
 /// edits.replay(&mut cloth);

@@ -7,7 +7,7 @@
 //! cut made each tear, so that another session can undo the cuts one by one.
 //!
 //! ```
-//! use tearmesh::{Edits, FaceId, Positions, VertexId, split};
+//! use tearmesh::{Edits, Positions, split};
 //! use tearmesh_obj::{Document, TornDocument};
 //!
 //! let file = b"o flag\nv 0 0 0\nv 1 0 0 # corner\nv 0 1 0\nv 1 1 0\nvt 0.5\nf 1/1 2/1 3/1\nf 3 2 4\n";
@@ -19,8 +19,8 @@
 //! // Tear the second face off the first, at both ends of their common edge.
 //! let mut edits = Edits::new();
 //! for v in [1, 2] {
-//!     let v = VertexId::new(v).expect("small");
-//!     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+//!     let (v, face) = (mesh.vertex(v), mesh.face(1));
+//!     split::vertex(&mut mesh, v, &[face], &mut edits)?;
 //! }
 //! edits.replay(&mut (&mut positions, &mut torn));
 //!

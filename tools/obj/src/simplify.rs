@@ -80,7 +80,7 @@ impl TornDocument<'_> {
     /// not its number of vertices.
     ///
     /// ```
-    /// use tearmesh::{Edits, HalfEdgeId, Positions, insert::Plan};
+    /// use tearmesh::{Edits, Positions, insert::Plan};
     /// use tearmesh_obj::{Document, TornDocument};
     ///
     /// let document = Document::read(&b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..])?;
@@ -88,7 +88,7 @@ impl TornDocument<'_> {
     /// let mut positions = Positions::new(document.positions().iter().copied())?;
     /// let mut torn = TornDocument::new(&document);
     /// let mut plan = Plan::new();
-    /// plan.on_edge(HalfEdgeId::new(0).expect("small"), 0.5);
+    /// plan.on_edge(mesh.half_edge(0), 0.5);
     /// let mut edits = Edits::new();
     /// plan.apply(&mut mesh, &mut edits)?;
     /// edits.replay(&mut (&mut positions, &mut torn));

@@ -47,7 +47,7 @@ use crate::record::{Apart, Inserted, Record, Slid, SplitOff, is_same_point};
 ///   recorded as long as only the log moves the vertex.
 ///
 /// ```
-/// use tearmesh::{Edits, HalfEdgeId, Positions, insert::Plan};
+/// use tearmesh::{Edits, Positions, insert::Plan};
 /// use tearmesh_obj::{Document, TornDocument};
 ///
 /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\ng seam\nf 1/1 2/2 3/3\n";
@@ -57,7 +57,7 @@ use crate::record::{Apart, Inserted, Record, Slid, SplitOff, is_same_point};
 /// let mut torn = TornDocument::new(&document);
 ///
 /// let mut plan = Plan::new();
-/// plan.on_edge(HalfEdgeId::new(0).expect("small"), 0.5);
+/// plan.on_edge(mesh.half_edge(0), 0.5);
 /// let mut edits = Edits::new();
 /// plan.apply(&mut mesh, &mut edits)?;
 /// edits.replay(&mut (&mut positions, &mut torn));
@@ -172,7 +172,7 @@ impl<'d> TornDocument<'d> {
     /// is needed: see [`mend::stitches`](tearmesh::mend::stitches).
     ///
     /// ```
-    /// use tearmesh::{Edits, FaceId, Positions, VertexId, mend, split};
+    /// use tearmesh::{Edits, Positions, mend, split};
     /// use tearmesh_obj::{Document, TornDocument};
     ///
     /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 2 4\n";
@@ -182,8 +182,8 @@ impl<'d> TornDocument<'d> {
     /// let mut torn = TornDocument::new(&document);
     /// let mut edits = Edits::new();
     /// for v in [1, 2] {
-    ///     let v = VertexId::new(v).expect("small");
-    ///     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+    ///     let (v, face) = (mesh.vertex(v), mesh.face(1));
+    ///     split::vertex(&mut mesh, v, &[face], &mut edits)?;
     ///     edits.replay(&mut (&mut positions, &mut torn));
     ///     torn.next_cut();
     /// }
@@ -220,7 +220,7 @@ impl<'d> TornDocument<'d> {
     /// If the number of points is not [`TornDocument::vertex_count`].
     ///
     /// ```
-    /// use tearmesh::{Edits, FaceId, Point, Positions, VertexId, split};
+    /// use tearmesh::{Edits, Point, Positions, split};
     /// use tearmesh_obj::{Document, TornDocument};
     ///
     /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 2 4\n";
@@ -230,8 +230,8 @@ impl<'d> TornDocument<'d> {
     /// let mut torn = TornDocument::new(&document);
     /// let mut edits = Edits::new();
     /// for v in [1, 2] {
-    ///     let v = VertexId::new(v).expect("small");
-    ///     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+    ///     let (v, face) = (mesh.vertex(v), mesh.face(1));
+    ///     split::vertex(&mut mesh, v, &[face], &mut edits)?;
     /// }
     /// edits.replay(&mut (&mut positions, &mut torn));
     ///

@@ -24,7 +24,7 @@ use crate::torn::TornDocument;
 /// `usemtl`, `s` and `mtllib` statements that apply to it. It has no record, comments or other statements.
 ///
 /// ```
-/// use tearmesh::{Edits, FaceId, Positions, VertexId, split};
+/// use tearmesh::{Edits, Positions, split};
 /// use tearmesh_obj::{Document, PieceWriter, TornDocument};
 ///
 /// let file = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\no left\nf 1 2 3\no right\ng hem\nf 3 2 4\n";
@@ -34,8 +34,8 @@ use crate::torn::TornDocument;
 /// let mut torn = TornDocument::new(&document);
 /// let mut edits = Edits::new();
 /// for v in [1, 2] {
-///     let v = VertexId::new(v).expect("small");
-///     split::vertex(&mut mesh, v, &[FaceId::new(1).expect("small")], &mut edits)?;
+///     let (v, face) = (mesh.vertex(v), mesh.face(1));
+///     split::vertex(&mut mesh, v, &[face], &mut edits)?;
 /// }
 /// edits.replay(&mut (&mut positions, &mut torn));
 ///
