@@ -78,7 +78,7 @@ impl Soup<'_> {
         }
         let smaller_end = |h| self.ends(h)[0];
         self.in_ranges(smaller_end, |half_edges| {
-            half_edges.sort_unstable_by_key(|&h| (self.ends(h), h));
+            half_edges.sort_unstable_by_key(|&h| (self.ends(h), self.opposite(h), h));
             for along in half_edges.chunk_by_mut(|&h, &g| self.ends(h) == self.ends(g)) {
                 self.look_at_edge(along, visit);
             }
@@ -175,7 +175,6 @@ impl Soup<'_> {
         };
         let [a, b] = self.ends(first);
         let ends = [a, b].map(VertexId::from_u32);
-        along.sort_unstable_by_key(|&h| (self.opposite(h), h));
         for group in along.chunk_by(|&h, &g| self.opposite(h) == self.opposite(g)) {
             let c = self.opposite(group[0]);
             let vertices = [ends[0], ends[1], VertexId::from_u32(c)];
