@@ -85,14 +85,13 @@ impl Reader {
 
     /// Keeps the bytes of a line from a place on, with `\n` for every line end.
     fn push_text(&mut self, line: &Line<'_>, start: usize) -> Parsed<()> {
-        let bytes = &line.bytes[start..];
-        if let Some(at) = memchr::memchr(0, bytes) {
-            return Err(binary(start + at, 0));
-        }
         let text = &mut self.document.text;
         let before = text.len();
-        let mut rest = bytes;
-        while let Some(at) = memchr::memchr(b'\r', rest) {
+        let mut rest = &line.bytes[start..];
+        while let Some(at) = memchr::memchr2(b'\r', 0, rest) {
+            if rest[at] == 0 {
+                return Err(binary(line.bytes.len() - rest.len() + at, 0));
+            }
             extend(text, &rest[..at]);
             push(text, b'\n');
             rest = &rest[at + 1..];
