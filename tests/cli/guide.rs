@@ -219,6 +219,7 @@ const REPORTS: &[&str] = &[
     "tear sheet.obj --scene springs.toml -o e.obj",
     "tear sheet.obj --scene flag --seconds 1.6 --solver provot -o e.obj",
     "tear sheet.obj --scene pin.toml --check-step -o e.obj",
+    "tear sheet.obj --scene body.toml --seconds 0.01 -o e.obj",
 ];
 
 #[test]
@@ -226,6 +227,8 @@ fn the_guide_has_the_keys_of_the_report_and_no_others() {
     let folder = Folder::new();
     folder.add_files("tests/cli/inputs.txt");
     folder.write("pin.toml", "seconds = 0.01\n[[hold]]\nnear = [0, 1]\n");
+    let dummy = root().join("tests/data/dummy.obj");
+    folder.write("body.toml", format!("[[collider]]\nbody = {dummy:?}\n"));
 
     let mut printed = BTreeSet::new();
     for typed in REPORTS {

@@ -17,8 +17,8 @@ use crate::harness::{Folder, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0x98d7_428e_1adc_f627),
-    ("tear.txt", 0xbf07_0beb_0c29_9c60),
+    ("README.md", 0x8708_94c6_1bd7_f1dc),
+    ("tear.txt", 0xe4be_167b_3b51_cb23),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A

@@ -137,7 +137,7 @@ impl Found {
             }
             (first, _) => {
                 let first = first.map(Fault::line).unwrap_or_default();
-                let more = match self.errors().count() {
+                let more = match self.errors().map(|fault| 1 + fault.unlisted).sum::<usize>() {
                     0 | 1 => String::new(),
                     errors => format!(" and {} more", errors - 1),
                 };

@@ -46,6 +46,7 @@ pub(crate) fn faults(input: &Input, document: Document, error: &MeshError, or: &
         .collect();
     let more = error.error().count() - faults.len();
     if let Some(last) = faults.last_mut() {
+        last.unlisted = more;
         if more > 0 {
             let more = count(more, "more defect", "more defects");
             last.message.push_str(&format!("; and {more}"));

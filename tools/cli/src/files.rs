@@ -130,7 +130,16 @@ pub(crate) fn one_stream<P: AsRef<Path>>(inputs: &[P]) -> Result<(), Stop> {
     Ok(())
 }
 
-/// That a file is named like one of another format than the only one that is written.
+/// Refuses a file that is named like one of another format than the only one that is written.
+pub(crate) fn check_format(path: &Path, format: &str, endings: &[&str]) -> Result<(), Stop> {
+    let is_of = |ending: String| endings.contains(&&*ending);
+    match ending(path).is_none_or(is_of) {
+        true => Ok(()),
+        false => Err(only(format, path, &format!("name it x.{}", endings[0]))),
+    }
+}
+
+/// That a file is named like one of another format.
 fn only(format: &str, path: &Path, help: &str) -> Stop {
     let name = path.display();
     let message = format!("cannot write `{name}`: only {format} output is supported");
@@ -139,18 +148,12 @@ fn only(format: &str, path: &Path, help: &str) -> Stop {
 
 /// Refuses a picture that is named like a file of another format.
 pub(crate) fn check_picture(path: &Path) -> Result<(), Stop> {
-    match ending(path).as_deref() {
-        None | Some("png") => Ok(()),
-        _ => Err(only("PNG", path, "name it x.png")),
-    }
+    check_format(path, "PNG", &["png"])
 }
 
 /// Refuses a page that is named like a file of another format.
 pub(crate) fn check_page(path: &Path) -> Result<(), Stop> {
-    match ending(path).as_deref() {
-        None | Some("html" | "htm") => Ok(()),
-        _ => Err(only("HTML", path, "name it x.html")),
-    }
+    check_format(path, "HTML", &["html", "htm"])
 }
 
 /// Refuses a mesh that is named like a file of a format other than OBJ.
@@ -158,7 +161,10 @@ pub(crate) fn check_mesh(path: &Path) -> Result<(), Stop> {
     let ending = ending(path).unwrap_or_default();
     let is_of = |(endings, _): &&(&str, _)| endings.split(' ').any(|one| one == ending);
     match FOREIGN.iter().find(is_of) {
-        Some((_, help)) => Err(only("OBJ", path, &format!("name it x.obj, and {help}"))),
+        Some((_, help)) => {
+            let help = format!("name it x.obj, and {help}").replace("x.*", &format!("x.{ending}"));
+            Err(only("OBJ", path, &help))
+        }
         None => Ok(()),
     }
 }
@@ -177,7 +183,7 @@ const FOREIGN: [(&str, &str); 5] = [
     (
         "3ds 3mf abc blend bmp dae dxf fbx glb gltf jpeg jpg mdd mtl off ply step stl stp svg usd usda usdc \
          usdz vtk vtp vtu wrl x3d",
-        "convert that, as with `assimp export x.obj x.ply`",
+        "convert that, as with `assimp export x.obj x.*`",
     ),
 ];
 

@@ -129,6 +129,8 @@ pub(crate) struct Tear {
     pub(crate) status: &'static str,
     pub(crate) steps: u64,
     pub(crate) dt_s: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) bodies: Vec<BodyGrid>,
     pub(crate) time_simulated_s: f64,
     pub(crate) time_planned_s: f64,
     pub(crate) splits: u64,
@@ -162,6 +164,15 @@ pub(crate) struct Tear {
     pub(crate) frames: Option<Frames>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cache: Option<Cache>,
+}
+
+/// How closely a body of the scene is met: lengths in metres.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct BodyGrid {
+    pub(crate) thickness_m: f64,
+    pub(crate) cell_m: f64,
+    pub(crate) error_rms_m: f64,
+    pub(crate) error_worst_m: f64,
 }
 
 /// `--check-step`: the scene played with many seeds, at its step and at half of it.

@@ -14,6 +14,8 @@ pub(crate) struct Fault {
     pub(crate) path: String,
     /// Other lines that have to do with it.
     pub(crate) related: Vec<(Location, Excerpt)>,
+    /// How many more of its kind are not listed.
+    pub(crate) unlisted: usize,
 }
 
 impl Deref for Fault {
@@ -80,6 +82,7 @@ impl Fault {
             diagnostic: Box::new(diagnostic.clone()),
             path: path.to_owned(),
             related: Vec::new(),
+            unlisted: 0,
         }
     }
 

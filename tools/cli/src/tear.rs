@@ -32,7 +32,7 @@ use crate::say::Fault;
 use crate::scene::SceneFile;
 use crate::session::{Opened, Session, milliseconds};
 use crate::streams::Streams;
-use crate::{output, report};
+use crate::{files, output, report};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -44,6 +44,8 @@ pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>
 
 fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
+    let cache = args.cache.as_deref();
+    cache.map_or(Ok(()), |path| files::check_format(path, "PC2", &["pc2"]))?;
     let source = SceneFile::find(&args.scene, session.streams)?;
     let cuts = check::cuts(args, &mut session.faults)?;
     let mut opened = session.open(None)?;
@@ -211,6 +213,7 @@ impl Play<'_> {
             status,
             steps: tally.steps,
             dt_s: run.step_s(),
+            bodies: summary::bodies(&run),
             time_simulated_s: run.elapsed_s(),
             time_planned_s: run.scene().duration_s,
             splits: tally.splits,
@@ -238,7 +241,9 @@ impl Play<'_> {
             cache: None,
         };
         session.faults.extend(advice::after(&run));
-        session.words.push(summary::simulation(&tear));
+        session.words.extend(tear.bodies.iter().map(summary::body));
+        let has_cuts = !session.report.cuts.is_empty();
+        session.words.push(summary::simulation(&tear, has_cuts));
         session.words.extend(summary::first_tear(&records.tear_log));
         session.words.push(summary::balance(&run));
         if self.args.files.verbose {

@@ -2,14 +2,15 @@
 
 use std::io::{self, Write};
 
-use tearmesh_cloth::Quality;
 use tearmesh_cloth::scene::{Run, TearLog};
+use tearmesh_cloth::{Collider, ColliderShape, Quality};
 
 use crate::report;
 use crate::say::{count, pieces, short, three_digits};
 
 /// The line of the summary.
-pub(super) fn simulation(tear: &report::Tear) -> String {
+pub(super) fn simulation(tear: &report::Tear, has_cuts: bool) -> String {
+    let came_apart = if has_cuts { "torn or cut" } else { "torn" };
     let cap = match tear.steps_at_cap {
         0 => String::new(),
         steps => format!(" (cap hit in {})", count(steps as usize, "step", "steps")),
@@ -19,7 +20,7 @@ pub(super) fn simulation(tear: &report::Tear) -> String {
         status => format!(", {status} before {} s", short(tear.time_planned_s)),
     };
     format!(
-        "tear: {} s in {} ({}){ended}, {} split{cap}, {} m torn (at rest), {} -> {}, stretched up to {}",
+        "tear: {} s in {} ({}){ended}, {} split{cap}, {} m {came_apart} (at rest), {} -> {}, stretched up to {}",
         short(tear.time_simulated_s),
         count(tear.steps as usize, "step", "steps"),
         tear.solver,
@@ -78,6 +79,36 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         numerical_dissipation: said(-balance.made_j()),
         gain: run.energy_gain().filter(|_| !has_limited(run)),
     }
+}
+
+/// How closely each body of the scene is met.
+pub(super) fn bodies(run: &Run) -> Vec<report::BodyGrid> {
+    let grid = |collider: &Collider| match &collider.shape {
+        ColliderShape::Body {
+            body, thickness_m, ..
+        } => Some(report::BodyGrid {
+            thickness_m: *thickness_m,
+            cell_m: body.cell_m(),
+            error_rms_m: body.error_rms_m(),
+            error_worst_m: body.error_worst_m(),
+        }),
+        _ => None,
+    };
+    run.scene().colliders.iter().filter_map(grid).collect()
+}
+
+/// The line of the summary about a body.
+pub(super) fn body(body: &report::BodyGrid) -> String {
+    let [thickness, cell, rms, worst] = [
+        body.thickness_m,
+        body.cell_m,
+        body.error_rms_m,
+        body.error_worst_m,
+    ]
+    .map(three_digits);
+    format!(
+        "body: vertices stay {thickness} m away; a grid with cells of {cell} m, off by {rms} m (rms) and at most {worst} m"
+    )
 }
 
 /// The features that a scene uses, and which part of the work each is.
