@@ -8,6 +8,7 @@ use tearmesh_cli::Exit;
 use crate::harness::{Folder, file_of, in_memory};
 use crate::plain::{Plain, pieces};
 use crate::random::Random;
+use crate::stride::stride;
 use crate::vectors::{cross, dot, length, minus};
 
 /// A file as its lines have it: where each `v` says that it is, where the record says so, and faces.
@@ -176,9 +177,10 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
     assert!(count("vertices_moved") == 0 || one.is != one.shown);
 }
 
-/// Cuts two hundred times at random: across and into sheets, a tube and quads, by all methods.
+/// Cuts at random: across and into sheets, a tube and quads, by all methods.
 #[test]
-fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
+fn gapped_cuts_change_nothing_but_what_is_seen() {
+    let wanted = 200 / stride();
     let folder = Folder::new();
     let mut random = Random(17);
     let mut tally = Counts {
@@ -186,7 +188,7 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
         ..Counts::default()
     };
     for case in 0.. {
-        if tally.made == 200 {
+        if tally.made == wanted {
             break;
         }
         let name = ["flag", "sheet", "sleeve", "quilt"][case % 4];
@@ -208,7 +210,8 @@ fn two_hundred_gapped_cuts_change_nothing_but_what_is_seen() {
         let cut = format!("{first} --method {method}");
         gapped_cut(name, &mesh, &cut, (gap, &second), &mut tally);
     }
-    assert!(tally.divided > 40 && tally.moved > 4000 && tally.clamped > 50);
+    let least = wanted as u64;
+    assert!(5 * tally.divided > least && 4 * tally.clamped > least && tally.moved > 20 * least);
 }
 
 /// Real files of up to 300 kB, where they are at hand, cut through and slit.

@@ -36,6 +36,8 @@ mod progress;
 #[path = "../support/random.rs"]
 #[allow(dead_code, reason = "shared with other tests")]
 mod random;
+#[path = "../support/stride.rs"]
+mod stride;
 mod tear;
 mod transcripts;
 mod units;

@@ -6,6 +6,7 @@
 use std::process::Command;
 
 use crate::in_process::ran;
+use crate::stride::stride;
 
 const CHILD: &str = "TEARMESH_MEMORY_OF_COMMAND";
 
@@ -42,20 +43,21 @@ fn exit_and_peak(args: &[&str]) -> (String, usize) {
 
 #[test]
 fn refused_nonagons_take_no_more_memory_than_promised() {
-    takes_no_more_than_promised("nonagons", "f 1 2 3 4 5 6 7 8 9\n");
+    takes_no_more_than_promised("nonagons", "f 1 2 3 4 5 6 7 8 9\n", &["check", "cut"]);
 }
 
 #[test]
 fn a_refused_bow_tie_takes_no_more_memory_than_promised() {
-    takes_no_more_than_promised("a bow-tie of pentagons", "f 1 2 3 4 5\nf 1 6 7 8 9\n");
+    let faces = "f 1 2 3 4 5\nf 1 6 7 8 9\n";
+    takes_no_more_than_promised("a bow-tie of pentagons", faces, &["cut", "check"]);
 }
 
 /// The size of such a file. Twelve times it is just more than 64 MiB, so that what is taken besides counts
 /// most.
 const MIB: usize = 6;
 
-/// A file that has these faces again and again.
-fn takes_no_more_than_promised(name: &str, faces: &str) {
+/// A file that has these faces again and again, by the first of the verbs, and in CI by all.
+fn takes_no_more_than_promised(name: &str, faces: &str, verbs: &[&str]) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("refused.obj");
     let path = path.to_str().expect("a plain name");
@@ -63,7 +65,7 @@ fn takes_no_more_than_promised(name: &str, faces: &str) {
     let file = nine.to_owned() + &faces.repeat((MIB << 20) / faces.len());
     std::fs::write(path, &file).expect("a temporary file");
     let allowed = 12 * file.len() / 1024;
-    for verb in ["check", "cut"] {
+    for &verb in verbs.iter().step_by(stride()) {
         let rays = ["--rays", "0.1,0,5:0,0,-1", "0.2,1,5:0,0,-1", "--dry-run"];
         let rays = if verb == "cut" { &rays[..] } else { &[] };
         let (exit, peak) = exit_and_peak(&[&["tearmesh", verb, path], rays].concat());

@@ -32,6 +32,8 @@ mod round_trip;
 mod same_bytes;
 mod slides;
 mod spelling;
+#[path = "../support/stride.rs"]
+mod stride;
 mod tables;
 mod torn;
 mod torn_damage;
