@@ -54,6 +54,12 @@ pub struct Edits {
     /// After the last record.
     end: Cursor,
     records: Vec<Record>,
+    lists: Lists,
+}
+
+/// The lists of all records, one after another.
+#[derive(Clone, Debug, Default)]
+struct Lists {
     corners: Vec<HalfEdgeId>,
     links: Vec<TornLink>,
     points: Vec<InsertedPoint>,
@@ -100,8 +106,8 @@ impl Edits {
     /// links. A corner counts once for each split that moves it. A link tears only once.
     pub fn reserve(&mut self, splits: usize, corners: usize, torn: usize) {
         self.records.reserve(splits);
-        self.corners.reserve(corners);
-        self.links.reserve(torn);
+        self.lists.corners.reserve(corners);
+        self.lists.links.reserve(torn);
     }
 
     /// Returns the number of records in the log, without those that were cleared.
@@ -282,15 +288,79 @@ impl Edits {
     /// these end. All followers must replay the log first.
     pub fn clear(&mut self) {
         self.records.clear();
-        self.corners.clear();
-        self.links.clear();
-        self.points.clear();
-        self.children.clear();
+        self.lists.corners.clear();
+        self.lists.links.clear();
+        self.lists.points.clear();
+        self.lists.children.clear();
     }
 
     fn record(&self, i: usize) -> Edit<'_> {
-        let Record { edit, ends, .. } = self.records[i];
-        let starts = self.ends_before(i);
+        self.lists.read(&self.records[i], self.ends_before(i))
+    }
+
+    /// Where the lists of record `i` start.
+    fn ends_before(&self, i: usize) -> Ends {
+        let before = i.checked_sub(1).map(|before| self.records[before].ends);
+        before.unwrap_or_default()
+    }
+
+    /// Notes a corner of the split or merge that will be finished next.
+    #[inline]
+    pub(crate) fn note_corner(&mut self, h: HalfEdgeId) {
+        self.lists.corners.push(h);
+    }
+
+    /// Where the corners noted since the last record are.
+    pub(crate) fn noted(&self) -> std::ops::Range<usize> {
+        self.ends_before(self.records.len()).corners..self.lists.corners.len()
+    }
+
+    /// Forgets the corners noted since the last record.
+    pub(crate) fn discard_noted(&mut self) {
+        self.lists.corners.truncate(self.noted().start);
+    }
+
+    #[inline]
+    pub(crate) fn corner(&self, i: usize) -> HalfEdgeId {
+        self.lists.corners[i]
+    }
+
+    /// Notes a link that the split or merge to be finished next tore or sewed.
+    #[inline]
+    pub(crate) fn note_link(&mut self, link: TornLink) {
+        self.lists.links.push(link);
+    }
+
+    /// Notes the points and children of the insertion to be finished next.
+    pub(crate) fn note_insertion(&mut self, points: Vec<InsertedPoint>, children: Vec<ChildFace>) {
+        self.lists.points.extend(points);
+        self.lists.children.extend(children);
+    }
+
+    /// Makes a record of an edit after the last one, with what was noted since. Of the corners noted, those
+    /// of a vertex that is renumbered begin at `moved`. `size` is that of the mesh before.
+    pub(crate) fn finish(&mut self, edit: Edit<'static>, moved: usize, size: MeshSize) -> Edit<'_> {
+        debug_assert_eq!(edit.before(), self.end);
+        let starts = self.ends_before(self.records.len());
+        let ends = Ends {
+            moved,
+            corners: self.lists.corners.len(),
+            links: self.lists.links.len(),
+            points: self.lists.points.len(),
+            children: self.lists.children.len(),
+        };
+        let record = Record { edit, ends, size };
+        self.records.push(record);
+        let edit = self.lists.read(&record, starts);
+        self.end = edit.after();
+        edit
+    }
+}
+
+impl Lists {
+    /// A record with its lists, which start there.
+    fn read(&self, record: &Record, starts: Ends) -> Edit<'_> {
+        let Record { edit, ends, .. } = *record;
         let corners = &self.corners[starts.corners..ends.corners];
         let links = &self.links[starts.links..ends.links];
         match edit {
@@ -318,62 +388,6 @@ impl Edits {
             }
             Edit::Slide(slide) => Edit::Slide(Slide { corners, ..slide }),
         }
-    }
-
-    /// Where the lists of record `i` start.
-    fn ends_before(&self, i: usize) -> Ends {
-        let before = i.checked_sub(1).map(|before| self.records[before].ends);
-        before.unwrap_or_default()
-    }
-
-    /// Notes a corner of the split or merge that will be finished next.
-    #[inline]
-    pub(crate) fn note_corner(&mut self, h: HalfEdgeId) {
-        self.corners.push(h);
-    }
-
-    /// Where the corners noted since the last record are.
-    pub(crate) fn noted(&self) -> std::ops::Range<usize> {
-        self.ends_before(self.records.len()).corners..self.corners.len()
-    }
-
-    /// Forgets the corners noted since the last record.
-    pub(crate) fn discard_noted(&mut self) {
-        self.corners.truncate(self.noted().start);
-    }
-
-    #[inline]
-    pub(crate) fn corner(&self, i: usize) -> HalfEdgeId {
-        self.corners[i]
-    }
-
-    /// Notes a link that the split or merge to be finished next tore or sewed.
-    #[inline]
-    pub(crate) fn note_link(&mut self, link: TornLink) {
-        self.links.push(link);
-    }
-
-    /// Notes the points and children of the insertion to be finished next.
-    pub(crate) fn note_insertion(&mut self, points: Vec<InsertedPoint>, children: Vec<ChildFace>) {
-        self.points.extend(points);
-        self.children.extend(children);
-    }
-
-    /// Makes a record of an edit after the last one, with what was noted since. Of the corners noted, those
-    /// of a vertex that is renumbered begin at `moved`. `size` is that of the mesh before.
-    pub(crate) fn finish(&mut self, edit: Edit<'static>, moved: usize, size: MeshSize) -> Edit<'_> {
-        debug_assert_eq!(edit.before(), self.end);
-        let i = self.records.len();
-        let ends = Ends {
-            moved,
-            corners: self.corners.len(),
-            links: self.links.len(),
-            points: self.points.len(),
-            children: self.children.len(),
-        };
-        self.records.push(Record { edit, ends, size });
-        self.end = self.record(i).after();
-        self.record(i)
     }
 }
 
