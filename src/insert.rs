@@ -317,12 +317,22 @@ impl Work {
 
     /// Gives every vertex of a divided face, and every new one, its smallest half-edge (I9).
     fn find_half_edges(&self, mesh: &mut Mesh) {
-        let corner_of = |child: &ChildFace| {
-            let half_edges = child.face.half_edges();
-            child.vertices.into_iter().zip(half_edges)
-        };
-        let mut starts: Vec<(VertexId, HalfEdgeId)> =
-            self.children.iter().flat_map(corner_of).collect();
+        let first_new = mesh.next_vertex().index();
+        // The corners of a new vertex are all of children.
+        let mut of_new: Vec<Option<HalfEdgeId>> = vec![None; self.placed.len()];
+        let mut starts: Vec<(VertexId, HalfEdgeId)> = Vec::new();
+        for child in &self.children {
+            for (v, h) in child.vertices.into_iter().zip(child.face.half_edges()) {
+                // Where the half-edge that a vertex had starts there still, it is the smallest: other
+                // faces of the vertex, and their children, have higher ids.
+                let moved = |first| mesh.origin(first) != v;
+                if let Some(new) = v.index().checked_sub(first_new) {
+                    of_new[new] = Some(of_new[new].map_or(h, |smallest| smallest.min(h)));
+                } else if mesh.half_edge_of(v).is_some_and(moved) {
+                    starts.push((v, h));
+                }
+            }
+        }
         starts.sort_unstable();
         starts.dedup_by_key(|&mut (v, _)| v);
         // One walk tells of all copies of a vertex, each of which is among `starts` or has the
@@ -345,11 +355,10 @@ impl Work {
             }
         }
         for (v, smallest) in starts {
-            if v == mesh.next_vertex() {
-                mesh.push_vertex(smallest);
-            } else {
-                mesh.set_half_edge_of(v, smallest);
-            }
+            mesh.set_half_edge_of(v, smallest);
+        }
+        for smallest in of_new.into_iter().flatten() {
+            mesh.push_vertex(smallest);
         }
     }
 }
