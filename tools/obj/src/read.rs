@@ -126,7 +126,9 @@ impl Reader {
 
     #[inline(never)]
     fn unusual_statement<'l>(&mut self, mut scan: Scan<'l>) -> Parsed<Scan<'l>> {
-        scan.find_token();
+        if !scan.peek().is_some_and(|byte| byte.is_ascii_alphabetic()) {
+            scan.find_token();
+        }
         let keyword = scan.token();
         let start = scan.at();
         scan.skip(keyword.len());
