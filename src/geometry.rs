@@ -414,6 +414,11 @@ mod tests {
     }
 
     #[test]
+    fn a_triangle_that_is_a_point_has_no_altitude() {
+        assert_eq!(altitude([Point::origin(); 3]), 0.0);
+    }
+
+    #[test]
     fn scaling_is_exact_at_both_ends_of_the_range() {
         for size in [5e-324, 1e-310, 1.0, 3.0, f64::MAX] {
             let v = scaled(Vector::new(0.0, -size, 0.0)).expect("not zero");

@@ -255,17 +255,11 @@ impl Masses {
 
     /// Returns the number of vertices.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn vertex_count(&self) -> usize {
         match &self.store {
             Store::Area { vertices, .. } => vertices.len(),
             Store::Half { vertices } => vertices.len(),
         }
-    }
-
-    /// Returns whether there are no vertices.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     /// Returns the exact sum of all masses.
@@ -371,7 +365,7 @@ impl Follower for Masses {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
-        let count = self.len();
+        let count = self.vertex_count();
         let in_step = |new: VertexId| {
             assert_eq!(new.index(), count, "masses are in step with the mesh");
         };

@@ -164,8 +164,8 @@ pub enum InsertRefusal {
         /// The parameter given for the second point.
         t: f64,
     },
-    /// A chord does not divide its face, crosses another chord, or lies in a face with points
-    /// inside. Its ends must be two places on the outline of the face, with area on both sides.
+    /// A chord does not divide its face, is the second in it, or lies in a face with points inside.
+    /// Its ends must be two places on the outline of the face, with area on both sides.
     Chord {
         /// The face that the chord was to divide.
         face: FaceId,

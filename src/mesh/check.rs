@@ -362,6 +362,26 @@ mod tests {
         broken
     }
 
+    /// Marks the link h2-h3 as a pair, although v0 is at one side only.
+    fn sewn(mesh: &mut Mesh) {
+        mesh.link[2].0 &= !Link::TORN;
+        mesh.link[3].0 &= !Link::TORN;
+    }
+
+    /// No mesh breaks I18 alone: where pairs agree (I4, I6), the way along the boundary is right.
+    #[test]
+    fn a_boundary_that_goes_through_a_tear_is_broken() {
+        let broken = broken_by(|mesh| {
+            sewn(mesh);
+            let violations = Vec::new();
+            let mut report = Report { mesh, violations };
+            report.boundary();
+            let named = report.violations.iter().map(|one| one.invariant);
+            assert!(named.eq([Invariant::BoundaryLoops]));
+        });
+        assert_eq!(broken, [Invariant::PairAgrees]);
+    }
+
     #[test]
     fn every_broken_invariant_is_named() {
         use Invariant::{
@@ -369,7 +389,12 @@ mod tests {
         };
         type Damage = fn(&mut Mesh);
         // The mesh is f0 = 0 1 2, f1 = 5 2 3, f2 = 0 3 4; h2-h3 and h5-h6 are torn.
-        let cases: [(Invariant, Damage); 12] = [
+        let two_roots: Damage = |mesh| {
+            // v4 becomes v1, on the other side of the fan.
+            mesh.origin[8] = 1;
+            mesh.outgoing[4] = NO_HALF_EDGE;
+        };
+        let cases: [(Invariant, Damage); 13] = [
             (Sizes, |mesh| mesh.link.truncate(8)),
             (Range, |mesh| mesh.origin[4] = 6),
             (Range, |mesh| mesh.link[1] = Link(9)),
@@ -380,15 +405,9 @@ mod tests {
             (Outgoing, |mesh| mesh.outgoing[0] = 6),
             (Outgoing, |mesh| mesh.outgoing[5] = NO_HALF_EDGE),
             (Invariant::DistinctVertices, |mesh| mesh.origin[1] = 0),
-            // v4 becomes v1, on the other side of the fan.
-            (OneRoot, |mesh| {
-                mesh.origin[8] = 1;
-                mesh.outgoing[4] = NO_HALF_EDGE;
-            }),
-            (PairAgrees, |mesh| {
-                mesh.link[2].0 &= !Link::TORN;
-                mesh.link[3].0 &= !Link::TORN;
-            }),
+            (OneRoot, two_roots),
+            (Invariant::Fans, two_roots),
+            (PairAgrees, sewn),
         ];
         for (i, (invariant, damage)) in cases.into_iter().enumerate() {
             let broken = broken_by(damage);

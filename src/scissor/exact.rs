@@ -212,10 +212,8 @@ fn meets(way: &Way<'_>, corners: [Point; 3]) -> bool {
         ((from < 0.0) != (to < 0.0)).then(|| between(p, q, from / (from - to)))
     };
     let mut ends = (0..3).filter_map(crossing);
-    match (ends.next(), ends.next()) {
-        (Some(p), Some(q)) => way.strip.clip(p, q, way.offsets.bound()).is_some(),
-        _ => false,
-    }
+    let is_inside = |(p, q)| way.strip.clip(p, q, way.offsets.bound()).is_some();
+    ends.next().zip(ends.next()).is_some_and(is_inside)
 }
 
 /// The edges that are to be torn, and that are in the mesh once all points are inserted.

@@ -274,7 +274,7 @@ impl<'w> Survey<'w> {
         }
         // A slit that only grazes a corner may be so short that the quotient is infinite.
         let ratio = |a: f64, b: f64| match a / b {
-            ratio if b > 0.0 && ratio.is_finite() => ratio,
+            ratio if ratio.is_finite() => ratio,
             _ => 0.0,
         };
         CutReport {

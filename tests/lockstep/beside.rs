@@ -22,7 +22,7 @@ pub(super) fn every_vertex_weighs_what_its_faces_weigh(masses: &Masses, soup: &S
     {
         units[v as usize] += mass;
     }
-    assert_eq!(masses.len(), units.len());
+    assert_eq!(masses.vertex_count(), units.len());
     for (v, units) in (0..).map_while(VertexId::new).zip(units) {
         assert_eq!(masses.at(v), units as f64 * unit, "the mass of {v}");
     }
@@ -32,7 +32,7 @@ pub(super) fn every_vertex_weighs_what_its_faces_weigh(masses: &Masses, soup: &S
 /// I20 for masses by halves.
 pub(super) fn halves_add_up(masses: &Masses, soup: &Soup, unit: f64) {
     let halved = soup.halved.as_ref().expect("nothing was inserted");
-    assert_eq!(masses.len(), halved.len());
+    assert_eq!(masses.vertex_count(), halved.len());
     let roots = soup.roots();
     let mut parts = vec![0; soup.class.len()];
     for (v, &(root, part)) in (0..).map_while(VertexId::new).zip(halved) {

@@ -82,7 +82,7 @@ pub(super) fn conserves_mass(
     for half in [old, new] {
         assert_eq!(after.at(half) > 0.0, weighs(half), "whether {half} weighs");
     }
-    for v in (0..before.len())
+    for v in (0..before.vertex_count())
         .filter_map(VertexId::new)
         .filter(|&v| v != old)
     {

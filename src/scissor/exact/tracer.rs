@@ -242,10 +242,10 @@ impl Tracer<'_> {
             }
         }
         if piece.to - piece.from <= self.near {
-            let is_inside = |node: Node| node.depths.into_iter().all(|depth| depth >= 0.0);
+            // Where no side plane ends the slit, the node is inside both.
             return Err(match piece.tips {
-                [None, Some(side)] if is_inside(one) => Some((side, one.site)),
-                [Some(side), None] if is_inside(other) => Some((side, other.site)),
+                [None, Some(side)] => Some((side, one.site)),
+                [Some(side), None] => Some((side, other.site)),
                 _ => None,
             });
         }

@@ -161,7 +161,7 @@ impl Cloth {
         fabric.check().map_err(ClothError::Number)?;
         let count = mesh.vertex_count();
         assert_eq!(
-            (masses.len(), positions.len(), rest.len()),
+            (masses.vertex_count(), positions.len(), rest.len()),
             (count, count, mesh.half_edge_count()),
             "masses and positions are those of the mesh"
         );
