@@ -129,6 +129,14 @@ fn inputs_that_make_no_mesh_are_refused_by_name() {
         let vertices = number(vertices) as usize;
         assert_eq!(told(vertices, corners.as_chunks().0), [expected], "{row}");
     }
+    for (roots, expected) in [
+        (&[0, 1, 2, 1][..], "vertex 1 cannot be the root of v3"),
+        (&[0, 1, 2, 9], "vertex 9 cannot be the root of v3"),
+        (&[0, 0, 1], "vertex 1 cannot be the root of v2"),
+    ] {
+        let error = Mesh::build_torn(&[[0, 1, 2]], roots).expect_err("no root");
+        assert_eq!(error.to_string(), expected);
+    }
     let limit = Mesh::MAX_VERTICES;
     let too_many = format!("{} vertices, the limit is {limit}", limit + 1);
     assert_eq!(told(limit + 1, &[]), [too_many]);

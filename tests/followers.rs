@@ -201,7 +201,10 @@ fn a_follower_that_is_not_in_step_is_told_why() {
     let mut masses = Masses::area(&grid, &places, 1.0).expect("an area");
     let told = panic_of(|| record.pass_on(&mut masses)).expect("a panic");
     assert!(told.contains("has seen 0 edits was shown edit 3"), "{told}");
-    // Who is in step sees just what is new.
+    // Who is in step is shown one after another, or sees just what is new.
+    let mut shown = ones();
+    edits.iter().for_each(|record| record.pass_on(&mut shown));
+    assert_eq!(*shown.cursor(), edits.cursor());
     edits.replay(&mut seen);
     let counts = (seen.as_slice().len(), *seen.cursor());
     assert_eq!(counts, (mesh.vertex_count(), edits.cursor()));
@@ -249,6 +252,8 @@ fn logs_that_differ_in_one_record_have_different_cursors() {
         "insert 3 face 0 1 2 1",
         "insert 3 face 0 1 1 2",
         "insert 3 face 0 3 4 1",
+        "insert 0 edge 0 32 edge 1 32 edge 2 32 chord 3 4",
+        "insert 0 edge 0 32 edge 1 32 edge 2 32 chord 4 5",
         "slide any 0 1 32",
         "slide any 0 1 16",
         "slide any 1 0 16",

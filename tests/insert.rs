@@ -72,6 +72,30 @@ fn chords_count_in_whatever_order_they_are_given() {
     }
 }
 
+/// The third point is on an edge from the first point, to the second or to a corner.
+#[test]
+fn a_point_on_an_edge_of_the_star_divides_it() {
+    let (square, _) = shapes::grid(1, 1);
+    let face = square.faces().next().expect("a face");
+    let [first, second] = [[0.25, 0.25, 0.5], [0.375, 0.375, 0.25]];
+    for third in [[0.3125, 0.3125, 0.375], [0.125, 0.625, 0.25]] {
+        let mut plan = Plan::new();
+        let points = [first, second, third].into_iter();
+        points.for_each(|weights| _ = plan.in_face(face, weights));
+        assert_eq!(refused(&square, &plan), None, "{third:?}");
+    }
+}
+
+#[test]
+fn a_second_chord_in_a_face_is_refused() {
+    let (square, mut plan) = (shapes::grid(1, 1).0, Plan::new());
+    let points = [0, 1, 2].map(|h| ChordEnd::Point(plan.on_edge(half_edge(h), 0.5)));
+    let face = half_edge(0).face();
+    plan.chord(face, [points[0], points[1]]);
+    plan.chord(face, [points[1], points[2]]);
+    assert_eq!(refused(&square, &plan), Some(InsertRefusal::Chord { face }));
+}
+
 /// Two points that rounding alone tells apart, given from either side of an edge: they are
 /// refused, or every child still covers something.
 #[test]

@@ -1,8 +1,11 @@
 //! Masses: what is refused, what they start from, and what is conserved; and the sums that tell.
 
+use tearmesh::insert::Plan;
 use tearmesh::{
     Edits, ExactSum, Follower as _, MassError, MassLedger, Masses, Mesh, mend, shapes, split,
 };
+
+use crate::foreign::panic_of;
 
 const USUAL: &str = "nothing unusual";
 
@@ -22,10 +25,10 @@ fn masses_that_cannot_be_exact_are_refused() {
     let refused = |points: &[[f64; 3]], density| {
         Masses::area(&mesh, points, density).expect_err("it is refused")
     };
-    assert_eq!(
-        refused(&points, f64::NAN).to_string(),
-        "the density NaN is not a positive finite number"
-    );
+    for density in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        let expected = format!("the density {density} is not a positive finite number");
+        assert_eq!(refused(&points, density).to_string(), expected);
+    }
     for x in [0.0, f64::NAN] {
         let nowhere = vec![[x; 3]; points.len()];
         assert_eq!(refused(&nowhere, 1.0), MassError::NoArea);
@@ -101,7 +104,32 @@ fn a_face_without_area_still_weighs_three_units() {
     ];
     let masses = Masses::area(&mesh, &points[..], 2.0).expect(USUAL);
     let lightest = masses.at(mesh.vertex(3));
-    assert_eq!(lightest, power_of_two(1 - 52));
+    assert_eq!([lightest, masses.unit()], [power_of_two(1 - 52); 2]);
+}
+
+/// A face of 3 to 12 units is divided into four.
+#[test]
+fn children_of_a_face_of_few_units_lose_none() {
+    let whole = Mesh::build(4, &[[0, 1, 2], [2, 1, 3]]).expect(USUAL);
+    let mut plan = Plan::new();
+    for t in [0.25, 0.5, 0.75] {
+        plan.on_edge(whole.half_edge(4), t);
+    }
+    for units in 3..=12 {
+        let areas = [1.0, f64::from(units) * power_of_two(-51)];
+        let masses = Masses::by_areas(&whole, |f| areas[f.index()], 1.0);
+        let (mut mesh, mut edits) = (whole.clone(), Edits::new());
+        plan.apply(&mut mesh, &mut edits).expect(USUAL);
+        let mut masses = masses.expect(USUAL);
+        edits.replay(&mut masses);
+        assert!(masses.ledger().is_balanced(), "{units}");
+    }
+    let (mut mesh, positions) = shapes::grid(1, 1);
+    let mut half = Masses::half(&mesh, &positions, 1.0).expect(USUAL);
+    let mut edits = Edits::new();
+    plan.apply(&mut mesh, &mut edits).expect(USUAL);
+    let told = panic_of(|| edits.replay(&mut half)).expect("a panic");
+    assert!(told.starts_with("masses by halves cannot follow an insertion"));
 }
 
 #[test]

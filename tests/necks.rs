@@ -61,6 +61,23 @@ fn a_neck_narrower_than_the_snap_is_reported() {
     }
 }
 
+/// Two notches side by side: what is between them comes off, and then what is on one side.
+#[test]
+fn two_necks_side_by_side_are_two_pieces() {
+    let x = [-1.0, 1.0, -2.0, -2.0, 2.0, 2.0, 0.0, 0.0, -1.5, 1.5];
+    let y = [0.02, 0.02, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, 1.0, 1.0];
+    let [left, below] = [[0, 3, 2, 0, 8, 3], [0, 2, 6, 0, 6, 1]];
+    let [right, between_both] = [[1, 4, 5, 1, 5, 9], [1, 6, 4, 0, 1, 7]];
+    let faces = [left, below, right, between_both];
+    let sheet = Surface {
+        points: (0..10).map(|i| [x[i], y[i], 0.0]).collect(),
+        faces: faces.as_flattened().as_chunks().0.to_vec(),
+    };
+    let report = cut_along(&sheet, &between([-3.0, 0.0], [3.0, 0.0]).through(true));
+    let sizes: Vec<usize> = report.necks.iter().map(|neck| neck.faces).collect();
+    assert_eq!((report.pieces, sizes), (4, vec![1, 2]), "{report:?}");
+}
+
 /// What an ideal cut leaves is counted by the naive implementation.
 #[test]
 fn through_cuts_leave_ideal_pieces_and_those_on_necks() {

@@ -145,7 +145,7 @@ impl Counts {
         let first = first.expect("itself, if no other");
         assert_eq!(hit.face.index(), first.face, "{}", what());
         let whole: i128 = first.parts.iter().sum();
-        let length = |p: Whole| p.iter().map(|&x| (x * x) as f64).sum::<f64>().sqrt();
+        let length = |p: Whole| p.iter().map(|&x| (x as f64).powi(2)).sum::<f64>().sqrt();
         let corners =
             triangles[first.face].map(|v| length(minus(lattice.points[v as usize], origin)));
         let far = corners.into_iter().fold(0.0, f64::max);
@@ -266,6 +266,21 @@ fn regression_a_ray_that_starts_within_a_face_meets_it() {
     let mut counts = Counts::default();
     counts.check(&lattice, [11, 5, -1], [-62, -62, -38]);
     assert_eq!((counts.inside, counts.at_the_origin), (1, 1));
+}
+
+/// So nearly along an edge that the distances of its ends from the ray are rounded to zero.
+#[test]
+fn regression_a_ray_almost_along_an_edge_has_weights() {
+    let n = 1 << 52;
+    let mesh = Mesh::build(3, &[[0, 1, 2]]).expect("a triangle");
+    let points = [[n + 1, n, 0], [n - 1, n - 2, 0], [0, 0, 1]];
+    let mut counts = Counts::default();
+    counts.check(
+        &Lattice::of(mesh, |v| points[v.index()]),
+        [0; 3],
+        [n, n - 1, 0],
+    );
+    assert_eq!(counts.on_edges, 1);
 }
 
 #[test]

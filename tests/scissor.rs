@@ -4,13 +4,14 @@
 use std::fmt::Write as _;
 
 use tearmesh::{
-    CutError, CutMethod, CutReport, CutTips, Edits, Mesh, Positions, Scissor, ScissorError, shapes,
+    Cut as Made, CutError, CutLayers, CutMethod, CutReport, CutTips, Edits, Follower as _, Mesh,
+    PerCorner, Point, Positions, Scissor, ScissorError, Side, shapes,
 };
 
 use crate::oracle::naive_cut;
 use crate::oracle::straight::{Cut, Surface};
 use crate::straight::{cases, judged};
-use crate::work::{Work, between, down, scissor};
+use crate::work::{Work, between, down, ray, scissor};
 
 #[test]
 fn errors_of_scissors_say_what_is_wrong() {
@@ -46,6 +47,9 @@ fn errors_of_scissors_say_what_is_wrong() {
         ScissorError::OneLine.to_string(),
         "the two rays are the same line, so they span no cutting plane"
     );
+    let rays = [[0.0; 3], [1.0, 1e-15, 0.0]].map(|at| ray((at, [1.0, 0.0, 0.0])));
+    let nearly = Scissor::new(rays[0], rays[1]).err();
+    assert_eq!(nearly, Some(ScissorError::OneLine));
 }
 
 fn numbers<const N: usize>(text: &str) -> [f64; N] {
@@ -55,9 +59,12 @@ fn numbers<const N: usize>(text: &str) -> [f64; N] {
 }
 
 /// What is said of a cut.
-fn told(report: &CutReport, mesh: &Mesh) -> String {
+fn told(cut: &Made, report: &CutReport, mesh: &Mesh) -> String {
+    let sides = [Some(Side::Front), Some(Side::Back), None];
+    let faces = |side| cut.sides().iter().filter(|of| of.1 == side).count();
     let mut told = format!(
-        "{} splits, {} ghost pairs, {} faces crossed, {} of {} pieces, {} boundary loops, seam {:.3}",
+        "{} inserted, {} splits, {} ghost pairs, {} faces crossed, {} of {} pieces, {} boundary loops, seam {:.3}, sides {:?}",
+        report.vertices_inserted,
         report.splits,
         report.ghost_pairs,
         report.faces_crossed,
@@ -65,7 +72,13 @@ fn told(report: &CutReport, mesh: &Mesh) -> String {
         report.pieces_expected,
         mesh.boundary_loops().len(),
         report.seam_length,
+        sides.map(faces),
     );
+    if !report.tip_overshoots.is_empty() {
+        let tips = report.tip_overshoots.iter();
+        let thousandths: Vec<i32> = tips.map(|x| (1e3 * x).round() as i32).collect();
+        let _ = write!(told, ", tips {thousandths:?}");
+    }
     let _ = match (report.missed, report.separated) {
         (true, _) => write!(told, ", missed by {}", report.nearest_vertex),
         (_, true) => write!(told, ", separated"),
@@ -74,46 +87,83 @@ fn told(report: &CutReport, mesh: &Mesh) -> String {
     told
 }
 
+/// A mesh by its name and size.
+fn named(words: &[&str]) -> Work {
+    let size = |i: usize| words[i].parse::<u32>().expect("a size");
+    Work::new(match words[0] {
+        "grid" => shapes::grid(size(1), size(1)),
+        "falling" => shapes::grid_with_diagonals(size(1), size(1), |_, _| false),
+        "tube" => shapes::tube(size(1), size(2)),
+        "torus" => shapes::torus(size(1), size(2)),
+        other => panic!("{other}"),
+    })
+}
+
+/// Sews what is at a place, or moves the last vertex there.
+fn change(work: &mut Work, action: &str, [x, y, by]: [f64; 3]) {
+    let (mut points, place) = (work.positions.as_slice().to_vec(), Point::new(x, y, 0.0));
+    if action == "sew" {
+        work.sew(|v| points[v.index()] == place);
+        return;
+    }
+    let last = points.iter().rposition(|&p| p == place);
+    points[last.expect("a vertex")].y += by;
+    let corner = |h| points[work.mesh.origin(h).index()].into();
+    let corners = work.mesh.half_edges().map(corner).collect();
+    work.corners = PerCorner::new(corners).starting_at(work.edits.cursor());
+    let positions = Positions::new(points).expect("finite");
+    work.positions = positions.starting_at(work.edits.cursor());
+}
+
+/// The scissor of two rays and the words before them, and the method.
+fn described(words: &[&str]) -> (CutMethod, Scissor) {
+    let ray = |word: &str| match word.split_once(':') {
+        Some((origin, along)) => (numbers(origin), numbers(along)),
+        None => down(numbers(word)),
+    };
+    let [words @ .., a, b] = words else {
+        panic!("two rays: {words:?}")
+    };
+    let (mut method, mut scissor) = (CutMethod::Partition, scissor([ray(a), ray(b)]).snap(0.0));
+    for &word in words {
+        match word {
+            "exact" => method = CutMethod::Exact,
+            "uniform" => method = CutMethod::Uniform,
+            "through" => scissor = scissor.through(true),
+            "midpoint" => scissor = scissor.tips(CutTips::Midpoint),
+            "first" => scissor = scissor.layers(CutLayers::First),
+            "sliding" => scissor = scissor.snap_move(true),
+            snap => scissor = scissor.snap(numbers::<1>(snap)[0]),
+        }
+    }
+    (method, scissor)
+}
+
 #[test]
-fn cuts_by_partition_match_the_table() {
+fn cuts_match_the_table() {
+    let mut wrong = Vec::new();
     for row in include_str!("scissor.txt").lines() {
         let columns: Vec<&str> = row.split('|').map(str::trim).collect();
-        let [mesh, cuts, expected] = columns[..] else {
+        let [mesh, steps, expected] = columns[..] else {
             continue;
         };
-        let words: Vec<&str> = mesh.split(' ').collect();
-        let size = |i: usize| words[i].parse::<u32>().expect("a size");
-        let mut work = Work::new(match words[0] {
-            "grid" => shapes::grid(size(1), size(1)),
-            "falling" => shapes::grid_with_diagonals(size(1), size(1), |_, _| false),
-            "tube" => shapes::tube(size(1), size(2)),
-            other => {
-                assert_eq!(other, "torus");
-                shapes::torus(size(1), size(2))
-            }
-        });
+        let mut work = named(&mesh.split(' ').collect::<Vec<_>>());
         let mut last = String::new();
-        for cut in cuts.split(';') {
-            let ray = |word: &str| match word.split_once(':') {
-                Some((origin, along)) => (numbers(origin), numbers(along)),
-                None => down(numbers(word)),
-            };
-            let words: Vec<&str> = cut.split_whitespace().collect();
-            let [.., a, b] = words[..] else {
-                panic!("two rays: {row}")
-            };
-            let scissor = scissor([ray(a), ray(b)]).through(words[0] == "through");
-            let scissor = match words[0] {
-                "midpoint" => scissor.tips(CutTips::Midpoint),
-                _ => scissor,
-            };
-            let (_, report) = work.cut(CutMethod::Partition, &scissor);
-            assert_eq!(report.crumbs, 0, "{row}");
-            assert_eq!(report.pieces + report.lost, report.pieces_expected, "{row}");
-            last = told(&report, &work.mesh);
+        for step in steps.split(';') {
+            let words: Vec<&str> = step.split_whitespace().collect();
+            if let [action @ ("sew" | "part"), place] = words[..] {
+                change(&mut work, action, numbers(place));
+                continue;
+            }
+            let (method, scissor) = described(&words);
+            let (cut, report) = work.cut(method, &scissor);
+            last = told(&cut, &report, &work.mesh);
         }
-        assert_eq!(last, expected, "{row}");
+        if last != expected {
+            wrong.push(format!("{mesh} | {steps} | {last}"));
+        }
     }
+    assert_eq!(wrong.join("\n"), "", "what came of cuts");
 }
 
 /// What holds of a generic cut of any surface by `partition`.
