@@ -1,5 +1,5 @@
-//! What `partition` promises, what its report says, and what a scissor refuses. (That planes are those of any
-//! two rays, both errata of the paper included, is in `rays.rs` and `straight.rs`.)
+//! A table of cuts by all methods, what `partition` promises, and what a scissor refuses. (That planes are those
+//! of any two rays, both errata of the paper included, is in `rays.rs` and `straight.rs`.)
 
 use std::fmt::Write as _;
 
