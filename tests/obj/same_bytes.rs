@@ -3,8 +3,10 @@
 //! The fuzz targets `obj_read` and `obj_roundtrip` and the replay of their seeds use this.
 
 use tearmesh::insert::Plan;
-use tearmesh::{Cursor, Edits, FaceId, Follower as _, Mesh, Positions, mend, slide, split};
-use tearmesh_obj::{Document, TornDocument};
+use tearmesh::{Cursor, FaceId, slide, split};
+use tearmesh_obj::Document;
+
+use super::work::{Work, read, rewritten};
 
 /// A file, and behind a zero byte (which no OBJ file has) what is split. Whether it is a mesh.
 pub(crate) fn check(bytes: &[u8]) -> bool {
@@ -19,32 +21,29 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
     let Ok(document) = Document::read(file) else {
         return false;
     };
-    let Ok(mut mesh) = document.mesh() else {
+    if document.mesh().is_err() {
         return false;
-    };
-    let mut positions = positions(&document);
-    let mut edits = Edits::new();
+    }
+    let mut work = Work::on(&document);
     for chunk in splits.chunks_exact(3).take(64) {
-        let number = usize::from(chunk[0]) % mesh.vertex_count();
-        let v = mesh.vertex(number);
+        let number = usize::from(chunk[0]) % work.mesh.vertex_count();
+        let v = work.mesh.vertex(number);
         let mask = u16::from_le_bytes([chunk[1], chunk[2]]);
-        let mut faces: Vec<FaceId> = mesh.faces_of(v).collect();
+        let mut faces: Vec<FaceId> = work.mesh.faces_of(v).collect();
         faces.sort();
         let mut bit = 0..;
         faces.retain(|_| bit.next().is_some_and(|i: u32| mask >> (i % 16) & 1 == 1));
         // The empty and the full set are refused, and nothing has happened then.
-        let _ = split::vertex(&mut mesh, v, &faces, &mut edits);
+        let _ = split::vertex(&mut work.mesh, v, &faces, &mut work.edits);
     }
-    let mut torn = TornDocument::new(&document);
-    edits.replay(&mut (&mut positions, &mut torn));
-    assert_eq!(mesh.check(), []);
+    work.follow();
+    assert_eq!(work.mesh.check(), []);
 
-    let written = write_torn(&torn, &mesh, &positions);
-    divide_and_mend(&document, mesh.clone(), positions.clone(), torn, splits);
-    let again = Document::read(&written[..]).expect("what was written can be read");
-    corners_are_the_same(&document, &mesh, &positions, &again);
+    let written = work.written();
+    let again = read(&written);
+    corners_are_the_same(&document, &work, &again);
     attributes_are_the_same(&document, &again);
-    if edits.cursor() == Cursor::START {
+    if work.edits.cursor() == Cursor::START {
         assert_eq!(again.triangles(), document.triangles());
         let vertices = |document: &Document| {
             let points = document.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
@@ -52,15 +51,10 @@ pub(crate) fn check_file(file: &[u8], splits: &[u8]) -> bool {
         };
         assert!(vertices(&again) == vertices(&document), "positions");
     }
-    let same = again.mesh().expect("what was written is a mesh");
-    assert_eq!(same.check(), []);
-    assert_same(&write(&again, &same, &self::positions(&again)), &written);
+    assert_eq!(Work::on(&again).mesh.check(), []);
+    assert_same(&rewritten(&written), &written);
+    divide_and_mend(&document, work, splits);
     true
-}
-
-fn positions(document: &Document) -> Positions {
-    let points = document.positions().iter().copied();
-    Positions::new(points).expect("the reader refuses other coordinates")
 }
 
 fn assert_same(one: &[u8], other: &[u8]) {
@@ -68,62 +62,32 @@ fn assert_same(one: &[u8], other: &[u8]) {
     assert!(one == other, "the same bytes");
 }
 
-fn write(document: &Document, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
-    write_torn(&TornDocument::new(document), mesh, positions)
-}
-
-fn write_torn(torn: &TornDocument<'_>, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
-    let mut out = Vec::new();
-    let done = torn.write(mesh, positions, &mut out);
-    done.expect("a vector takes everything");
-    out
-}
-
 /// Slides and inserts where the bytes say; what is written is read and written again. Then all
 /// is sewn and simplified, in a second session too.
-fn divide_and_mend(
-    document: &Document,
-    mut mesh: Mesh,
-    mut positions: Positions,
-    mut torn: TornDocument<'_>,
-    places: &[u8],
-) {
-    torn.next_cut();
-    let mut edits = Edits::new();
-    slide_some(&mut mesh, places, &mut edits);
+fn divide_and_mend(document: &Document, mut work: Work<'_>, places: &[u8]) {
+    work.torn.next_cut();
+    slide_some(&mut work, places);
     let mut plan = Plan::new();
     for chunk in places.chunks_exact(3).take(16) {
         let place = usize::from(u16::from_le_bytes([chunk[1], chunk[2]]));
         if chunk[0] % 3 == 0 {
-            let f = mesh.face(place % mesh.face_count());
+            let f = work.mesh.face(place % work.mesh.face_count());
             plan.in_face(f, [1.0, 1.0 + f64::from(chunk[0]), 2.0]);
         } else {
-            let h = mesh.half_edge(place % mesh.half_edge_count());
+            let h = work.mesh.half_edge(place % work.mesh.half_edge_count());
             plan.on_edge(h, (1.0 + f64::from(chunk[0])) / 257.0);
         }
     }
     // Points at one place are refused, and nothing has happened then.
-    let _ = plan.apply(&mut mesh, &mut edits);
-    let mut torn = torn.starting_at(Cursor::START);
-    let mut moving = positions.clone().starting_at(Cursor::START);
-    edits.replay(&mut (&mut moving, &mut torn));
-    positions = moving;
-    let written = write_torn(&torn, &mesh, &positions);
-    let again = Document::read(&written[..]).expect("what was written can be read");
-    let same = again.mesh().expect("what was written is a mesh");
-    let points = self::positions(&again);
-    let twice = write_torn(&TornDocument::new(&again), &same, &points);
-    assert_same(&twice, &written);
-    let later = mended(TornDocument::new(&again), same, points);
-    let mended = mended(
-        torn.starting_at(Cursor::START),
-        mesh,
-        positions.starting_at(Cursor::START),
-    );
+    let _ = plan.apply(&mut work.mesh, &mut work.edits);
+    work.follow();
+    let written = work.written();
+    assert_same(&rewritten(&written), &written);
+    let again = read(&written);
+    let later = mended(Work::on(&again));
+    let mended = mended(work);
     if !document.has_record() {
-        let uncut = document.mesh().expect("it was one before");
-        let uncut = write(document, &uncut, &self::positions(document));
-        assert_same(&mended, &uncut);
+        assert_same(&mended, &Work::on(document).written());
     }
     if keeps_what_may_name_numbers(&mended) {
         let lines = |bytes: &[u8]| {
@@ -160,54 +124,35 @@ fn keeps_what_may_name_numbers(file: &[u8]) -> bool {
 }
 
 /// Slides vertices, of which there are no copies, along edges.
-fn slide_some(mesh: &mut Mesh, places: &[u8], edits: &mut Edits) {
-    let mut copies = vec![0; mesh.vertex_count()];
-    let roots = mesh.roots();
-    for &root in &roots {
-        copies[root as usize] += 1;
-    }
+fn slide_some(work: &mut Work<'_>, places: &[u8]) {
+    let roots = work.mesh.roots();
     for chunk in places
         .chunks_exact(3)
         .take(16)
         .filter(|chunk| chunk[0] & 4 != 0)
     {
         let place = usize::from(u16::from_be_bytes([chunk[1], chunk[2]]));
-        let h = mesh.half_edge(place % mesh.half_edge_count());
-        let [vertex, toward] = [mesh.origin(h), mesh.target(h)];
-        if copies[roots[vertex.index()] as usize] == 1 {
+        let h = work.mesh.half_edge(place % work.mesh.half_edge_count());
+        let [vertex, toward] = [work.mesh.origin(h), work.mesh.target(h)];
+        let root = roots[vertex.index()];
+        if roots.iter().filter(|&&other| other == root).count() == 1 {
             let t = (1.0 + f64::from(chunk[0])) / 257.0;
+            let (mesh, edits) = (&mut work.mesh, &mut work.edits);
             slide::toward(mesh, vertex, toward, t, edits).expect("an edge");
         }
     }
 }
 
 /// What is written once all is sewn and simplified.
-fn mended(mut torn: TornDocument<'_>, mut mesh: Mesh, mut positions: Positions) -> Vec<u8> {
-    let mut edits = Edits::new();
-    let stitches = mend::stitches(&mesh, |_| true);
-    mend::sew(
-        &mut mesh,
-        &positions,
-        &stitches,
-        |_| 1.0,
-        f64::INFINITY,
-        &mut edits,
-    )
-    .expect("all are of one root");
-    edits.replay(&mut (&mut positions, &mut torn));
-    assert_eq!(torn.cuts(), []);
-    let simplified = torn.simplified(&mesh, &positions);
-    match simplified.expect("it can be read").document {
-        None => write_torn(&torn, &mesh, &positions),
-        Some(simple) => {
-            let mesh = simple.mesh().expect("a simplified mesh is one");
-            write(&simple, &mesh, &self::positions(&simple))
-        }
-    }
+fn mended(mut work: Work<'_>) -> Vec<u8> {
+    work.sew_apart(&work.all_stitches(), f64::INFINITY);
+    assert_eq!(work.torn.cuts(), []);
+    work.simplest().0
 }
 
 /// Each corner of each triangle is where it was, bit for bit, and has its vt and vn.
-fn corners_are_the_same(before: &Document, mesh: &Mesh, positions: &Positions, after: &Document) {
+fn corners_are_the_same(before: &Document, work: &Work<'_>, after: &Document) {
+    let (mesh, positions) = (&work.mesh, &work.positions);
     assert_eq!(after.triangles().len(), before.triangles().len());
     assert_eq!(after.triangles().len(), mesh.face_count());
     for (f, triangle) in mesh.faces().zip(after.triangles()) {

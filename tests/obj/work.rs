@@ -10,8 +10,41 @@ use tearmesh::{
 };
 use tearmesh_obj::{Document, TornDocument};
 
-use super::random::Random;
-use super::{positions, read, rewritten, text};
+use crate::random::Random;
+
+/// Reads a file that must be accepted.
+pub(crate) fn read(bytes: &[u8]) -> Document {
+    match Document::read(bytes) {
+        Ok(document) => document,
+        Err(error) => panic!("{error}\n{}", String::from_utf8_lossy(bytes)),
+    }
+}
+
+/// The positions of a document, for writing it with its own mesh.
+pub(crate) fn positions(document: &Document) -> Positions {
+    Positions::new(document.positions().iter().copied()).expect("the reader checks coordinates")
+}
+
+/// Writes a document as a mesh.
+pub(crate) fn write_as(document: &Document, mesh: &Mesh, positions: &Positions) -> Vec<u8> {
+    let mut out = Vec::new();
+    TornDocument::new(document)
+        .write(mesh, positions, &mut out)
+        .expect("memory can be written");
+    out
+}
+
+/// Reads, builds and writes.
+pub(crate) fn rewritten(bytes: &[u8]) -> Vec<u8> {
+    let document = read(bytes);
+    let mesh = document.mesh().unwrap_or_else(|error| panic!("{error}"));
+    write_as(&document, &mesh, &positions(&document))
+}
+
+/// Bytes as text, for comparisons that a person can read.
+pub(crate) fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
 
 /// A document under the scissors.
 pub(crate) struct Work<'d> {
@@ -33,7 +66,7 @@ impl<'d> Work<'d> {
         work
     }
 
-    fn follow(&mut self) {
+    pub(crate) fn follow(&mut self) {
         self.edits
             .replay(&mut (&mut self.positions, &mut self.torn));
     }
@@ -128,8 +161,12 @@ impl<'d> Work<'d> {
         });
     }
 
+    pub(crate) fn all_stitches(&self) -> Vec<mend::Stitch> {
+        mend::stitches(&self.mesh, |_| true)
+    }
+
     pub(crate) fn sew_all(&mut self) {
-        self.sew(&mend::stitches(&self.mesh, |_| true));
+        self.sew(&self.all_stitches());
     }
 
     /// The vertices in the order in which they are written first.
@@ -249,12 +286,18 @@ impl<'d> Work<'d> {
 
     /// What is written once all is taken out that can be; and how many vertices stay for edits since they
     /// were inserted or slid, and how many are slid back.
-    pub(crate) fn simplified(&self) -> (String, [usize; 3]) {
+    pub(crate) fn simplest(&self) -> (Vec<u8>, [usize; 3]) {
         let simple = self.torn.simplified(&self.mesh, &self.positions);
         let simple = simple.expect("what we wrote can be read");
         let counts = [simple.edited, simple.slid_edited, simple.slid_back];
         let simple = simple.document.as_ref().map(Work::on);
-        (text(&simple.as_ref().unwrap_or(self).written()), counts)
+        (simple.as_ref().unwrap_or(self).written(), counts)
+    }
+
+    /// The same as text.
+    pub(crate) fn simplified(&self) -> (String, [usize; 3]) {
+        let (written, counts) = self.simplest();
+        (text(&written), counts)
     }
 
     /// What is written once all is sewn and simplified, where nothing was edited.
