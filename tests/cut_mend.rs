@@ -9,7 +9,7 @@ use tearmesh::{
     Cursor, CutEnd, CutLayers, CutMethod, Mesh, Point, Positions, Ray, Scissor, VertexId,
 };
 
-use crate::work::{Work, area};
+use crate::work::{METHODS, Work, area};
 
 /// A mesh, and what is done to it.
 #[derive(Debug)]
@@ -129,15 +129,8 @@ impl Step {
                 4 | 7 => Span::First,
                 _ => Span::All,
             },
-            method: [
-                CutMethod::Exact,
-                CutMethod::Exact,
-                CutMethod::Exact,
-                CutMethod::Exact,
-                CutMethod::Partition,
-                CutMethod::Uniform,
-                CutMethod::Alternating,
-            ][usize::from(kind % 7)],
+            // Four in seven are exact.
+            method: METHODS[usize::from(kind % 7).saturating_sub(3)],
             snap: SNAPS[usize::from(k / 3) % SNAPS.len()],
             snap_move: l % 4 == 3,
             through: m % 2 == 1,

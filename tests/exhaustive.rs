@@ -50,9 +50,12 @@ fn every_three_edits_of_every_small_mesh() {
 #[test]
 fn every_edit_of_every_kind_of_the_least_meshes() {
     let all = |faces_max, in_a_row| edits_of_meshes(Kinds::AndMore, faces_max, in_a_row);
-    let counts = |count: Count| (count.counts(), count.slides);
-    assert_eq!(counts(all(5, 1)), ([620, 1_271, 0], 422));
-    assert_eq!(counts(all(3, 2)), ([5_176, 10_506, 68], 3_485));
+    for (done, expected, slides) in [
+        (all(5, 1), [620, 1_271, 0], 422),
+        (all(3, 2), [5_176, 10_506, 68], 3_485),
+    ] {
+        assert_eq!((counts(done), done.slides), (expected, slides));
+    }
 }
 
 #[test]
@@ -91,42 +94,28 @@ enum Kinds {
     AndMore,
 }
 
-/// How many of each kind [`edits_of_meshes`] did, of all kinds.
+/// Splits, insertions and merges.
+fn counts(done: Done) -> [usize; 3] {
+    [done.splits, done.insertions, done.merges]
+}
+
+/// How many of each [`edits_of_meshes`] did, of all kinds.
 fn edits(faces_max: usize, in_a_row: usize) -> [usize; 3] {
-    edits_of_meshes(Kinds::All, faces_max, in_a_row).counts()
+    counts(edits_of_meshes(Kinds::All, faces_max, in_a_row))
 }
 
 /// Checks all edit sequences of a given length on all meshes up to a given number of faces; returns
 /// how many edits that were.
-fn edits_of_meshes(kinds: Kinds, faces_max: usize, in_a_row: usize) -> Count {
-    let mut count = Count::default();
+fn edits_of_meshes(kinds: Kinds, faces_max: usize, in_a_row: usize) -> Done {
+    let mut count = Done::default();
     for faces in 1..=faces_max {
         for_each_gluing(faces, &mut |opposite| {
-            count.gluings += 1;
             if let Some((vertices, triangles)) = strict_mesh(opposite) {
-                count.meshes += 1;
                 State::new(vertices, &triangles).edit_in_all_ways(kinds, in_a_row, &mut count);
             }
         });
     }
     count
-}
-
-#[derive(Default, Debug)]
-struct Count {
-    gluings: usize,
-    meshes: usize,
-    splits: usize,
-    insertions: usize,
-    merges: usize,
-    slides: usize,
-    refused: usize,
-}
-
-impl Count {
-    fn counts(&self) -> [usize; 3] {
-        [self.splits, self.insertions, self.merges]
-    }
 }
 
 #[derive(Clone)]
@@ -144,7 +133,7 @@ impl State {
         State { world, model }
     }
 
-    fn edit_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
+    fn edit_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Done) {
         if depth == 0 {
             return;
         }
@@ -164,7 +153,7 @@ impl State {
         &self,
         kinds: Kinds,
         depth: usize,
-        count: &mut Count,
+        count: &mut Done,
         edit: impl FnOnce(&mut World, &mut dyn FnMut(&World, &Step<'_>)),
     ) {
         let State {
@@ -175,17 +164,13 @@ impl State {
         edit(&mut world, &mut |world, step| model.follow(world, step));
         model.undoing_everything_gives_the_input_back();
         let done = model.done;
-        count.splits += done.splits;
-        count.insertions += done.insertions;
-        count.merges += done.merges;
-        count.slides += done.slides;
-        count.refused += done.refused;
+        count.add(done);
         if done.refused == 0 {
             State { world, model }.edit_in_all_ways(kinds, depth - 1, count);
         }
     }
 
-    fn split_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
+    fn split_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Done) {
         for v in self.world.mesh.vertices() {
             let faces = self.model.soup().faces_of(v.index());
             for mask in 0..1usize << faces.len() {
@@ -201,7 +186,7 @@ impl State {
     }
 
     /// On every edge, in every face, and some pairs in one face; a torn edge from both sides.
-    fn insert_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
+    fn insert_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Done) {
         let mesh = &self.world.mesh;
         let inside = |f, weights| Point::Face { f, weights };
         let mut ways = Vec::new();
@@ -224,7 +209,7 @@ impl State {
         }
     }
 
-    fn merge_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Count) {
+    fn merge_in_all_ways(&self, kinds: Kinds, depth: usize, count: &mut Done) {
         let class = &self.model.soup().class;
         for one in 0..class.len() {
             for other in one + 1..class.len() {
@@ -274,7 +259,7 @@ fn plan(points: &[Point], chord: Option<(FaceId, [End; 2])>) -> Plan {
 impl State {
     /// A chord across every face: between two points on its edges, from each corner to the edge opposite to
     /// it, and from each corner to a point inside; and one that is refused, as it is an edge already.
-    fn cross_faces_in_all_ways(&self, depth: usize, count: &mut Count) {
+    fn cross_faces_in_all_ways(&self, depth: usize, count: &mut Done) {
         for face in self.world.mesh.faces() {
             let corners = face.half_edges();
             let weights = [1.0, 1.0, 2.0];
@@ -297,7 +282,7 @@ impl State {
 
     /// Every vertex split by planes through it and slid along each of its edges, and sewing of all copies
     /// and of those of every second vertex.
-    fn edit_by_scripts(&self, depth: usize, count: &mut Count) {
+    fn edit_by_scripts(&self, depth: usize, count: &mut Done) {
         let mut operations = vec![
             Operation::Sew { mask: 0xffff },
             Operation::Sew { mask: 0x5555 },

@@ -1,12 +1,12 @@
 //! Properties of random scripts and of random triangle lists.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestError, TestRunner};
 use tearmesh::script::Script;
-use tearmesh::{Defect, Faces, Mesh};
+use tearmesh::{Defect, FaceId, Faces, Mesh};
 
 use crate::cases::cases;
 use crate::lockstep::{self, Done};
@@ -66,18 +66,9 @@ fn run<S: Strategy>(
 
 #[test]
 fn every_step_agrees_with_the_oracle() {
-    let sum = Cell::new(Done::default());
-    let cases = for_all_scripts(|script| {
-        let (done, more) = (sum.get(), lockstep::check(script));
-        sum.set(Done {
-            splits: done.splits + more.splits,
-            insertions: done.insertions + more.insertions,
-            merges: done.merges + more.merges,
-            slides: done.slides + more.slides,
-            refused: done.refused + more.refused,
-        });
-    });
-    let done = sum.get();
+    let sum = RefCell::new(Done::default());
+    let cases = for_all_scripts(|script| sum.borrow_mut().add(lockstep::check(script)));
+    let done = sum.take();
     let least = cases as usize / 10;
     assert!(done.splits > 10 * least && done.insertions > 10 * least && done.merges > 10 * least);
     assert!(done.slides > 10 * least && done.refused > 10 * least);
@@ -130,36 +121,28 @@ fn building_agrees_with_the_oracle(vertices: usize, triangles: &[[u32; 3]]) {
 /// A defect, in the words of the oracle.
 fn plain(defect: &Defect) -> Fault {
     let numbers = |faces: &Faces| faces.iter().map(|f| f.index()).collect();
-    match *defect {
-        Defect::IndexOutOfRange { face, corner, .. } => Fault::OutOfRange {
-            face: face.index(),
-            corner,
-        },
-        Defect::RepeatedVertex { face, vertex } => Fault::Repeated {
-            face: face.index(),
-            vertex: vertex.into(),
-        },
-        Defect::DuplicateFaces { ref faces, .. } => Fault::Duplicate {
-            faces: numbers(faces),
-        },
-        Defect::Pillow { faces, .. } => Fault::Pillow {
-            faces: faces.map(|f| f.index()).to_vec(),
-        },
-        Defect::CrowdedEdge { ends, ref faces } => Fault::Crowded {
-            ends: ends.map(u32::from),
-            faces: numbers(faces),
-        },
-        Defect::FlippedFace { from, to, faces } => Fault::Flipped {
-            from: from.into(),
-            to: to.into(),
-            faces: faces.map(|f| f.index()).to_vec(),
-        },
-        Defect::BowTie { vertex, ref fans } => Fault::BowTie {
-            vertex: vertex.into(),
-            fans: fans.iter().map(numbers).collect(),
-        },
+    let both = |faces: [FaceId; 2]| faces.map(FaceId::index).to_vec();
+    let (what, vertices, faces) = match *defect {
+        Defect::IndexOutOfRange { face, corner, .. } => {
+            return Fault(
+                "out of range",
+                vec![corner as u32],
+                vec![vec![face.index()]],
+            );
+        }
+        Defect::RepeatedVertex { face, vertex } => ("repeated", vec![vertex], vec![face.index()]),
+        Defect::DuplicateFaces { ref faces, .. } => ("duplicate", vec![], numbers(faces)),
+        Defect::Pillow { faces, .. } => ("pillow", vec![], both(faces)),
+        Defect::CrowdedEdge { ends, ref faces } => ("crowded", ends.to_vec(), numbers(faces)),
+        Defect::FlippedFace { from, to, faces } => ("flipped", vec![from, to], both(faces)),
+        Defect::BowTie { vertex, ref fans } => {
+            let fans = fans.iter().map(numbers).collect();
+            return Fault("bow-tie", vec![vertex.into()], fans);
+        }
         ref other => panic!("no small mesh has {other}"),
-    }
+    };
+    let vertices = vertices.into_iter().map(u32::from);
+    Fault(what, vertices.collect(), vec![faces])
 }
 
 #[test]

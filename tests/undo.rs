@@ -10,6 +10,7 @@ use tearmesh::mend;
 use tearmesh::script::World;
 use tearmesh::{Edit, FaceId, FacePart, HalfEdgeId, Insertions, Mesh, Mix, RemovalPlan, VertexId};
 
+use crate::lockstep::beside::weights_in_parent;
 use crate::random::Random;
 use crate::scripts::scripts;
 
@@ -64,35 +65,18 @@ impl Plain {
                     self.points.push(BTreeSet::from([self.count]));
                     self.count += 1;
                 }
-                let mut parents: Vec<usize> = insert
-                    .children
-                    .iter()
-                    .map(|child| child.parent.index())
-                    .collect();
-                parents.dedup();
-                for parent in parents {
-                    let own = insert
-                        .children
-                        .iter()
-                        .filter(|child| child.parent.index() == parent);
+                for family in insert.families() {
                     let mut division = Division {
-                        parent,
+                        parent: family[0].parent.index(),
                         children: Vec::new(),
                         points_at: Vec::new(),
                         points: BTreeSet::new(),
                     };
-                    for child in own {
-                        let mut places = [[0.0; 3]; 3];
+                    for child in family {
+                        let sources = child.sources.each_ref();
+                        let places = sources.map(|source| weights_in_parent(child, source));
                         let mut points_at = [None; 3];
-                        for (i, source) in child.sources.iter().enumerate() {
-                            match *source {
-                                Mix::Copy(h) => places[i][h.index() % 3] = 1.0,
-                                Mix::Between { ends, t } => {
-                                    places[i][ends[0].index() % 3] = 1.0 - t;
-                                    places[i][ends[1].index() % 3] = t;
-                                }
-                                Mix::Weighted { weights, .. } => places[i] = weights,
-                            }
+                        for (i, source) in sources.into_iter().enumerate() {
                             if !matches!(source, Mix::Copy(_)) {
                                 let points = &self.points[child.vertices[i].index()];
                                 division.points.extend(points);

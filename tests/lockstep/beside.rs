@@ -77,7 +77,7 @@ pub(super) fn every_corner_is_where_its_vertex_is(corners: &PerCorner<[f64; 3]>,
 }
 
 /// The weights of the corners of the parent in a corner of a child.
-pub(super) fn weights_in_parent(child: &ChildFace, source: &Mix<HalfEdgeId>) -> [f64; 3] {
+pub(crate) fn weights_in_parent(child: &ChildFace, source: &Mix<HalfEdgeId>) -> [f64; 3] {
     let mut weights = [0.0; 3];
     let mut add = |h: HalfEdgeId, weight: f64| {
         assert_eq!(h.face(), child.parent, "a source is a corner of the parent");

@@ -3,7 +3,7 @@
 //! Proptest, the exhaustive small cases, the regressions and the fuzz targets all use these.
 //! Numbers like I16 are those of `src/mesh/invariants.md`.
 
-mod beside;
+pub(crate) mod beside;
 mod history;
 mod insert;
 mod merge;
@@ -26,6 +26,16 @@ pub(crate) struct Done {
     pub(crate) slides: usize,
     /// Refused, or nothing to do.
     pub(crate) refused: usize,
+}
+
+impl Done {
+    pub(crate) fn add(&mut self, more: Done) {
+        self.splits += more.splits;
+        self.insertions += more.insertions;
+        self.merges += more.merges;
+        self.slides += more.slides;
+        self.refused += more.refused;
+    }
 }
 
 /// Runs a script and checks every property after every step.

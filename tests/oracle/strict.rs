@@ -1,37 +1,14 @@
 //! Which triangles are an oriented 2-manifold, and what is wrong with others: the
 //! definitions, written down as loops.
 
-/// What is wrong with triangles. Faces and vertices are numbers; all lists ascend.
+/// What is wrong with triangles: its name, its vertices (of a face that has one which does not exist, the corner
+/// instead), and its faces, of a bow-tie those of each fan. Lists of faces ascend.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Fault {
-    OutOfRange {
-        face: usize,
-        corner: usize,
-    },
-    Repeated {
-        face: usize,
-        vertex: u32,
-    },
-    Duplicate {
-        faces: Vec<usize>,
-    },
-    Pillow {
-        faces: Vec<usize>,
-    },
-    Crowded {
-        ends: [u32; 2],
-        faces: Vec<usize>,
-    },
-    Flipped {
-        from: u32,
-        to: u32,
-        faces: Vec<usize>,
-    },
-    BowTie {
-        vertex: u32,
-        fans: Vec<Vec<usize>>,
-    },
-}
+pub(crate) struct Fault(
+    pub(crate) &'static str,
+    pub(crate) Vec<u32>,
+    pub(crate) Vec<Vec<usize>>,
+);
 
 /// Whether triangles are an oriented 2-manifold, with or without boundary.
 pub(crate) fn is_strict(vertices: usize, faces: &[[u32; 3]]) -> bool {
@@ -63,17 +40,17 @@ pub(crate) fn faults(vertices: usize, faces: &[[u32; 3]]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut sound = Vec::new();
     for (f, &[a, b, c]) in faces.iter().enumerate() {
-        let beyond: Vec<usize> = (0..3)
-            .filter(|&i| [a, b, c][i] as usize >= vertices)
+        let beyond: Vec<u32> = (0..3)
+            .filter(|&i| [a, b, c][i as usize] as usize >= vertices)
             .collect();
         for &corner in &beyond {
-            faults.push(Fault::OutOfRange { face: f, corner });
+            faults.push(Fault("out of range", vec![corner], vec![vec![f]]));
         }
         if !beyond.is_empty() {
         } else if a == b || a == c {
-            faults.push(Fault::Repeated { face: f, vertex: a });
+            faults.push(Fault("repeated", vec![a], vec![vec![f]]));
         } else if b == c {
-            faults.push(Fault::Repeated { face: f, vertex: b });
+            faults.push(Fault("repeated", vec![b], vec![vec![f]]));
         } else {
             sound.push(f);
         }
@@ -86,11 +63,9 @@ pub(crate) fn faults(vertices: usize, faces: &[[u32; 3]]) -> Vec<Fault> {
         let group: Vec<usize> = sound.iter().copied().filter(|&g| same_set(f, g)).collect();
         if group.len() > 1 && group[0] == f {
             let [a, b, _] = faces[f];
-            if group.len() == 2 && !has_side(group[1], a, b) {
-                faults.push(Fault::Pillow { faces: group });
-            } else {
-                faults.push(Fault::Duplicate { faces: group });
-            }
+            let is_pillow = group.len() == 2 && !has_side(group[1], a, b);
+            let what = if is_pillow { "pillow" } else { "duplicate" };
+            faults.push(Fault(what, vec![], vec![group]));
         }
     }
     for a in 0..vertices as u32 {
@@ -112,27 +87,16 @@ pub(crate) fn faults(vertices: usize, faces: &[[u32; 3]]) -> Vec<Fault> {
             }
             match (up.len(), down.len()) {
                 (1, 1) => {}
-                (2, 0) => faults.push(Fault::Flipped {
-                    from: a,
-                    to: b,
-                    faces: on,
-                }),
-                (0, 2) => faults.push(Fault::Flipped {
-                    from: b,
-                    to: a,
-                    faces: on,
-                }),
-                _ => faults.push(Fault::Crowded {
-                    ends: [a, b],
-                    faces: on,
-                }),
+                (2, 0) => faults.push(Fault("flipped", vec![a, b], vec![on])),
+                (0, 2) => faults.push(Fault("flipped", vec![b, a], vec![on])),
+                _ => faults.push(Fault("crowded", vec![a, b], vec![on])),
             }
         }
     }
     for vertex in 0..vertices as u32 {
         let fans = fans(vertex, faces, &sound);
         if fans.len() > 1 {
-            faults.push(Fault::BowTie { vertex, fans });
+            faults.push(Fault("bow-tie", vec![vertex], fans));
         }
     }
     faults.sort();
