@@ -12,9 +12,10 @@ use tearmesh::{
 };
 
 use crate::cases::cases;
+use crate::plain::{Plain, fan};
 use crate::random::Random;
 use crate::scripts::scripts;
-use crate::surfaces::{File, corpus};
+use crate::surfaces::corpus;
 use crate::work::Work;
 
 type Value = [f64; 2];
@@ -135,7 +136,7 @@ fn spanned(mesh: &Mesh, positions: &Positions) -> Vec<Vector> {
 }
 
 #[test]
-fn normals_that_follow_are_those_made_anew_and_means_by_area() {
+fn normals_that_follow_are_made_anew_and_means_by_area() {
     let (mut edits, mut renewed, mut all) = (0, 0, 0);
     for script in scripts() {
         let mut beside: Option<(Normals, Positions)> = None;
@@ -259,19 +260,26 @@ fn buffers_that_make_no_mesh_are_refused() {
 #[test]
 fn a_garment_is_welded_and_its_buffers_follow_a_cut() {
     for path in corpus(&["snug_tshirt"]) {
-        let file = File::read(&path);
+        let text = std::fs::read_to_string(&path).expect("a file");
+        let file = Plain::read(&text);
         // As an engine has it: a vertex for each pair that some corner names.
-        let pairs: BTreeSet<[usize; 2]> = file.corners.iter().copied().collect();
+        let corners = file.faces.iter().zip(&file.face_textures);
+        let corners = corners.flat_map(|(vertices, textures)| {
+            let pairs = vertices.iter().zip(textures);
+            let pairs: Vec<[usize; 2]> = pairs.map(|(&v, vt)| [v, vt.unwrap_or(0)]).collect();
+            fan(&pairs).collect::<Vec<_>>()
+        });
+        let corners: Vec<[[usize; 2]; 3]> = corners.collect();
+        let pairs: BTreeSet<[usize; 2]> = corners.as_flattened().iter().copied().collect();
         let number: BTreeMap<[usize; 2], u32> = pairs.iter().copied().zip(0..).collect();
-        let on_gpu = pairs
-            .iter()
-            .map(|&[v, _]| file.surface.points[v].map(|x| x as f32));
+        let on_gpu = pairs.iter().map(|&[v, _]| file.at(v).map(|x| x as f32));
         let on_gpu: Vec<[f32; 3]> = on_gpu.collect();
-        let faces = file.corners.as_chunks::<3>().0.iter();
-        let faces: Vec<[u32; 3]> = faces.map(|face| face.map(|pair| number[&pair])).collect();
+        let faces = corners.iter().map(|face| face.map(|pair| number[&pair]));
+        let faces: Vec<[u32; 3]> = faces.collect();
         let welded = weld::by_place(&on_gpu, &faces).expect("a manifold");
         let mut work = Work::new((welded.mesh, welded.positions));
-        let values = file.corners.iter().map(|&[_, vt]| file.texture[vt]);
+        let value = |&[_, vt]: &[usize; 2]| [0, 1].map(|i| file.texture[vt][i]);
+        let values = corners.as_flattened().iter().map(value);
         let mut values = PerCorner::new(values.collect::<Vec<Value>>());
         let mut buffers = DrawBuffers::new(&work.mesh, values.as_slice().to_vec());
         let counts = [work.mesh.vertex_count(), buffers.len(), on_gpu.len()];

@@ -9,7 +9,7 @@ use crate::oracle::straight::{Cut, Surface, is_generic, judge_polyline};
 use crate::random::Random;
 use crate::straight::{judged, random_generic_cut, said};
 use crate::straight_polylines::random_corners;
-use crate::surfaces::{File, corpus, sheets, surfaces};
+use crate::surfaces::{corpus, read, sheets, surfaces};
 use crate::work::{Work, area, between, down, is_measured, ray};
 
 impl Work {
@@ -33,7 +33,7 @@ fn straight_cuts_of_garments_satisfy_the_oracle() {
     garments.extend(files);
     let mut random = Random(61);
     for path in garments {
-        let before = File::read(&path).surface;
+        let before = read(&path);
         for _ in 0..12 {
             let (scissor, cut) = random_generic_cut(&before, &mut random);
             let mut work = Work::of(&before);

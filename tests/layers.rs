@@ -14,7 +14,7 @@ use tearmesh::{CutLayers, CutMethod, Edit, Mesh, Point, Positions, Ray, Scissor,
 use crate::oracle::joined_sets;
 use crate::oracle::straight::{Cut, End, Surface, is_generic, length, minus, segments};
 use crate::random::Random;
-use crate::surfaces::{File, built, corpus};
+use crate::surfaces::{built, corpus, read};
 use crate::work::{Work, triangles};
 
 /// How near a special case a cut may be, in edges, for the oracle to judge it.
@@ -261,7 +261,7 @@ fn for_rays(seed: u64, count: usize, mut visit: impl FnMut(&Work, [Ray; 2])) {
     let names = ["tshirt", "dress", "pants", "sleeve", "karate", "cylinder"];
     let names = names.map(|name| format!("arcsim_{name}"));
     let garments = corpus(&names.each_ref().map(|name| &**name)).into_iter();
-    all.extend(garments.map(|path| Work::new(built(&File::read(&path).surface))));
+    all.extend(garments.map(|path| Work::new(built(&read(&path)))));
     for (kind, work) in all.iter().enumerate() {
         for _ in 0..if kind < 4 { count } else { count / 3 } {
             if let Some(rays) = random_rays(&work.positions, &mut random) {

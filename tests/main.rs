@@ -4,14 +4,8 @@
 
 mod allocation;
 mod apart;
-#[path = "support/cases.rs"]
-mod cases;
 mod cut_mend;
 mod cuts;
-#[path = "support/delaunay.rs"]
-mod delaunay;
-#[path = "support/digest.rs"]
-mod digest;
 mod engine;
 mod exact;
 mod exhaustive;
@@ -23,8 +17,6 @@ mod garment;
 mod geometry;
 mod house;
 mod hub;
-#[path = "support/inputs.rs"]
-mod inputs;
 mod insert;
 mod layers;
 mod lockstep;
@@ -37,8 +29,6 @@ mod planes;
 mod polygons;
 mod proof;
 mod properties;
-#[path = "support/random.rs"]
-mod random;
 mod rational;
 mod rays;
 mod same_bytes;
@@ -48,8 +38,12 @@ mod sheet;
 mod shrink;
 mod straight;
 mod straight_polylines;
+#[allow(dead_code, reason = "each has its users in some of the crates")]
+mod support;
 mod surfaces;
 mod tear;
 mod tips;
 mod undo;
 mod work;
+
+use support::{cases, delaunay, digest, inputs, plain, random};

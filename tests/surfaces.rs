@@ -8,6 +8,7 @@ use tearmesh::{Mesh, Positions, shapes};
 use crate::delaunay;
 use crate::oracle::straight::{Cut, Surface};
 use crate::oracle::{joined_sets, naive_cut};
+use crate::plain::Plain;
 use crate::random::Random;
 use crate::work::{Work, down, triangles};
 
@@ -122,44 +123,13 @@ pub(crate) fn sheets() -> [Surface; 3] {
     ]
 }
 
-/// What a file says in the plainest way: `v x y z`, `vt u v` and `f a/b c/d e/f`, counted from 1.
-#[derive(Default)]
-pub(crate) struct File {
-    pub(crate) surface: Surface,
-    pub(crate) texture: Vec<[f64; 2]>,
-    /// For each corner the numbers of its point and its texture.
-    pub(crate) corners: Vec<[usize; 2]>,
-}
-
-impl File {
-    pub(crate) fn read(path: &Path) -> File {
-        let text = std::fs::read_to_string(path).expect("a file");
-        let mut file = File::default();
-        for line in text.lines() {
-            let (keyword, rest) = line.split_once(' ').unwrap_or_default();
-            let words = rest.split_whitespace();
-            let number = |i: usize| words.clone().nth(i)?.parse().ok();
-            let number = |i| number(i).expect("a number");
-            match keyword {
-                "v" => file.surface.points.push([0, 1, 2].map(number)),
-                "vt" => file.texture.push([0, 1].map(number)),
-                "f" => {
-                    let index = |word: Option<&str>| word?.parse::<usize>().ok();
-                    let corner = |word: &str| {
-                        let mut parts = word.split('/').map(Some);
-                        [(); 2].map(|()| index(parts.next().flatten()).unwrap_or(1) - 1)
-                    };
-                    let corners: Vec<[usize; 2]> = words.map(corner).collect();
-                    for two in corners[1..].windows(2) {
-                        let face = [corners[0], two[0], two[1]];
-                        file.surface.faces.push(face.map(|[v, _]| v as u32));
-                        file.corners.extend(face);
-                    }
-                }
-                _ => {}
-            }
-        }
-        file
+/// The surface of a file.
+pub(crate) fn read(path: &Path) -> Surface {
+    let text = std::fs::read_to_string(path).expect("a file");
+    let file = Plain::read(&text);
+    Surface {
+        points: (0..file.vertices.len()).map(|v| file.at(v)).collect(),
+        faces: file.triangles(),
     }
 }
 

@@ -8,8 +8,6 @@ mod cache;
 mod charts;
 mod check;
 mod cut;
-#[path = "../support/digest.rs"]
-mod digest;
 mod edited;
 mod files;
 mod frames;
@@ -19,9 +17,6 @@ mod gap;
 mod guide;
 mod harness;
 mod in_process;
-#[path = "../support/inputs.rs"]
-#[allow(dead_code, reason = "shared with other tests")]
-mod inputs;
 #[cfg(unix)]
 mod killed;
 mod map;
@@ -29,18 +24,15 @@ mod map;
 mod memory;
 mod pages;
 mod pieces;
-mod plain;
 mod play;
 #[cfg(target_os = "linux")]
 mod progress;
-#[path = "../support/random.rs"]
-#[allow(dead_code, reason = "shared with other tests")]
-mod random;
-#[path = "../support/stride.rs"]
-mod stride;
+#[path = "../support/mod.rs"]
+#[allow(dead_code, reason = "each has its users in some of the crates")]
+mod support;
 mod tear;
 mod transcripts;
 mod units;
-#[path = "../support/vectors.rs"]
-mod vectors;
 mod words;
+
+use support::{digest, inputs, plain, random, vectors};

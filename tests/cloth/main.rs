@@ -11,8 +11,6 @@ mod damping;
 #[cfg(feature = "serde")]
 mod data;
 mod defaults;
-#[path = "../support/digest.rs"]
-mod digest;
 mod ensemble;
 mod failures;
 mod first_tears;
@@ -27,9 +25,6 @@ mod parts;
 #[path = "../../tools/lab/src/plain_verlet.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod plain_verlet;
-#[path = "../support/random.rs"]
-#[allow(dead_code, reason = "shared with other tests")]
-mod random;
 mod reaction;
 #[path = "../../tools/lab/src/rk4.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
@@ -40,6 +35,9 @@ mod simulation;
 mod statistics;
 mod stiff;
 mod strain;
+#[path = "../support/mod.rs"]
+#[allow(dead_code, reason = "each has its users in some of the crates")]
+mod support;
 mod tables;
 mod tear_log;
 mod tearing;
@@ -49,3 +47,5 @@ mod tearing_runs;
 mod watch;
 mod weave;
 mod wheel;
+
+use support::{digest, plain, random, vectors};

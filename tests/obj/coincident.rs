@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use tearmesh::mend;
 use tearmesh_obj::CoincidentError;
 
+use super::plain::Plain;
 use super::random::Random;
 use super::work::{Work, files};
 use super::{read, text};
@@ -16,25 +17,15 @@ fn without_comments(bytes: &[u8]) -> String {
     lines.map(|line| format!("{line}\n")).collect()
 }
 
-/// How many edges two faces have at one place, as the text of their ends says.
+/// How many edges two faces have at one place.
 fn edges_shared_by_place(file: &str) -> usize {
-    let mut places = Vec::new();
-    let mut faces: BTreeMap<[&str; 2], usize> = BTreeMap::new();
-    for line in file.lines() {
-        if let Some(place) = line.strip_prefix("v ") {
-            places.push(place);
-        }
-        if let Some(corners) = line.strip_prefix("f ") {
-            let vertex = |corner: &str| {
-                let index = corner.split('/').next().expect("an index");
-                index.parse::<usize>().expect("a number")
-            };
-            let corners: Vec<usize> = corners.split(' ').map(vertex).collect();
-            for i in 0..3 {
-                let mut ends = [corners[i], corners[(i + 1) % 3]].map(|v| places[v - 1]);
-                ends.sort_unstable();
-                *faces.entry(ends).or_default() += 1;
-            }
+    let file = Plain::read(file);
+    let mut faces: BTreeMap<[[u64; 3]; 2], usize> = BTreeMap::new();
+    for face in &file.faces {
+        for i in 0..3 {
+            let mut ends = [face[i], face[(i + 1) % 3]].map(|v| file.bits(v));
+            ends.sort_unstable();
+            *faces.entry(ends).or_default() += 1;
         }
     }
     faces.values().filter(|&&faces| faces == 2).count()

@@ -5,26 +5,17 @@
 mod accept;
 mod apart;
 mod bodies;
-#[path = "../support/cases.rs"]
-mod cases;
 mod coincident;
 mod collinear;
 mod corpus;
 mod differential;
-#[path = "../support/digest.rs"]
-mod digest;
 mod digits;
 mod edited;
 mod fuzz;
-#[path = "../support/inputs.rs"]
-mod inputs;
 mod memory;
 mod mesh;
 mod normals;
 mod numbers;
-#[path = "../support/random.rs"]
-#[allow(dead_code, reason = "shared with other tests")]
-mod random;
 mod raw;
 mod refuse;
 mod repair;
@@ -32,20 +23,20 @@ mod round_trip;
 mod same_bytes;
 mod slides;
 mod spelling;
-#[path = "../support/stride.rs"]
-mod stride;
+#[path = "../support/mod.rs"]
+#[allow(dead_code, reason = "each has its users in some of the crates")]
+mod support;
 mod tables;
 mod torn;
 mod torn_damage;
 mod torn_record;
 mod triangulate;
 mod undone;
-#[path = "../support/vectors.rs"]
-mod vectors;
 mod work;
 
 use proptest::test_runner::Config;
 
+use support::{cases, digest, inputs, plain, random, vectors};
 use work::{positions, read, rewritten, text, write_as};
 
 /// The settings of every property: no files are written for cases that fail (a find becomes a test of its own).

@@ -56,6 +56,13 @@ impl Plain {
         [place[0], place[1], place[2]]
     }
 
+    /// The vertices of all faces, each face as a fan round its first corner.
+    pub(crate) fn triangles(&self) -> Vec<[u32; 3]> {
+        let faces = self.faces.iter();
+        let vertices = faces.flat_map(|face| fan(face));
+        vertices.map(|three| three.map(|v| v as u32)).collect()
+    }
+
     /// Where it is, to the bit.
     pub(crate) fn bits(&self, vertex: usize) -> [u64; 3] {
         self.at(vertex).map(f64::to_bits)
@@ -86,6 +93,12 @@ impl Plain {
         });
         areas.sum()
     }
+}
+
+/// The triangles of a polygon round its first corner.
+pub(crate) fn fan<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 3]> + '_ {
+    let two = corners[1..].windows(2);
+    two.map(|two| [corners[0], two[0], two[1]])
 }
 
 /// For each thing the least that it is joined with, directly or not, by what they have in common.

@@ -1,0 +1,9 @@
+//! What the tests of all crates have in common.
+
+pub(crate) mod cases;
+pub(crate) mod delaunay;
+pub(crate) mod digest;
+pub(crate) mod inputs;
+pub(crate) mod plain;
+pub(crate) mod random;
+pub(crate) mod vectors;
