@@ -218,7 +218,7 @@ fn an_interrupted_chart_ends_at_once_with_what_was_done() {
 
 /// The README's table of methods and its seconds, against the marks of the recorded chart: within rounding.
 #[test]
-fn the_readme_has_the_errors_and_costs_of_the_recorded_chart() {
+fn the_readme_has_errors_and_costs_of_the_recorded_chart() {
     let read = |name: &str| std::fs::read_to_string(root().join(name)).expect("a file");
     let readme = read("README.md");
     let [chart, summary] = ["svg", "txt"].map(|end| read(&format!("tools/lab/record/guide.{end}")));

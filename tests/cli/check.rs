@@ -31,19 +31,13 @@ fn sizes_are_those_of_the_file() {
         let area = told
             .iter()
             .map(|piece| piece["area"].as_f64().expect("an area"));
-        for (told, is) in [
-            (
-                &mesh["edges"]["shortest"],
-                all.clone().fold(f64::INFINITY, f64::min),
-            ),
-            (&mesh["edges"]["longest"], all.clone().fold(0.0, f64::max)),
-            (
-                &mesh["edges"]["mean"],
-                all.sum::<f64>() / lengths.len() as f64,
-            ),
-            (&area.sum::<f64>().into(), plain.area()),
-        ] {
-            let told = told.as_f64().expect("a number");
+        let edges = ["shortest", "longest", "mean"].map(|key| mesh["edges"][key].as_f64());
+        let shortest = all.clone().fold(f64::INFINITY, f64::min);
+        let longest = all.clone().fold(0.0, f64::max);
+        let mean = all.sum::<f64>() / lengths.len() as f64;
+        let sizes = [shortest, longest, mean, plain.area()];
+        for (told, is) in edges.into_iter().chain([Some(area.sum())]).zip(sizes) {
+            let told: f64 = told.expect("a number");
             assert!((told - is).abs() <= 1e-9 * is, "{name}: {told} {is}");
         }
         let counts = told

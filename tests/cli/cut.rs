@@ -1,4 +1,4 @@
-//! `cut` through the first layers, with its seam written, and in small units far away.
+//! `cut` with its seam written, and in small units far away.
 
 use std::collections::BTreeSet;
 
@@ -7,39 +7,6 @@ use crate::plain::Plain;
 
 /// Two sheets of squares, 1 and 0 high.
 const SHEETS: &str = include_str!("sheets.obj");
-
-#[test]
-fn the_first_layers_alone_are_cut() {
-    let folder = Folder::new();
-    folder.write("sheets.obj", SHEETS);
-    let cut = |rays: &str, more: &str| {
-        let report = folder.report(&format!("cut sheets.obj --rays {rays} {more} -o cut.obj"));
-        let text = folder.read("cut.obj");
-        let vertices = text.lines().filter_map(|line| line.strip_prefix("v "));
-        let heights = vertices.skip(50).map(|line| line.ends_with(" 0"));
-        let (below, above): (Vec<bool>, Vec<bool>) = heights.partition(|&is_below| is_below);
-        (report, above.len(), below.len())
-    };
-    let (all, above, below) = cut("0.5,1.4,9:0,0,-1 3.1,2.3,9:0,0,-1", "");
-    assert!(above > 4 && above == below, "{above} above, {below} below");
-    assert_eq!(all["cuts"][0].get("layers"), None);
-    let first = "--layers first";
-    let (front, again, none) = cut("0.5,1.4,9:0,0,-1 3.1,2.3,9:0,0,-1", first);
-    assert_eq!((again, none), (above, 0));
-    let [one, other] = [0, 1].map(|i| &front["cuts"][0]["layers"][i]);
-    assert_eq!(one["chain"], other["chain"]);
-    let hits = (one["at"][2].as_f64(), other["at"][1].as_f64());
-    assert_eq!(hits, (Some(1.0), Some(2.3)));
-    let told = |report: &serde_json::Value| {
-        let told = report["diagnostics"].as_array().expect("a list").iter();
-        told.filter(|one| one["code"] == "W-CUT-LAYERS").count()
-    };
-    assert_eq!((told(&all), told(&front)), (0, 0));
-    // One ray from above, the other from below: each hits a sheet of its own first.
-    let (both, one, other) = cut("0.5,1.4,9:0,0,-1 3.1,2.3,-9:0,0,1", first);
-    assert_eq!((one, other), (above, below));
-    assert_eq!(told(&both), 1);
-}
 
 #[test]
 fn the_seam_is_written_as_lines() {

@@ -10,14 +10,9 @@ use crate::harness::{Folder, content};
 
 const CUT: &str = "cut sheet.obj --rays 0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1";
 
-/// The text of a page.
-fn text(html: &str) -> Value {
-    content(html).0
-}
-
 /// The moments of a page in a file.
 fn moments(folder: &Folder, page: &str) -> Vec<Value> {
-    let text = text(&folder.read(page));
+    let (text, _) = content(&folder.read(page));
     text["moments"].as_array().expect("moments").clone()
 }
 
@@ -94,7 +89,8 @@ fn frames_in_a_folder_are_played_in_their_order() {
     assert!(torn[0] == 0.0 && torn[30] > 1.0 && (torn[30] - rest_m).abs() < 1e-9 * rest_m);
     assert_eq!(moments[30]["torn_at_rest"], true);
     assert!(words.contains(" m torn (at rest), "), "{words}");
-    let plots = &text(&folder.read("t.html"))["plots"];
+    let (text, _) = content(&folder.read("t.html"));
+    let plots = &text["plots"];
     let names = [0, 1].map(|i| plots[i]["name"].as_str().unwrap_or_default());
     assert_eq!(names, ["largest stretch", "force at holds"]);
     let stretch = plots[0]["lines"][0]["points"].as_array().expect("points");

@@ -5,7 +5,7 @@ use tearmesh_cloth::scene::Scene;
 use tearmesh_cloth::{Collider, ColliderShape, RigidMotion};
 use tearmesh_play::{Player, Settings};
 
-use crate::harness::{Folder, content, root};
+use crate::harness::{Folder, content};
 
 #[test]
 fn a_mesh_that_is_too_large_is_refused_with_its_number() {
@@ -24,27 +24,19 @@ fn a_mesh_that_is_too_large_is_refused_with_its_number() {
     assert_eq!(tearmesh_play::VERTICES_MAX, 20_000);
 }
 
-/// A folder with a garment, and the settings of its page.
-fn garment() -> (Folder, &'static str) {
-    let folder = Folder::new();
-    for name in ["dress.obj", "dress.toml", "dummy.obj"] {
-        let from = root().join("tests/data").join(name);
-        folder.write(name, std::fs::read(from).expect(name));
-    }
-    let lines =
-        "cloth file dress.obj\nscene file dress.toml\nup y\nmethod scene\nthreshold scene\n";
-    (folder, lines)
-}
+/// The settings of the page of a garment.
+const GARMENT: &str =
+    "cloth file dress.obj\nscene file dress.toml\nup y\nmethod scene\nthreshold scene\n";
 
 #[test]
-fn a_garment_of_a_scene_file_is_sewn_round_its_body_cut_and_repeated() {
-    let (folder, lines) = garment();
+fn a_garment_of_a_scene_file_is_sewn_cut_and_repeated() {
+    let folder = Folder::new();
     let said = folder.done("play dress.obj --scene dress.toml -o dress.html");
     // What comes later is left to the hand, and is named.
     let left = said.contains("W-PLAY-HAND") && said.contains("hold 1, cut 1");
     assert!(said.contains("scene dress.toml") && left, "{said}");
     let (text, obj) = content(&folder.read("dress.html"));
-    let mut settings: Settings = lines.parse().expect("settings");
+    let mut settings: Settings = GARMENT.parse().expect("settings");
     let document = settings.document(&obj).expect("a document");
     let lost = Player::new(&document, settings.clone()).map(drop);
     let why = "the scene is in a file that is not here";
@@ -78,8 +70,8 @@ fn a_garment_of_a_scene_file_is_sewn_round_its_body_cut_and_repeated() {
 }
 
 #[test]
-fn what_moves_in_a_scene_file_is_named_and_bodies_stand_still() {
-    let (folder, _) = garment();
+fn what_moves_in_a_scene_is_named_and_bodies_stand_still() {
+    let folder = Folder::new();
     let scene = folder.read("dress.toml");
     let moved = "[[collider]]\nmoves = [[0, 0, 0, 0], [1, 0, 0.1, 0]]\n";
     let scene = scene.replace("[[collider]]\n", moved);
@@ -101,27 +93,4 @@ fn what_moves_in_a_scene_file_is_named_and_bodies_stand_still() {
         _ => false,
     };
     assert!(plan.colliders.iter().all(still));
-}
-
-#[test]
-fn a_scene_file_that_cannot_be_played_is_refused_as_by_tear() {
-    let (folder, _) = garment();
-    let said = folder.ends("play --scene dress.toml -o x.html", 2);
-    assert!(said.contains("a scene file is of a mesh"), "{said}");
-    folder.write("unknown.toml", "[[hold]]\nvertices = [9999]\n");
-    folder.write("key.toml", "[fabric]\nmodulus = 3\n");
-    folder.write(
-        "never.toml",
-        "[tear]\nnever = true\n[[strength]]\nvertices = [1]\nfactor = 2\n",
-    );
-    for scene in ["unknown.toml", "key.toml", "never.toml", "waltz"] {
-        let [play, tear] = [("play", "x.html"), ("tear", "x.obj")].map(|(verb, output)| {
-            let line = format!("{verb} dress.obj --scene {scene} -o {output}");
-            let answer = folder.run(&line);
-            let said = answer.seen();
-            let from = said.find("E-SCENE").unwrap_or_else(|| panic!("{said}"));
-            (answer.exit, said[from..].lines().next().map(str::to_owned))
-        });
-        assert_eq!(play, tear);
-    }
 }

@@ -10,16 +10,6 @@ use crate::in_process::Case;
 const SQUARES: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n\
                        f 1 2 3\nf 1 3 4\nf 2 5 6\nf 2 6 3\n";
 
-/// A straight slit through a snapped seam may have something left to cut.
-#[test]
-fn regression_a_cut_within_a_slit_is_told_or_cuts() {
-    let folder = Folder::new();
-    folder.done("cut sheet.obj --rays 0.3,0.8,5:0,0,-1 0.3,0.2,5:0,0,-1 -o torn.obj");
-    let again = folder.run("cut torn.obj --rays 0.3,0.7,5:0,0,-1 0.3,0.3,5:0,0,-1 -o twice.obj");
-    let is_said = again.error.contains("it is already cut there. twice");
-    assert!(again.exit == 0 || is_said, "{}", again.seen());
-}
-
 /// Every cut between two points of a lattice, some of which lie on corners and edges and some within
 /// the snap of them; and each of them twice.
 #[test]
