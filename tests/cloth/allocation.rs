@@ -7,7 +7,7 @@ use tearmesh_cloth::{
     Unbend, Unstable, Wounds,
 };
 
-use crate::parts::cloths::cloth;
+use crate::parts::cloths::{bent, cloth};
 use crate::parts::scenes::methods;
 use crate::parts::woven::weave;
 use crate::parts::{gravity, method, plane, v};
@@ -20,17 +20,11 @@ fn allocations(of: impl FnOnce()) -> u64 {
 #[test]
 fn steps_of_a_cloth_do_not_allocate() {
     let (mesh, positions) = shapes::grid(10, 10);
-    let bending = Some(Bending::Spring {
-        stiffness_n_per_m: 1.0,
-    });
     let buckling = Some(Bending::Buckling {
         rigidity_n_m: 1e-3,
         law: Buckling::new(0.9).expect("a law"),
     });
-    let springs = Fabric {
-        bend: bending,
-        ..Fabric::new(50.0)
-    };
+    let springs = bent(Fabric::new(50.0), 1.0);
     let woven = Fabric {
         bend: buckling,
         ..Fabric::woven(weave())
@@ -98,11 +92,9 @@ fn steps_of_a_simulation_do_not_allocate() {
 /// Nor does what tears, but for the matrix of the implicit method.
 #[test]
 fn tears_of_a_simulation_do_not_allocate() {
-    let stiffness_n_per_m = 2.0;
     let bending = Fabric {
-        bend: Some(Bending::Spring { stiffness_n_per_m }),
         unbend: Unbend::Vertex,
-        ..Fabric::new(1000.0)
+        ..bent(Fabric::new(1000.0), 2.0)
     };
     let explicit = Method::NAMES.into_iter().filter(|name| *name != "implicit");
     for (name, fabric) in explicit.flat_map(|n| [(n, bending), (n, Fabric::new(1000.0))]) {

@@ -12,6 +12,7 @@ use crate::parts::cloths::{cloth, of_edges};
 use crate::parts::scenes::{methods, play, played, staged};
 use crate::parts::{
     METHODS, blown, implicit, mechanical_j, method, near, on_a_line, onto, path, plane, pulled,
+    take_observed,
 };
 
 const DOWN: Vector = Vector::new(0.0, 0.0, -10.0);
@@ -29,11 +30,8 @@ impl Observed {
     }
 
     fn take(&mut self, solver: &mut dyn Solver, dt_s: f64, steps: usize) {
-        for _ in 0..steps {
-            let (system, balance) = (&mut self.system, &mut self.balance);
-            let taken = system.step_observed(solver, dt_s, Some(balance));
-            taken.expect("a stable step");
-        }
+        let observed = (&mut self.system, &mut self.balance);
+        take_observed(observed, solver, dt_s, steps);
     }
 
     /// Changes how a particle is held.
@@ -256,11 +254,7 @@ fn edits_make_what_is_there_after_and_was_not_before() {
         let state_j = |b: &EnergyBalance| b.kinetic_j + b.elastic_j - b.gravity_j;
         near(state_j(&after) - state_j(&before), made, 1e-12);
         *gained = (made, after.kinetic_j - before.kinetic_j);
-        for _ in 0..20 {
-            let system = cloth.system_mut();
-            let taken = system.step_observed(&mut Verlet, 1e-3, Some(&mut kept));
-            taken.expect("a step");
-        }
+        take_observed((cloth.system_mut(), &mut kept), &mut Verlet, 1e-3, 20);
     }
     assert!(gained[0].0 > 0.0, "copies make energy: {gained:?}");
     assert!(gained[1].1 < 0.0, "an inelastic impact: {gained:?}");

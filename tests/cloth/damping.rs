@@ -8,7 +8,9 @@ use tearmesh_cloth::{
 
 use crate::parts::cloths::{cloth, sheet};
 use crate::parts::scenes::played;
-use crate::parts::{METHODS, mechanical_j, method, near, on_a_line, shake, woven};
+use crate::parts::{
+    METHODS, mechanical_j, method, near, on_a_line, shake, take, take_observed, woven,
+};
 use crate::random::Random;
 
 /// A kilogram on a spring of 100 N/m that is held at its other end, 5 cm from rest.
@@ -37,10 +39,8 @@ fn corner(damping_s: f64, moved: Vector) -> System {
 /// Where the last particle is after two seconds, in steps of this length, and the balance.
 fn swung(mut system: System, dt_s: f64) -> (Point, Balance, System) {
     let mut kept = Balance::new(&mut system);
-    for _ in 0..(2.0 / dt_s).round() as usize {
-        let taken = system.step_observed(&mut Verlet, dt_s, Some(&mut kept));
-        taken.expect("a stable step");
-    }
+    let (observed, steps) = ((&mut system, &mut kept), (2.0 / dt_s).round() as usize);
+    take_observed(observed, &mut Verlet, dt_s, steps);
     (*system.positions().last().expect("particles"), kept, system)
 }
 
@@ -113,9 +113,7 @@ fn other_methods_leave_damping_out() {
     let swing = |damping_s, solver: &mut dyn Solver| {
         let mut system = oscillator(damping_s);
         assert!(!solver.abilities().damps);
-        for _ in 0..50 {
-            system.step(solver, 5e-3).expect("a step");
-        }
+        take(&mut system, solver, 5e-3, 50);
         (system.positions()[1], force::reaction_n(&system, 0))
     };
     for name in METHODS.into_iter().filter(|name| *name != "guarded") {

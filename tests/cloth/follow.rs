@@ -6,12 +6,13 @@ use tearmesh::{
     VertexId, mend, shapes, split,
 };
 use tearmesh_cloth::{
-    Bending, Buckling, Cloth, Constraint, Copies, Fabric, Stretch, Unbend, Unstable, Weave, Xpbd,
-    energy, frequency_bound,
+    Bending, Buckling, Cloth, Constraint, Copies, Fabric, Stretch, Unbend, Unstable, Xpbd, energy,
+    frequency_bound,
 };
 
-use crate::parts::cloths::{Done, cloth, edit, momentum, of_edges};
+use crate::parts::cloths::{Done, bent, cloth, edit, momentum, of_edges};
 use crate::parts::vibration::rayleigh_quotient;
+use crate::parts::woven::of_moduli;
 use crate::parts::{gravity, method, near, shake, v};
 use crate::random::Random;
 
@@ -169,13 +170,9 @@ fn bends_of(cloth: &Cloth) -> Vec<([usize; 2], [u64; 2])> {
 }
 
 fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
-    Fabric {
-        bend: bend.then_some(Bending::Spring {
-            stiffness_n_per_m: 3.0,
-        }),
-        unbend,
-        ..of_edges(50.0, copies)
-    }
+    let edges = of_edges(50.0, copies);
+    let fabric = if bend { bent(edges, 3.0) } else { edges };
+    Fabric { unbend, ..fabric }
 }
 
 /// A cloth in motion, strained and shaken.
@@ -243,12 +240,8 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         let mut fabric = fabric(copies, unbend, with_bends);
         // Thirty are of triangles, every second of them without springs along edges.
         if (60..90).contains(&seed) {
-            fabric.weave = Some(Weave {
-                warp_n_per_m: 60.0,
-                weft_n_per_m: 35.0,
-                shear_n_per_m: 4.0,
-                warp: Vector::new(1.0, 0.3, 0.15),
-            });
+            let warp = Vector::new(1.0, 0.3, 0.15);
+            fabric.weave = Some(of_moduli([60.0, 35.0, 4.0], warp));
             if seed % 2 == 1 {
                 fabric.stretch = Stretch::Slack;
             }

@@ -3,10 +3,11 @@
 use tearmesh::insert::Plan;
 use tearmesh::{Edits, HalfEdgeId, Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-use tearmesh_cloth::{Fabric, Implicit, Weave, force};
+use tearmesh_cloth::{Fabric, Implicit, force};
 
 use crate::parts::cloths::cloth;
 use crate::parts::scenes::{square, torn_first};
+use crate::parts::woven::of_moduli;
 use crate::parts::{near, pulled, run};
 use crate::random::Random;
 
@@ -55,12 +56,8 @@ fn springs() -> Fabric {
 }
 
 fn triangles() -> Fabric {
-    Fabric::woven(Weave {
-        warp_n_per_m: MODULUS_N_PER_M,
-        weft_n_per_m: MODULUS_N_PER_M,
-        shear_n_per_m: MODULUS_N_PER_M / 2.0,
-        warp: Vector::y(),
-    })
+    let moduli = [1.0, 1.0, 0.5].map(|part| part * MODULUS_N_PER_M);
+    Fabric::woven(of_moduli(moduli, Vector::y()))
 }
 
 /// The droop of the lower edge's middle, and the 99th percentile of the strains of edges that lie further

@@ -5,11 +5,11 @@ use tearmesh::{CutMethod, Edits, Follower as _, Positions, Scissor, Vector, shap
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{Run, Scene};
 use tearmesh_cloth::{
-    Bending, Collider, Counters, Fabric, FeatureVisits, Limiter, Method, Pbd, Provot, Tearing,
-    Threshold, Unstable, Verlet, Xpbd,
+    Collider, Counters, Fabric, FeatureVisits, Limiter, Method, Pbd, Provot, Tearing, Threshold,
+    Unstable, Verlet, Xpbd,
 };
 
-use crate::parts::cloths::cloth;
+use crate::parts::cloths::{bent, cloth};
 use crate::parts::nets::chain;
 use crate::parts::scenes::{methods, play, staged, swaying};
 use crate::parts::woven::weave;
@@ -66,10 +66,8 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
         assert_eq!(visits.collider, each, "{name}");
         assert_eq!(visits.wind + visits.bend + above.visits.detect, 0, "{name}");
 
-        let stiffness_n_per_m = 1.0;
-        let springs_across = Some(Bending::Spring { stiffness_n_per_m });
-        let (bent, bending) = cost(method, |scene| scene.fabric.bend = springs_across);
-        let bends = bent.cloth().system().bends().len() as u64;
+        let (run, bending) = cost(method, |scene| scene.fabric = bent(scene.fabric, 1.0));
+        let bends = run.cloth().system().bends().len() as u64;
         let visits = bending.features.bend;
         let each = bending.substeps * bends;
         assert!(visits >= each && visits % bends == 0, "{name}");

@@ -11,8 +11,8 @@ use tearmesh::geometry::length;
 use tearmesh::{Plane, Point, Ray, Vector, VertexId};
 use tearmesh_cloth::implicit::{Method, Settings, Stats};
 use tearmesh_cloth::{
-    Collider, ConstraintId, Implicit, LimiterStats, Loads, Path, Pbd, Provot, Quality, Solver,
-    System, Unstable, Verlet, Wind, Xpbd, energy,
+    Balance, Collider, ConstraintId, Implicit, LimiterStats, Loads, Path, Pbd, Provot, Quality,
+    Solver, System, Unstable, Verlet, Wind, Xpbd, energy,
 };
 
 use crate::plain_verlet::PlainVerlet;
@@ -90,8 +90,34 @@ pub(crate) fn run(system: &mut System, mut solver: impl Solver, dt_s: f64, steps
 /// If a step fails.
 pub(crate) fn run_with(system: &mut System, solver: &mut dyn Solver, dt_s: f64, steps: usize) {
     system.when_unstable(Unstable::Allow);
+    take(system, solver, dt_s, steps);
+}
+
+/// Takes them as they are divided or refused.
+///
+/// # Panics
+///
+/// If a step fails.
+pub(crate) fn take(system: &mut System, solver: &mut dyn Solver, dt_s: f64, steps: usize) {
     for _ in 0..steps {
         system.step(solver, dt_s).expect("a stable step");
+    }
+}
+
+/// Takes steps that a balance observes.
+///
+/// # Panics
+///
+/// If a step fails.
+pub(crate) fn take_observed(
+    (system, balance): (&mut System, &mut Balance),
+    solver: &mut dyn Solver,
+    dt_s: f64,
+    steps: usize,
+) {
+    for _ in 0..steps {
+        let taken = system.step_observed(solver, dt_s, Some(&mut *balance));
+        taken.expect("a stable step");
     }
 }
 

@@ -1,9 +1,9 @@
 //! Forces in constraints and at hands, against weights and accelerations.
 
 use tearmesh::{Edits, Mesh, Positions, Vector, shapes, split};
-use tearmesh_cloth::{Bending, Cloth, Fabric, System, Threshold, Xpbd, force};
+use tearmesh_cloth::{Cloth, Fabric, System, Threshold, Xpbd, force};
 
-use crate::parts::cloths::cloth;
+use crate::parts::cloths::{bent, cloth};
 use crate::parts::nets::{chain, link};
 use crate::parts::woven::weave;
 use crate::parts::{G, METHODS, blown, gravity, method, near, run_with, shake, v};
@@ -37,12 +37,7 @@ fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
 #[test]
 fn a_free_particle_lacks_what_accelerates_it() {
     let (mesh, positions) = shapes::grid(4, 4);
-    let springs = Fabric {
-        bend: Some(Bending::Spring {
-            stiffness_n_per_m: 2.0,
-        }),
-        ..Fabric::new(30.0)
-    };
+    let springs = bent(Fabric::new(30.0), 2.0);
     let mut random = Random(7);
     for fabric in [springs, Fabric::woven(weave())] {
         let mut cloth = cloth(&mesh, &positions, fabric);

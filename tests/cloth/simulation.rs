@@ -10,6 +10,7 @@ use tearmesh_cloth::{
     Tearing, Unstable, Wounds,
 };
 
+use crate::follow;
 use crate::parts::{cloths, gravity_along_y, near, plane, ray, v};
 
 /// More steps than any test takes at once.
@@ -102,17 +103,9 @@ fn together(mesh: &Mesh, face: FaceId) -> usize {
 
 /// What holds of a simulation at all times.
 pub(crate) fn check(sim: &mut Simulation) {
-    assert_eq!(sim.mesh().check(), []);
-    let (mesh, cloth) = (sim.mesh(), sim.cloth());
-    assert_eq!(cloth.indices(), mesh.indices());
-    assert_eq!(cloth.positions().len(), mesh.vertex_count());
-    assert!(cloth.masses().ledger().is_balanced());
-    let weighed = |v: VertexId| cloth.masses().at(v).max(cloth.masses().unit());
-    for (v, &mass) in mesh.vertices().zip(cloth.system().masses()) {
-        if mesh.half_edge_of(v).is_some() {
-            assert_eq!(mass, weighed(v));
-        }
-    }
+    let mesh = sim.mesh();
+    assert_eq!(mesh.check(), []);
+    follow::check(mesh, sim.cloth(), false);
     let (faces, corners) = (mesh.face_count(), mesh.half_edge_count());
     let buffers = sim.draw_buffers();
     assert_eq!(buffers.indices().len(), corners);

@@ -2,11 +2,9 @@
 //! random.
 
 use tearmesh::{Edits, PerVertex, Point, Vector};
-use tearmesh_cloth::{
-    Bending, Copies, Fabric, Path, Tear, Tearing, Threshold, Unbend, Unstable, Xpbd,
-};
+use tearmesh_cloth::{Copies, Fabric, Path, Tear, Tearing, Threshold, Unbend, Unstable, Xpbd};
 
-use crate::parts::cloths::{cloth, edit, of_edges, sheet};
+use crate::parts::cloths::{bent, cloth, edit, of_edges, sheet};
 use crate::parts::scenes::{noted, staged};
 use crate::parts::{gravity, order};
 use crate::random::Random;
@@ -33,9 +31,6 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 8] {
     let mut random = Random(seed);
     let (mut mesh, positions) = sheet(7, 7, seed);
     let fabric = Fabric {
-        bend: seed.is_multiple_of(2).then_some(Bending::Spring {
-            stiffness_n_per_m: 1.0,
-        }),
         unbend: [Unbend::Seam, Unbend::Vertex][(seed / 4) as usize % 2],
         damping_s: 2e-3,
         ..match seed / 2 % 3 {
@@ -44,6 +39,7 @@ fn everything_at_random(seed: u64, steps: usize) -> [usize; 8] {
             _ => of_edges(40.0, Copies::Whole),
         }
     };
+    let fabric = [bent(fabric, 1.0), fabric][seed as usize % 2];
     let threshold = match seed % 5 {
         0 => Threshold::Stretch(1.4),
         1 => Threshold::Toughness(0.3),

@@ -5,7 +5,7 @@ use tearmesh::{
     Edit, Edits, ExactSum, FaceId, HalfEdgeId, Masses, Mesh, Point, Positions, VertexId, mend,
     shapes, slide, split,
 };
-use tearmesh_cloth::{Cloth, Copies, Fabric, Stretch, Tear, TearReport, Tearing};
+use tearmesh_cloth::{Bending, Cloth, Copies, Fabric, Stretch, Tear, TearReport, Tearing};
 
 use crate::random::Random;
 
@@ -25,6 +25,12 @@ pub(crate) fn of_edges(stiffness_n_per_m: f64, copies: Copies) -> Fabric {
         stretch,
         ..Fabric::of_edges(stiffness_n_per_m)
     }
+}
+
+/// A fabric with springs across its edges, which are so stiff.
+pub(crate) fn bent(fabric: Fabric, stiffness_n_per_m: f64) -> Fabric {
+    let bend = Some(Bending::Spring { stiffness_n_per_m });
+    Fabric { bend, ..fabric }
 }
 
 /// A flat sheet of cells of 0.1 m, whose inner vertices are off the grid, in generic position.

@@ -39,14 +39,19 @@ pub(crate) fn strip(rows: usize, mass: f64, stiffness: f64, rest: f64, apart: Ve
     strip
 }
 
+/// A weave of these moduli, by warp, by weft and in shear.
+pub(crate) fn of_moduli([warp, weft, shear]: [f64; 3], along: Vector) -> Weave {
+    Weave {
+        warp_n_per_m: warp,
+        weft_n_per_m: weft,
+        shear_n_per_m: shear,
+        warp: along,
+    }
+}
+
 /// A soft weave whose warp lies in no edge of a grid.
 pub(crate) fn weave() -> Weave {
-    Weave {
-        warp_n_per_m: 120.0,
-        weft_n_per_m: 80.0,
-        shear_n_per_m: 15.0,
-        warp: Vector::new(1.0, 0.4, 0.0),
-    }
+    of_moduli([120.0, 80.0, 15.0], Vector::new(1.0, 0.4, 0.0))
 }
 
 /// A square metre in n × n cells, of this weave.
