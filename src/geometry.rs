@@ -394,7 +394,7 @@ mod tests {
     }
 
     #[test]
-    fn sines_and_cosines_agree_with_the_system_to_two_units_in_the_last_place() {
+    fn sines_and_cosines_are_the_systems_to_two_last_places() {
         let mut furthest = 0;
         let mut compare = |angle: f64| {
             let (sine, cosine) = sine_and_cosine(angle);

@@ -37,7 +37,7 @@ fn pieces(mesh: &Mesh) -> usize {
 }
 
 #[test]
-fn a_seam_is_a_torn_link_until_it_is_sewn_and_again_when_it_is_unpicked() {
+fn a_seam_is_torn_until_it_is_sewn_and_once_unpicked() {
     // A tube: both sides of the front are sewn to both sides of the back.
     let pairs = [0, 2, 3, 5, 6, 8].map(|v| [v, v + 9]);
     let apart = Mesh::build_torn(&panels(), &roots(18, &pairs)).expect("panels");
@@ -94,7 +94,7 @@ fn a_dart_closes_on_its_own_panel() {
 }
 
 #[test]
-fn seams_that_make_no_manifold_are_refused_with_their_vertices() {
+fn seams_that_make_no_manifold_are_refused_by_vertices() {
     // A third panel on the seam of two.
     let mut three = panels();
     three.push([18, 19, 20]);

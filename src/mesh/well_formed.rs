@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_glued_at_random_are_well_formed_where_the_check_of_each_invariant_finds_nothing() {
+    fn gluings_are_well_formed_where_no_invariant_is_broken() {
         let (mut numbers, mut counts) = (Numbers(2), Counts::default());
         for _ in 0..40_000 {
             judge(&glued(&mut numbers), &mut counts);
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_is_well_formed_where_the_check_of_each_invariant_finds_nothing() {
+    fn edited_meshes_are_well_formed_where_none_is_broken() {
         let (mut numbers, mut counts) = (Numbers(1), Counts::default());
         for _ in 0..40_000 {
             let mut mesh = edited(&mut numbers);

@@ -108,7 +108,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cloth_is_drawn_with_the_body_that_it_lies_on_and_a_plane_is_not_drawn() {
+    fn a_cloth_is_drawn_with_its_body_and_without_planes() {
         let (cloth, at) = shapes::grid(3, 3);
         let (ball, skin) = shapes::octahedron();
         let faces = ball.indices().as_chunks::<3>().0;

@@ -236,21 +236,27 @@ mod tests {
     use super::*;
     use crate::plot::{Axis, Shape};
 
+    /// A figure of one panel with these layers.
+    fn drawn(x: Axis, layers: Vec<Layer>) -> String {
+        let panel = Panel {
+            x,
+            y: Axis::linear("y"),
+            layers,
+            ..Panel::default()
+        };
+        svg(&Figure {
+            layout: (1, [400.0, 300.0]),
+            panels: vec![panel],
+            ..Figure::default()
+        })
+    }
+
     /// Axes are fitted to the points: the outer ones stand near the ends, and the others in proportion between.
     #[test]
     fn points_stand_between_the_ends_of_the_axes_in_proportion() {
         let mark = |at| Layer::Mark(at, Mark::new(Shape::DISC, INK), String::new());
-        let figure = Figure {
-            layout: (1, [400.0, 300.0]),
-            panels: vec![Panel {
-                x: Axis::log("x"),
-                y: Axis::linear("y"),
-                layers: vec![mark([1.0, 0.0]), mark([100.0, 10.0]), mark([10.0, 5.0])],
-                ..Panel::default()
-            }],
-            ..Figure::default()
-        };
-        let text = svg(&figure);
+        let marks = vec![mark([1.0, 0.0]), mark([100.0, 10.0]), mark([10.0, 5.0])];
+        let text = drawn(Axis::log("x"), marks);
         let marks = text.split("translate(").skip(1);
         let at: Vec<[f64; 2]> = marks
             .map(|mark| {
@@ -277,17 +283,8 @@ mod tests {
     #[test]
     fn labels_at_one_point_stand_apart() {
         let label = |text: &str| Layer::Label([1.0, 1.0], text.to_owned(), INK);
-        let figure = Figure {
-            layout: (1, [400.0, 300.0]),
-            panels: vec![Panel {
-                x: Axis::linear("x"),
-                y: Axis::linear("y"),
-                layers: vec![label("first <&>"), label("second"), label("third")],
-                ..Panel::default()
-            }],
-            ..Figure::default()
-        };
-        let drawn = svg(&figure);
+        let labels = vec![label("first <&>"), label("second"), label("third")];
+        let drawn = drawn(Axis::linear("x"), labels);
         let heights = ["first &lt;&amp;&gt;", "second", "third"].map(|text| {
             let line = drawn
                 .lines()
