@@ -33,6 +33,8 @@ mod support;
 mod tear;
 mod transcripts;
 mod units;
+#[path = "../support/vectors.rs"]
+mod vectors;
 mod words;
 
-use support::{digest, inputs, plain, random, vectors};
+use support::{digest, inputs, plain, random};

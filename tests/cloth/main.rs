@@ -44,8 +44,10 @@ mod tearing;
 mod tearing_links;
 mod tearing_order;
 mod tearing_runs;
+#[path = "../support/vectors.rs"]
+mod vectors;
 mod watch;
 mod weave;
 mod wheel;
 
-use support::{digest, plain, random, vectors};
+use support::{digest, plain, random};

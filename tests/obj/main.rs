@@ -32,11 +32,13 @@ mod torn_damage;
 mod torn_record;
 mod triangulate;
 mod undone;
+#[path = "../support/vectors.rs"]
+mod vectors;
 mod work;
 
 use proptest::test_runner::Config;
 
-use support::{cases, digest, inputs, plain, random, vectors};
+use support::{cases, digest, inputs, plain, random};
 use work::{positions, read, rewritten, text, write_as};
 
 /// The settings of every property: no files are written for cases that fail (a find becomes a test of its own).

@@ -6,4 +6,3 @@ pub(crate) mod digest;
 pub(crate) mod inputs;
 pub(crate) mod plain;
 pub(crate) mod random;
-pub(crate) mod vectors;
