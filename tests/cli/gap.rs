@@ -8,7 +8,7 @@ use tearmesh_cli::Exit;
 use crate::harness::{Folder, file_of, in_memory};
 use crate::plain::{Plain, pieces};
 use crate::random::Random;
-use crate::stride::stride;
+use crate::support::cases::stride;
 use crate::vectors::{cross, dot, length, minus};
 
 /// A file as its lines have it: where each `v` says that it is, where the record says so, and faces.

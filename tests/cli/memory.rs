@@ -6,7 +6,7 @@
 use std::process::Command;
 
 use crate::in_process::ran;
-use crate::stride::stride;
+use crate::support::cases::stride;
 
 const CHILD: &str = "TEARMESH_MEMORY_OF_COMMAND";
 

@@ -12,7 +12,7 @@ use std::fs::File;
 use std::io::{Write as _, stderr};
 use std::process::Command;
 
-use super::stride::stride;
+use super::support::cases::stride;
 use super::tables::with_record;
 
 use tearmesh_obj::{Document, Repair};
