@@ -10,7 +10,7 @@ use tearmesh_play::Player;
 use crate::chrome::Chrome;
 use crate::harness::{Folder, content, root};
 use crate::random::Random;
-use crate::screen::is_seam;
+use crate::screen::{is_grey, is_seam};
 
 /// A page that is open, and the folder that it saves into.
 struct Played {
@@ -224,17 +224,28 @@ fn fingers_pull_pin_and_turn() {
     let Some(mut played) = Played::open("") else {
         return;
     };
-    // Two fingers pull the cloth apart.
-    let at = |apart: f64| [[340.0 - apart, 350.0], [340.0 + apart, 350.0]];
-    played.chrome.touch("touchStart", &at(60.0));
+    // Ten fingers pull the cloth apart, and let it go while it is mended.
+    let at = |apart: f64| {
+        let finger = |i| {
+            let (across, down) = (f64::from(i % 5 - 2), f64::from(i / 5) - 0.5);
+            [340.0 + 60.0 * apart * across, 330.0 + 140.0 * apart * down]
+        };
+        (0..10).map(finger).collect::<Vec<_>>()
+    };
+    played.chrome.touch("touchStart", &at(1.0));
     for step in 0..10 {
-        let apart = 60.0 + 28.0 * f64::from(step);
-        played.chrome.touch("touchMove", &at(apart));
+        played
+            .chrome
+            .touch("touchMove", &at(1.0 + 0.16 * f64::from(step)));
         played.pass(0.1);
     }
-    assert!(played.fact("tears") > 10.0);
+    assert!(played.fact("tears") > 40.0, "they rip it");
+    played.chrome.key("m");
     played.chrome.touch("touchEnd", &[]);
+    played.pass(0.3);
     played.repeats();
+    let log = played.folder.read("sheet-32.log");
+    assert_eq!(log.matches(" grab ").count(), 10, "{log}");
     // Drawn finer, what is crumpled is round.
     let coarse = played.chrome.screen([680.0, 560.0]);
     played.chrome.key("n");
@@ -278,15 +289,25 @@ fn a_shirt_is_sewn_round_a_body_cut_and_ripped() {
         let from = root().join("tests/data").join(name);
         folder.write(name, fs::read(from).expect(name));
     }
+    let moves = "[[collider]]\nmoves = [[0.5, 0, 0, 0], [1, 0, 0.02, 0]]\n";
+    let scene = folder.read("dress.toml").replace("[[collider]]\n", moves);
+    folder.write("dress.toml", scene);
     let Some(mut played) = Played::within(folder, "dress.obj --scene dress.toml") else {
         return;
     };
-    // The body is drawn where the cloth leaves it bare: its neck is grey.
+    // The body is drawn where the cloth leaves it bare: its neck is grey. It moves up.
     let size = [680.0, 640.0];
-    let grey =
-        |[r, g, b]: [u8; 3]| r.abs_diff(g) < 2 && g.abs_diff(b) < 2 && (60..190).contains(&r);
-    let bare = played.chrome.screen(size).places(grey).len();
-    assert!(bare > 500, "{bare} grey pixels");
+    let bare = |played: &mut Played| played.chrome.screen(size).places(is_grey);
+    let before = bare(&mut played);
+    assert!(before.len() > 500, "{} grey pixels", before.len());
+    played.until("time", |time| time > 1.0);
+    let after = bare(&mut played);
+    assert!(
+        after[0][1] < before[0][1] - 3.0,
+        "{:?} {:?}",
+        before[0],
+        after[0]
+    );
     played.until("pieces", |pieces| pieces == 1.0);
     played.until("vertices", |vertices| vertices == 794.0);
     played.chrome.press("front");
@@ -307,7 +328,7 @@ fn a_shirt_is_sewn_round_a_body_cut_and_ripped() {
     played.until("faces", |faces| faces == 1.0);
     let ready = played.chrome.value("held.value");
     assert_eq!(ready.as_str(), Some("rip"));
-    assert!(played.chrome.screen(size).places(grey).len() < bare / 4);
+    assert!(bare(&mut played).len() < before.len() / 4);
     played.chrome.was_quiet();
 }
 

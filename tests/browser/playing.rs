@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::chrome::Chrome;
 use crate::harness::Folder;
-use crate::screen::is_seam;
+use crate::screen::{is_grey, is_seam};
 
 /// The size of the stage of an open page.
 fn size(chrome: &mut Chrome) -> [f64; 2] {
@@ -169,5 +169,38 @@ fn every_moment_is_in_the_frame() {
     });
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?}");
     assert!(counts[3] * 2 > counts[0], "all of it is seen: {counts:?}");
+    chrome.was_quiet();
+}
+
+#[test]
+#[ignore = "needs chromium"]
+fn bodies_are_seen_where_they_are_and_are_not_picked() {
+    let Some(mut chrome) = Chrome::start() else {
+        return;
+    };
+    let folder = Folder::new();
+    let moves = "[[collider]]\nmoves = [[0, 0, 0, 0], [0.2, 0, 0.1, 0]]\n";
+    let scene = folder.read("dress.toml").replace("[[collider]]\n", moves);
+    folder.write("s.toml", scene);
+    folder.done("tear dress.obj --scene s.toml --seconds 0.2 -o t.obj --view dress.html");
+    chrome.open(&folder.path("dress.html"));
+    let size = size(&mut chrome);
+    let [before, after] = ["0", "time.max"].map(|moment| {
+        chrome.set("time", moment);
+        chrome.screen(size).places(is_grey)
+    });
+    assert!(before.len() > 500, "{} grey pixels", before.len());
+    assert!(
+        after[0][1] < before[0][1] - 20.0,
+        "{:?} {:?}",
+        before[0],
+        after[0]
+    );
+    // Two clicks at the neck, above the cloth.
+    for point in [after[0], [after[0][0] + 5.0, after[0][1] + 5.0]] {
+        chrome.click(point);
+    }
+    let hint = chrome.text("hint");
+    assert_eq!(hint, "The line misses the mesh: click two other points.");
     chrome.was_quiet();
 }

@@ -65,6 +65,11 @@ pub(crate) fn is_seam([r, g, b]: [u8; 3]) -> bool {
     r > 150 && g < 90 && b < 90
 }
 
+/// The colour of a body.
+pub(crate) fn is_grey([r, g, b]: [u8; 3]) -> bool {
+    r.abs_diff(g) < 2 && g.abs_diff(b) < 2 && (60..190).contains(&r)
+}
+
 /// How far a place is from a segment.
 pub(crate) fn distance(at: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
     let along = [b[0] - a[0], b[1] - a[1]];

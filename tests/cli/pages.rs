@@ -59,6 +59,28 @@ fn every_verb_shows_its_mesh_and_how_to_cut_it() {
     assert!(moments(&folder, "j.html")[0]["cut"].is_null());
 }
 
+#[test]
+fn a_page_has_the_bodies_of_its_scene_where_they_are() {
+    let folder = Folder::new();
+    let moves = "[[collider]]\nmoves = [[0, 0, 0, 0], [1, 0, 0.1, 0]]\n";
+    let scene = folder.read("dress.toml").replace("[[collider]]\n", moves);
+    folder.write("s.toml", scene);
+    folder.done("tear dress.obj --scene s.toml --seconds 0.1 -o t.obj --view t.html");
+    let text = text(&folder.read("t.html"));
+    let solid = &text["solids"][0];
+    assert_eq!(solid["vertices"], 434);
+    let side = text["side"].as_f64().expect("a length");
+    let placings = solid["placings"].as_array().expect("placings");
+    for (placing, moment) in placings.iter().zip(moments(&folder, "t.html")) {
+        let up = placing[10].as_f64().expect("a number") * side;
+        let time = moment["time"].as_f64().expect("a time");
+        assert!((up - 0.1 * time).abs() < 1e-9, "{time}: {up}");
+    }
+    // A floor is not drawn.
+    folder.done("tear sheet.obj --scene fall --seconds 0.1 -o t.obj --view t.html");
+    assert!(self::text(&folder.read("t.html"))["solids"].is_null());
+}
+
 /// The page of a simulation has as many moments as there are frames, says when each was, and what was pulled; it and
 /// the summary speak of one length, that at rest.
 #[test]

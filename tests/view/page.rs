@@ -5,6 +5,7 @@ use std::io::Read as _;
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use proptest::prelude::*;
 use serde_json::Value;
+use tearmesh::nalgebra::Matrix3x4;
 use tearmesh::{CutMethod, Edits, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 use tearmesh_view::{CameraError, CutLine, Moment, Page, is_page};
 
@@ -46,7 +47,8 @@ fn read(html: &str) -> Read {
     let length = u32::from_le_bytes(bytes[..4].try_into().expect("four bytes")) as usize;
     let text: Value = serde_json::from_slice(&bytes[4..4 + length]).expect("JSON");
     let faces = 4 + length + count(&text["faceBytes"]);
-    let states = states(&bytes[4 + length..faces], count(&text["states"]));
+    let solids = text["solids"].as_array().map_or(0, Vec::len);
+    let states = states(&bytes[4 + length..faces], count(&text["states"]), solids);
     let shown = moments(&bytes[faces..], &text, &states);
     Read { text, shown }
 }
@@ -63,8 +65,8 @@ fn unfolded(x: u64) -> i64 {
     }
 }
 
-/// Three lists a state: corners, kinds, pieces.
-fn states(bytes: &[u8], count: usize) -> Vec<[Vec<u32>; 3]> {
+/// Three lists a state: corners, kinds, pieces; and the corners of each solid.
+fn states(bytes: &[u8], count: usize, solids: usize) -> Vec<[Vec<u32>; 3]> {
     let mut rest = bytes.iter();
     let mut number = || {
         let (mut sum, mut shift) = (0u64, 0);
@@ -79,8 +81,12 @@ fn states(bytes: &[u8], count: usize) -> Vec<[Vec<u32>; 3]> {
     };
     let mut last: [Vec<u32>; 3] = Default::default();
     let mut all = Vec::new();
-    for _ in 0..count {
-        for list in &mut last {
+    for state in 0..count + solids {
+        let lists = if state < count { 3 } else { 1 };
+        if state >= count {
+            last = Default::default();
+        }
+        for list in &mut last[..lists] {
             let (length, mut at, mut value) = (number() as usize, 0, 0);
             list.resize(length, 0);
             while at < length {
@@ -118,9 +124,12 @@ fn moments(bytes: &[u8], text: &Value, states: &[[Vec<u32>; 3]]) -> Vec<Shown> {
             .collect()
     });
     let mut shown = Vec::new();
-    for (number, moment) in told.iter().enumerate() {
-        let (vertices, [corners, kinds, pieces]) =
-            (count(&moment["vertices"]), &states[count(&moment["state"])]);
+    let solids = text["solids"].as_array().into_iter().flatten();
+    let of_states = told.iter().map(|moment| count(&moment["state"]));
+    let of_states = of_states.chain(count(&text["states"])..);
+    let all = told.iter().chain(solids).zip(of_states);
+    for (number, (one, state)) in all.enumerate() {
+        let (vertices, [corners, kinds, pieces]) = (count(&one["vertices"]), &states[state]);
         for track in tracks.iter_mut().filter(|_| number > 0) {
             track.resize(vertices, 0);
             let mut moved = 0;
@@ -230,7 +239,7 @@ fn waving() -> Vec<(Mesh, Positions)> {
         let time = f64::from(number) / 6.0;
         let moved = positions.as_slice().iter().map(|p| {
             let lift = (p.x * 3.0 - time) * (p.x * 2.0 + p.y - 1.0 + time * time) * 0.1;
-            Point::new(p.x + 1e5, p.y - time * time / 3.0, p.z + lift)
+            Point::new(p.x + waving_at().x, p.y - time * time / 3.0, p.z + lift)
         });
         all.push((mesh.clone(), Positions::new(moved).expect("they are small")));
     }
@@ -257,6 +266,71 @@ fn a_page_has_the_faces_and_the_places_of_every_moment() {
         .filter(|(before, after)| before == after)
         .count();
     assert!(kept > before.len() / 2, "{kept} of {}", before.len());
+}
+
+/// Those of a page stand behind its moments as they were made, and each moment says where they are.
+#[test]
+fn solids_are_where_each_moment_places_them() {
+    let meshes = waving();
+    let (solid, skin) = shapes::octahedron();
+    let skin: Vec<Point> = skin.as_slice().iter().map(|p| p + waving_at()).collect();
+    let mut page = Page::new("", Vector::y());
+    for _ in 0..2 {
+        page.add_solid(skin.clone(), solid.indices().as_chunks().0);
+    }
+    // The first turns by a right angle and more, and the second is pushed.
+    let turn = [[0.0, 0.6, 0.8], [-1.0, 0.0, 0.0], [0.0, -0.8, 0.6]].map(Vector::from);
+    let [still, axes] = [[Vector::x(), Vector::y(), Vector::z()], turn];
+    let placed = |axes: [Vector; 3], by: Vector, p: Point| {
+        Point::from(axes[0] * p.x + axes[1] * p.y + axes[2] * p.z + by)
+    };
+    let places = |number: usize| {
+        let back = waving_at() - placed(axes, Vector::zeros(), Point::from(waving_at())).coords;
+        [(axes, back), (still, Vector::z() * number as f64)]
+    };
+    for (number, (mesh, positions)) in meshes.iter().enumerate() {
+        let matrix =
+            |([x, y, z], by): ([Vector; 3], Vector)| Matrix3x4::from_columns(&[x, y, z, by]);
+        let moment = Moment {
+            placings: places(number).map(matrix).to_vec(),
+            ..Moment::default()
+        };
+        page.add(mesh, positions, moment).expect("it has faces");
+    }
+    let read = read(&written(&page));
+    let side = read.text["side"].as_f64().expect("a length");
+    let origin = [0, 1, 2].map(|axis| read.text["origin"][axis].as_f64().expect("a coordinate"));
+    let (moments, solids) = read.shown.split_at(meshes.len());
+    assert_eq!(moments[19].corners, meshes[19].0.indices());
+    for (number, shown) in solids.iter().enumerate() {
+        assert_eq!(shown.corners, solid.indices());
+        for moment in 0..meshes.len() {
+            let matrix = &read.text["solids"][number]["placings"][moment];
+            let column =
+                |i: usize| [0, 1, 2].map(|axis| matrix[3 * i + axis].as_f64().expect("a number"));
+            let columns = [0, 1, 2, 3].map(|i| Vector::from(column(i)));
+            for (is, &made) in shown.places.iter().zip(&skin) {
+                let part = [0, 1, 2].map(|axis| (is[axis] - origin[axis]) / side);
+                let is = placed(
+                    [columns[0], columns[1], columns[2]],
+                    columns[3],
+                    part.into(),
+                );
+                let is = Point::from(origin) + is.coords * side;
+                let (axes, by) = places(moment)[number];
+                let off = (is - placed(axes, by, made)).amax();
+                assert!(
+                    off < side / 65536.0,
+                    "solid {number}, moment {moment}: {off}"
+                );
+            }
+        }
+    }
+}
+
+/// About where [`waving`] is.
+fn waving_at() -> Vector {
+    Vector::new(1e5, 0.0, 0.0)
 }
 
 #[test]
@@ -312,7 +386,7 @@ fn no_text_breaks_out_of_a_page() {
         label: bad.to_owned(),
         time_s: Some(0.0),
         cut: Some(cut),
-        torn_at_rest_m: None,
+        ..Moment::default()
     };
     page.add(&mesh, &positions, moment).expect("it has a face");
     page.tell(bad, bad);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tearmesh::{Point, Vector};
+use tearmesh::{Mesh, Point, Vector};
 use tearmesh_cloth::{
     Balance, Body, Cloth, Collider, ColliderShape, Fabric, Path, RigidMotion, StepError, Unstable,
 };
@@ -10,7 +10,7 @@ use tearmesh_cloth::{
 use super::oracle::Solid;
 use super::{MU, above_dummy, block, body, dummy, faces_of_sheet, is_outside, sheet};
 use crate::parts::cloths::cloth;
-use crate::parts::{G, METHODS, gravity_along_y, method, near, onto, take};
+use crate::parts::{G, METHODS, gravity_along_y, method, near, onto, plane, take};
 
 /// A body that moves, with friction.
 fn moving(body: Body, motion: RigidMotion) -> Collider {
@@ -197,4 +197,41 @@ fn nothing_gets_under_the_skin_of_a_dummy_that_moves() {
     let [x, _] = middle(&sheet);
     let shoulders = motion.at(2.0).to_world(Point::new(0.0, 0.8, 0.0));
     assert!((x - shoulders.coords).norm() < 0.2, "{x} of {shoulders}");
+}
+
+#[test]
+fn skins_are_drawn_where_colliders_are() {
+    let (centre, solid) = (Point::new(3.0, -2.0, 1.0), dummy());
+    let motion = RigidMotion {
+        moves: path(100, |time_s| Vector::new(time_s, 0.0, -time_s)),
+        turns: path(100, |time_s| Vector::new(0.0, 5.0 * time_s, time_s)),
+        about: Point::new(0.5, 0.0, 0.0),
+    };
+    let colliders = [
+        Collider::plane(plane(centre, Vector::y())),
+        Collider::sphere(centre, 0.7),
+        moving(body(&solid, 0.05), motion.clone()),
+    ];
+    let (skin, sides) = Collider::skins(&colliders, 0.4);
+    let (ball, moved) = skin.split_at(skin.len() - solid.points.len());
+    let (of_ball, _) = sides.split_at(sides.len() - solid.faces.len());
+    // The ball is round and closed, and looks outward.
+    let is_round = |p: &Point| ((p - centre).norm() - 0.7).abs() < 1e-12;
+    assert!(ball.len() > 400 && ball.iter().all(is_round));
+    let mesh = Mesh::build(ball.len(), of_ball).expect("faces join");
+    assert!(mesh.half_edges().all(|h| mesh.pair(h).is_some()));
+    let volumes = of_ball.iter().map(|side| {
+        let [a, b, c] = side.map(|v| ball[v as usize] - centre);
+        a.dot(&b.cross(&c)) / 6.0
+    });
+    let whole = 4.0 / 3.0 * std::f64::consts::PI * 0.343;
+    near(volumes.sum::<f64>() / whole, 1.0, 0.03);
+    // The body is where its motion says, also as a matrix.
+    let pose = motion.at(0.4);
+    for (&p, moved) in solid.points.iter().zip(moved) {
+        let p = Point::from(p);
+        assert_eq!(pose.to_world(p), *moved);
+        let by_matrix = pose.matrix() * p.to_homogeneous();
+        assert!((by_matrix - moved.coords).norm() < 1e-12);
+    }
 }

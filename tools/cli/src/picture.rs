@@ -1,7 +1,7 @@
 //! What all pictures of meshes need: a camera, and what is known of the surface.
 
 use tearmesh::{Blend, Cursor, Edits, Mesh, Point};
-use tearmesh_cloth::{Collider, ColliderShape};
+use tearmesh_cloth::Collider;
 use tearmesh_obj::{Corner, Document};
 use tearmesh_view::CameraError;
 
@@ -47,31 +47,27 @@ impl Texture {
     }
 }
 
-/// A cloth and the bodies that it lies on, to be drawn as one mesh; the cloth alone where the faces of a body
+/// A cloth and the bodies and balls that it lies on, to be drawn as one mesh; the cloth alone where the faces of a body
 /// form no manifold.
 pub(crate) fn with_bodies(
     (mesh, points, texture): (&Mesh, &[Point], &Texture),
     colliders: &[Collider],
     elapsed_s: f64,
 ) -> (Mesh, Vec<Point>, Texture) {
+    let (skin, sides) = Collider::skins(colliders, elapsed_s);
+    if sides.is_empty() {
+        return (mesh.clone(), points.to_vec(), texture.clone());
+    }
+    let first = points.len() as u32;
     let mut faces = mesh.indices().as_chunks::<3>().0.to_vec();
-    let (mut roots, mut drawn, mut texture) = (mesh.roots(), points.to_vec(), texture.clone());
-    for collider in colliders {
-        if let ColliderShape::Body { body, motion, .. } = &collider.shape {
-            let (first, pose) = (drawn.len() as u32, motion.at(elapsed_s));
-            drawn.extend(body.points().iter().map(|&p| pose.to_world(p)));
-            roots.extend(first..drawn.len() as u32);
-            faces.extend(body.faces().iter().map(|face| face.map(|v| first + v)));
-        }
-    }
-    if drawn.len() == points.len() {
-        return (mesh.clone(), drawn, texture);
-    }
+    faces.extend(sides.into_iter().map(|side| side.map(|v| first + v)));
+    let (mut roots, mut texture) = (mesh.roots(), texture.clone());
+    roots.extend((first..).take(skin.len()));
     if !texture.values.is_empty() {
         texture.values.resize(3 * faces.len(), [0.0; 2]);
     }
     match Mesh::build_torn(&faces, &roots) {
-        Ok(mesh) => (mesh, drawn, texture),
+        Ok(mesh) => (mesh, [points, &skin].concat(), texture),
         Err(_) => (mesh.clone(), points.to_vec(), texture),
     }
 }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use tearmesh::CutMethod;
 use tearmesh_cloth::scene::{Frame, HeldVertices, Preset, Scene};
-use tearmesh_cloth::{ColliderShape, RigidMotion};
 use tearmesh_obj::TornDocument;
 use tearmesh_view::PlayPage;
 
@@ -48,9 +47,9 @@ pub(crate) fn run(
             tear::check::tearing(false, &scene, &source)?;
             let run = tear::begin(scene, &opened, &frame, &source)?;
             tear::record_seams(&run, &mut opened, &source)?;
-            let mut scene = run.scene().clone();
-            faults.extend(left(&mut scene));
-            made.plan = Some(serde_json::to_string(&scene).expect("a scene is data"));
+            let scene = run.scene();
+            faults.extend(left(scene));
+            made.plan = Some(serde_json::to_string(scene).expect("a scene is data"));
         }
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
@@ -67,8 +66,8 @@ pub(crate) fn run(
     Ok(words)
 }
 
-/// A warning of all that the page leaves to hands. Bodies that move are set to stand still.
-fn left(scene: &mut Scene) -> Option<Fault> {
+/// A warning of all that the page leaves to hands.
+fn left(scene: &Scene) -> Option<Fault> {
     let holds = (1..).zip(&scene.holds);
     let holds = holds.filter(|(_, hold)| **hold != HeldVertices::still(hold.region.clone()));
     let cuts = (1..).zip(&scene.cuts);
@@ -81,13 +80,6 @@ fn left(scene: &mut Scene) -> Option<Fault> {
             .iter()
             .map(|(_, seam)| format!("seam `{seam}`")),
     );
-    for (number, collider) in (1..).zip(&mut scene.colliders) {
-        if let ColliderShape::Body { motion, .. } = &mut collider.shape
-            && std::mem::take(motion) != RigidMotion::default()
-        {
-            names.push(format!("collider {number}"));
-        }
-    }
     let message = "the page leaves to the hand what moves, begins or ends later, or is not exact";
     let fault = Fault::warning("W-PLAY-HAND", format!("{message}: {}", names.join(", ")));
     (!names.is_empty()).then_some(fault)

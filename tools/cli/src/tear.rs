@@ -182,7 +182,9 @@ impl Play<'_> {
             torn: TornDocument::new(&self.opened.document),
             frames: Frames::open(self.args, &run)?,
             tear_log: TearLog::new(&run),
-            recorder: files.wanted(&files.view).map(|_| Recorder::new(&title, up)),
+            recorder: files
+                .wanted(&files.view)
+                .map(|_| Recorder::new(&title, up, &run.scene().colliders)),
             still: is_drawn
                 .then(|| Still::new(self.args.picture_at, Texture::of(&self.opened.document))),
         };

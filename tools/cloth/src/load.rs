@@ -5,10 +5,11 @@
 
 use std::sync::Arc;
 
-use tearmesh::geometry::{Plane, Point, Vector, cross, dot, length};
+use tearmesh::geometry::{Plane, Point, Vector, cross, dot, length, sine_and_cosine};
+use tearmesh::shapes;
 
 use crate::body::Body;
-use crate::path::RigidMotion;
+use crate::path::{Pose, RigidMotion};
 use crate::system::error::SettingError;
 
 /// The external loads on the particles. By default there are none.
@@ -185,6 +186,39 @@ impl Collider {
         })
     }
 
+    /// Returns the skin of a body or a ball as it was made, to be drawn: its points, and its faces, anticlockwise
+    /// as seen from outside. A plane has none.
+    #[must_use]
+    pub fn skin(&self) -> (Vec<Point>, Vec<[u32; 3]>) {
+        match &self.shape {
+            ColliderShape::Plane(_) => Default::default(),
+            ColliderShape::Sphere { centre, radius_m } => ball(*centre, *radius_m),
+            ColliderShape::Body { body, .. } => (body.points().to_vec(), body.faces().to_vec()),
+        }
+    }
+
+    /// Returns where it is at a time in seconds since the system was created. Only bodies move.
+    #[must_use]
+    pub fn pose(&self, elapsed_s: f64) -> Pose {
+        match &self.shape {
+            ColliderShape::Body { motion, .. } => motion.at(elapsed_s),
+            _ => RigidMotion::default().at(elapsed_s),
+        }
+    }
+
+    /// Returns the [skins](Collider::skin) of colliders where they are at a time, as one.
+    #[must_use]
+    pub fn skins(colliders: &[Collider], elapsed_s: f64) -> (Vec<Point>, Vec<[u32; 3]>) {
+        let (mut points, mut faces) = (Vec::new(), Vec::new());
+        for collider in colliders {
+            let (pose, (skin, sides)) = (collider.pose(elapsed_s), collider.skin());
+            let first = points.len() as u32;
+            points.extend(skin.into_iter().map(|p| pose.to_world(p)));
+            faces.extend(sides.into_iter().map(|side| side.map(|v| first + v)));
+        }
+        (points, faces)
+    }
+
     pub(crate) fn is_body(&self) -> bool {
         matches!(self.shape, ColliderShape::Body { .. })
     }
@@ -216,4 +250,26 @@ impl ColliderShape {
             ColliderShape::Body { .. } => (Vector::z(), f64::NEG_INFINITY),
         }
     }
+}
+
+/// The rows of a ball between its poles, and the faces around it.
+const ROWS: u32 = 14;
+const AROUND: u32 = 32;
+
+/// The skin of a ball: a tube that is rounded, and the fans that close it.
+fn ball(centre: Point, radius_m: f64) -> (Vec<Point>, Vec<[u32; 3]>) {
+    let (tube, rings) = shapes::tube(AROUND, ROWS);
+    let rounded = rings.as_slice().iter().map(|p| {
+        let part = (p.z * f64::from(ROWS) + 1.0) / f64::from(ROWS + 2);
+        let (out, down) = sine_and_cosine(std::f64::consts::PI * part);
+        Vector::new(p.x * out, p.y * out, -down)
+    });
+    let poles = [-Vector::z(), Vector::z()];
+    let points = rounded.chain(poles).map(|out| centre + out * radius_m);
+    let mut faces = tube.indices().as_chunks().0.to_vec();
+    let (last, pole) = (AROUND * ROWS, AROUND * (ROWS + 1));
+    for (i, next) in (0..AROUND).map(|i| (i, (i + 1) % AROUND)) {
+        faces.extend([[next, i, pole], [last + i, last + next, pole + 1]]);
+    }
+    (points.collect(), faces)
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use tearmesh::geometry::{Point, Vector, check_point, cross, length};
+use tearmesh::nalgebra::Matrix3x4;
 
 use crate::bend::sinc_of_root;
 
@@ -120,6 +121,13 @@ impl Pose {
     #[must_use]
     pub fn to_world(&self, p: Point) -> Point {
         self.about + self.offset + self.turned(p - self.about)
+    }
+
+    /// Returns the same as a matrix: its first three columns turn a point, and the last is added to that.
+    #[must_use]
+    pub fn matrix(&self) -> Matrix3x4<f64> {
+        let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()].map(|axis| self.turned(axis));
+        Matrix3x4::from_columns(&[x, y, z, self.to_world(Point::origin()).coords])
     }
 
     /// The point of the body that is at a place.

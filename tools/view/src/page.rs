@@ -16,6 +16,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use serde_json::{Value, json};
 use tearmesh::geometry::length;
+use tearmesh::nalgebra::Matrix3x4;
 use tearmesh::{HalfEdgeId, Mesh, Place, Point, Scissor, Vector};
 
 use crate::bounds::Bounds;
@@ -57,6 +58,8 @@ pub struct Page {
     facts: Vec<[String; 2]>,
     plots: Vec<Value>,
     pieces: Pieces,
+    /// The points and the corners of the faces of each.
+    solids: Vec<(Vec<Point>, Vec<u32>)>,
     states: Vec<State>,
     shots: Vec<Shot>,
 }
@@ -74,6 +77,8 @@ pub struct Moment {
     /// The length at rest of all torn edges, each counted once, in metres. If it is `None`, the page shows
     /// their length in this mesh.
     pub torn_at_rest_m: Option<f64>,
+    /// Where each [solid](Page::add_solid) is: the first three columns turn its points, and the last is added.
+    pub placings: Vec<Matrix3x4<f64>>,
 }
 
 /// The parts of the command `tearmesh cut` that a page suggests. The page shows them as given, so names
@@ -150,6 +155,12 @@ impl Page {
         self.plots.push(plot);
     }
 
+    /// Adds a solid that the mesh lies on, by the points and the faces of its skin. It is drawn grey, at each
+    /// moment where that [places](Moment::placings) it.
+    pub fn add_solid(&mut self, points: Vec<Point>, faces: &[[u32; 3]]) {
+        self.solids.push((points, faces.as_flattened().to_vec()));
+    }
+
     /// Returns the description of the last moment, or `None` if the page has no moment.
     pub fn last_mut(&mut self) -> Option<&mut Moment> {
         self.shots.last_mut().map(|shot| &mut shot.moment)
@@ -163,7 +174,7 @@ impl Page {
     ///
     /// # Panics
     ///
-    /// If a vertex of the mesh is unknown to `place`.
+    /// If a vertex of the mesh is unknown to `place`, or the moment does not place every solid.
     pub fn add(
         &mut self,
         mesh: &Mesh,
@@ -173,6 +184,8 @@ impl Page {
         if mesh.face_count() == 0 {
             return Err(CameraError::Empty);
         }
+        let (placed, solids) = (moment.placings.len(), self.solids.len());
+        assert_eq!(placed, solids, "a moment places every solid");
         if self.shots.is_empty() {
             let camera = fit(mesh, place, self.up, ANGLE_OF_VIEW, [4.0, 3.0])?;
             [self.look, ..] = camera.axes();
@@ -230,7 +243,9 @@ impl Page {
             let corners = &self.states[shot.state].corners;
             corners.iter().map(|&v| shot.points[v as usize])
         });
-        let bounds = Bounds::around(shown).expect("a page shows something");
+        let at_rest = self.solids.iter().flat_map(|(points, _)| points);
+        let all = shown.chain(at_rest.copied());
+        let bounds = Bounds::around(all).expect("a page shows something");
         let lattice = motion::Lattice::round(&bounds);
         let mut faces = Vec::new();
         let nothing = State::default();
@@ -240,12 +255,17 @@ impl Page {
             codec::write_change(&before.kinds, &state.kinds, &mut faces);
             codec::write_change(&before.pieces, &state.pieces, &mut faces);
         }
+        for (_, corners) in &self.solids {
+            codec::write_change(&[], corners, &mut faces);
+        }
         let moments = self.shots.iter().map(|shot| {
             let state = &self.states[shot.state];
             (&*shot.points, &*state.corners)
         });
-        let places = motion::write(moments, &lattice);
-        let text = json!({
+        let solids = self.solids.iter();
+        let solids = solids.map(|(points, corners)| (&**points, &**corners));
+        let places = motion::write(moments.chain(solids), &lattice);
+        let mut text = json!({
             "title": self.title,
             "up": self.up.as_slice(),
             "look": self.look.as_slice(),
@@ -264,6 +284,22 @@ impl Page {
             "shadow": shade::SHADOW,
             "snap": Scissor::SNAP,
         });
+        if !self.solids.is_empty() {
+            // On a page, places are counted from the corner of the box.
+            let corner = lattice.origin;
+            let placing = |mut matrix: Matrix3x4<f64>| {
+                let moved = matrix * corner.to_homogeneous() - corner.coords;
+                matrix.set_column(3, &(moved / lattice.side));
+                json!(matrix.as_slice())
+            };
+            let solids = self.solids.iter().enumerate();
+            let solids = solids.map(|(number, (points, _))| {
+                let matrices = self.shots.iter().map(|shot| shot.moment.placings[number]);
+                let placings: Vec<Value> = matrices.map(placing).collect();
+                json!({"vertices": points.len(), "placings": placings})
+            });
+            text["solids"] = solids.collect();
+        }
         (text.to_string(), [faces, places].concat())
     }
 
@@ -338,7 +374,7 @@ pub(crate) fn script(own: &[&str]) -> String {
 pub(crate) const FRAME: &str = include_str!("page/page.html");
 pub(crate) const STYLE: &str = include_str!("page/page.css");
 /// What every page begins its script with, file by file: each uses those before it.
-const SHARED_SCRIPTS: [&str; 7] = [
+const SHARED_SCRIPTS: [&str; 8] = [
     include_str!("page/vectors.js"),
     include_str!("page/packed.js"),
     include_str!("page/camera.js"),
@@ -346,6 +382,7 @@ const SHARED_SCRIPTS: [&str; 7] = [
     include_str!("page/finer.js"),
     include_str!("page/scene.js"),
     include_str!("page/overlay.js"),
+    include_str!("page/stage.js"),
 ];
 const SCRIPTS: [&str; 4] = [
     include_str!("page/data.js"),

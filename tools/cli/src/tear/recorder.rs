@@ -2,6 +2,7 @@
 
 use tearmesh::geometry::length;
 use tearmesh_cloth::scene::{HoldForces, Run, TearLog};
+use tearmesh_cloth::{Collider, ColliderShape};
 use tearmesh_view::{Moment, Page};
 
 use super::frames::{RATE_PER_S, places};
@@ -12,14 +13,23 @@ use crate::picture::no_camera;
 /// The page of a run, as far as it is recorded.
 pub(super) struct Recorder {
     page: Page,
+    /// The bodies and balls that are drawn.
+    solids: Vec<Collider>,
     /// The largest stretch of each moment.
     stretch: Vec<[f64; 2]>,
 }
 
 impl Recorder {
-    pub(super) fn new(title: &str, up: tearmesh::Vector) -> Recorder {
+    pub(super) fn new(title: &str, up: tearmesh::Vector, colliders: &[Collider]) -> Recorder {
+        let mut page = Page::new(title, up);
+        let is_solid = |one: &&Collider| !matches!(one.shape, ColliderShape::Plane(_));
+        let solids: Vec<Collider> = colliders.iter().filter(is_solid).cloned().collect();
+        for (points, faces) in solids.iter().map(Collider::skin) {
+            page.add_solid(points, &faces);
+        }
         Recorder {
-            page: Page::new(title, up),
+            page,
+            solids,
             stretch: Vec::new(),
         }
     }
@@ -34,7 +44,9 @@ impl Recorder {
     }
 
     fn take(&mut self, run: &Run) -> Result<(), Stop> {
+        let placing = |solid: &Collider| solid.pose(run.elapsed_s()).matrix();
         let moment = Moment {
+            placings: self.solids.iter().map(placing).collect(),
             time_s: Some(run.elapsed_s()),
             torn_at_rest_m: Some(run.torn_length_m()),
             ..Moment::default()

@@ -28,8 +28,10 @@ struct Module {
     /// Whether each vertex is held.
     held: Vec<u8>,
     facts: Vec<f64>,
+    /// Of what the cloth lies on: positions and indices.
+    solids: (Vec<f32>, Vec<u32>),
     /// Of each block but the text, where it is, and how many bytes it has.
-    drawn: [(usize, usize); TEXT as usize],
+    drawn: Vec<(usize, usize)>,
 }
 
 /// The faces of both sides are joined; there never was another face; the faces were torn or cut apart.
@@ -42,8 +44,8 @@ thread_local! {
 }
 
 /// The number of the block of memory with a text or a file. Those before it, from 0 on, are what [`draw`] brings
-/// up to date: positions, indices, pieces, edges, held vertices, and facts.
-const TEXT: u32 = 6;
+/// up to date: positions, indices, pieces, edges, held vertices, facts, and positions and indices of solids.
+const TEXT: u32 = 8;
 
 /// Makes room for a text or a file; where.
 #[unsafe(no_mangle)]
@@ -293,11 +295,11 @@ impl Module {
         };
         let buffers = player.draw_buffers();
         let pieces = buffers.pieces().iter().max().map_or(0, |&last| last + 1);
-        let [positions, indices, numbers] = [
-            of(buffers.positions()),
-            of(buffers.indices()),
-            of(buffers.pieces()),
-        ];
+        let (positions, indices) = (buffers.positions(), buffers.indices());
+        refill(
+            &mut self.drawn,
+            [of(positions), of(indices), of(buffers.pieces())],
+        );
         let (sim, facts) = (player.simulation(), player.facts());
         let mesh = sim.mesh();
         let edge = |h| match (mesh.pair(h), mesh.ghost_pair(h)) {
@@ -322,8 +324,14 @@ impl Module {
         refill(&mut self.facts, counts.map(|count| count as f64));
         self.facts.extend([sim.time_s(), sim.step_s()]);
         self.facts.extend(facts.grabbed_at);
-        let [edges, held, facts] = [of(&self.edges), of(&self.held), of(&self.facts)];
-        self.drawn = [positions, indices, numbers, edges, held, facts];
+        let (points, faces) = player.solids();
+        let (places, corners) = &mut self.solids;
+        let numbers = points.iter().flat_map(|p| [p.x, p.y, p.z]);
+        refill(places, numbers.map(|x| x as f32));
+        refill(corners, faces.into_flattened());
+        let cloth = [of(&self.edges), of(&self.held), of(&self.facts)];
+        self.drawn.extend(cloth);
+        self.drawn.extend([of(places), of(corners)]);
     }
 
     /// Where a block is, and how many bytes it has.

@@ -338,6 +338,13 @@ impl<'d> Player<'d> {
         self.sim.draw_buffers()
     }
 
+    /// Returns the bodies and balls that the cloth lies on, where they are now: points and faces.
+    #[must_use]
+    pub fn solids(&self) -> (Vec<Point>, Vec<[u32; 3]>) {
+        let colliders = &self.sim.cloth().system().loads().colliders;
+        Collider::skins(colliders, self.sim.time_s())
+    }
+
     /// Returns what happened so far.
     #[must_use]
     pub fn facts(&self) -> Facts {

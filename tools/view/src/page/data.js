@@ -1,25 +1,21 @@
-// What the page shows: a text in JSON, and the faces and places of every moment behind it. Places are
-// counted from the corner of the box, in its longest side.
+// What the page shows: a text in JSON, and the faces and places of every moment behind it, and of solids. Places
+// are counted from the corner of the box, in its longest side.
 const STEPS = 65536;
-// The kind of a half-edge that is torn.
-const TORN = 2;
 
 async function unpack() {
-  const bytes = await unpacked("data", "deflate");
-  const length = new DataView(bytes.buffer).getUint32(0, true);
-  const data = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
-  const places = 4 + length + data.faceBytes;
-  data.states = readStates(bytes.subarray(4 + length, places), data.states);
-  readPlaces(bytes.subarray(places), data);
+  const { data, bytes } = await unpackedData();
+  data.solids ??= [];
+  data.states = readStates(bytes.subarray(0, data.faceBytes), data);
+  readPlaces(bytes.subarray(data.faceBytes), [...data.moments, ...data.solids]);
   const rate = data.moments.length < data.few ? 1 : data.rate;
-  data.moments.forEach((moment, i) => { moment.seconds = moment.time ?? i / rate; });
+  data.moments.forEach((moment, number) => Object.assign(moment, { number, seconds: moment.time ?? number / rate }));
   return data;
 }
 
 const unfolded = (x) => (x & 1 ? -(x + 1) / 2 : x / 2);
 
-// The faces of every state, each as what changed since the one before.
-function readStates(bytes, count) {
+// The faces of every state, each as what changed since the one before, and the corners of solids.
+function readStates(bytes, { states: count, solids }) {
   let at = 0;
   const number = () => {
     let sum = 0, place = 1, byte;
@@ -41,14 +37,16 @@ function readStates(bytes, count) {
   };
   const none = new Uint32Array(0);
   let state = { corners: none, kinds: none, pieces: none };
-  return Array.from({ length: count }, () => {
+  const states = Array.from({ length: count }, () => {
     state = { corners: changed(state.corners), kinds: changed(state.kinds), pieces: changed(state.pieces) };
     return state;
   });
+  for (const solid of solids) solid.corners = changed(none);
+  return states;
 }
 
-// Puts `places` into each moment: three numbers a vertex.
-function readPlaces(bytes, { moments }) {
+// Puts `places` into each moment, and into each solid behind them: three numbers a vertex.
+function readPlaces(bytes, moments) {
   const first = 3 * moments[0].vertices;
   const floats = new Float32Array(first), raw = new Uint8Array(floats.buffer);
   for (let i = 0; i < first; i++) {
@@ -73,10 +71,27 @@ function readPlaces(bytes, { moments }) {
   }
 }
 
+// What is drawn at a moment: its mesh, and behind that the solids, where they are then.
+function drawnAt(moment, { states, solids }) {
+  let { corners, kinds, pieces } = states[moment.state], { places } = moment;
+  for (const solid of solids) {
+    const [xx, xy, xz, yx, yy, yz, zx, zy, zz, ...off] = solid.placings[moment.number];
+    const p = solid.places, placed = new Float64Array(p.length), first = places.length / 3;
+    for (let i = 0; i < p.length; i += 3) {
+      placed[i] = xx * p[i] + yx * p[i + 1] + zx * p[i + 2] + off[0];
+      placed[i + 1] = xy * p[i] + yy * p[i + 1] + zy * p[i + 2] + off[1];
+      placed[i + 2] = xz * p[i] + yz * p[i + 1] + zz * p[i + 2] + off[2];
+    }
+    corners = joined(corners, solid.corners.map((v) => first + v));
+    places = joined(places, placed);
+  }
+  return { corners, kinds, pieces, places };
+}
+
 // The box round some moments, but for crumbs: pieces that have come off since the first of them, and have less
 // than a tenth of the faces.
-function boxOfMoments(shown, states) {
-  const first = new Set(states[shown[0].state].pieces);
+function boxOfMoments(shown, data) {
+  const { states } = data, first = new Set(states[shown[0].state].pieces);
   const box = { least: [Infinity, Infinity, Infinity], most: [-Infinity, -Infinity, -Infinity] };
   for (const number of new Set(shown.map((moment) => moment.state))) {
     const { corners, pieces } = states[number], faces = new Map();
@@ -85,10 +100,13 @@ function boxOfMoments(shown, states) {
       const piece = pieces[corner / 3 | 0];
       return first.has(piece) || 10 * faces.get(piece) >= pieces.length;
     });
-    for (const { places } of shown.filter((moment) => moment.state === number)) {
-      const { least, most } = boxOf(places, large);
-      box.least = box.least.map((x, axis) => Math.min(x, least[axis]));
-      box.most = box.most.map((x, axis) => Math.max(x, most[axis]));
+    for (const moment of shown.filter((moment) => moment.state === number)) {
+      const drawn = drawnAt(moment, data);
+      for (const some of [large, drawn.corners.subarray(corners.length)]) {
+        const { least, most } = boxOf(drawn.places, some);
+        box.least = box.least.map((x, axis) => Math.min(x, least[axis]));
+        box.most = box.most.map((x, axis) => Math.max(x, most[axis]));
+      }
     }
   }
   return box;

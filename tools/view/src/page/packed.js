@@ -5,3 +5,9 @@ async function unpacked(id, format) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
+
+// What every page carries: a text in JSON, and the bytes behind it.
+async function unpackedData() {
+  const bytes = await unpacked("data", "deflate"), length = new DataView(bytes.buffer).getUint32(0, true);
+  return { data: JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length))), bytes: bytes.subarray(4 + length) };
+}

@@ -1,6 +1,4 @@
 // The page itself: what is clicked and dragged, and what is shown then.
-const $ = (id) => document.getElementById(id);
-
 async function open() {
   if (!("DecompressionStream" in window)) throw new Error("This page needs a browser of 2023 or later.");
   const data = await unpack();
@@ -10,11 +8,12 @@ async function open() {
   const isPlayed = moments.length > 1;
   // A simulation or many meshes are a film; a few meshes are looked at one after another.
   const isFilm = moments.length >= data.few || moments[0].time !== null;
-  let scene = new Scene(canvas);
-  let now = 0, state = -1, box, isDirty = false;
+  const scene = new Scene(canvas, () => {
+    state = "";
+    show(now);
+  });
+  let now = 0, state = "", box, isDirty = false;
   let hasEdges = false, hasBox = true, isDrawing = false;
-  const prefersDark = matchMedia("(prefers-color-scheme: dark)");
-  let isDark;
   // The points that were clicked, a line that is being drawn, and the cut between them.
   let targets = [], drawn = null, cut = null;
 
@@ -24,10 +23,11 @@ async function open() {
     isDirty = true;
     requestAnimationFrame(draw);
   };
+  const theme = new Theme(data.colors, redraw);
 
   function draw() {
     isDirty = false;
-    const colors = isDark ? data.colors.dark : data.colors.light;
+    const { colors } = theme;
     scene.begin(colors.background);
     scene.drawGround(camera, moments[now].sky.ground, data.shadow);
     scene.drawFaces(camera, box, data.colors.pieces, data.light);
@@ -37,48 +37,28 @@ async function open() {
     scene.drawLines("seam", camera, box, colors.seam, 2.4);
     scene.drawLines("trace", camera, box, colors.trace, 2.4, 0.35);
     scene.drawLines("trace", camera, box, colors.trace, 2.4);
-    const ratio = pen.canvas.width / camera.size[0];
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, ...camera.size);
-    const style = getComputedStyle(document.documentElement);
-    const [ink, faint, panel] = ["--ink", "--faint", "--panel"].map((name) => style.getPropertyValue(name));
+    const [ink, faint, panel] = wiped(pen, camera);
     if (hasBox) drawAxes(pen, camera, box, data, faint);
     const points = drawn ?? targets.map((p) => camera.pixel(p)).filter((pixel) => pixel[2] > 0);
     drawPoints(pen, points, ink, panel);
     tellView();
   }
 
-  function setTheme(dark) {
-    isDark = dark;
-    const root = document.documentElement, colors = dark ? data.colors.dark : data.colors.light;
-    root.classList.toggle("dark", dark);
-    root.style.setProperty("--ground", `rgb(${colors.background})`);
-    root.style.setProperty("--accent", `rgb(${colors.trace})`);
-    root.style.setProperty("--seam", `rgb(${colors.seam})`);
-    redraw();
-  }
-
   // The box around what is shown: in a film, around all moments of it.
   let filmBox;
-  const seenBox = () => (isFilm ? filmBox ??= boxOfMoments(moments, states) : boxOfMoments([moments[now]], states));
+  const seenBox = () => (isFilm ? filmBox ??= boxOfMoments(moments, data) : boxOfMoments([moments[now]], data));
 
   // The faces of the moment that is shown, once they are others.
   function load() {
-    const moment = moments[now], { corners, kinds } = states[moment.state];
-    if (state !== moment.state) {
-      state = moment.state;
-      scene.setState(states[state]);
+    const moment = moments[now], drawn = drawnAt(moment, data);
+    if (state !== `${moment.state} ${moment.vertices}`) {
+      state = `${moment.state} ${moment.vertices}`;
+      scene.setState(drawn);
     }
     // All moments of a film are above one ground.
-    moment.sky ??= skyOf(moment.places, corners, seenBox(), unit(data.up), isFilm);
-    scene.setPlaces(moment.places, moment.sky);
-    box = boxOf(moment.places, corners);
-    const open = { boundary: [], seam: [] };
-    kinds.forEach((kind, h) => {
-      if (kind) open[kind === TORN ? "seam" : "boundary"].push(corners[h], corners[h - h % 3 + (h + 1) % 3]);
-    });
-    scene.setEdges("boundary", open.boundary);
-    scene.setEdges("seam", open.seam);
+    moment.sky ??= skyOf(drawn.places, drawn.corners, seenBox(), unit(data.up), isFilm);
+    scene.setPlaces(drawn.places, moment.sky);
+    box = boxOf(drawn.places, drawn.corners);
     const edges = [];
     for (let bits = 0; bits < 8; bits++) {
       for (const axis of [1, 2, 4]) if (!(bits & axis)) edges.push(...boxCorner(box, bits), ...boxCorner(box, bits | axis));
@@ -108,22 +88,16 @@ async function open() {
   const tears = moments.flatMap(({ state }, i) => (i && tornCounts[state] > tornCounts[moments[i - 1].state] ? [i] : []));
 
   function tellFacts() {
-    const moment = moments[now], { corners } = states[moment.state];
+    const moment = moments[now], { corners } = states[moment.state], { least, most } = boxOf(moment.places, corners);
     const short = (x, step) => String(rounded(x, step)).replaceAll("-", "−");
     const from = (corner) => corner.map((x, axis) => short(data.origin[axis] + x * data.side, data.side / 10)).join(", ");
-    const rows = [
+    tellRows([
       ...(isPlayed && moment.label ? [["shown", moment.label]] : []),
       ["vertices", moment.vertices], ["faces", corners.length / 3], ["pieces", pieces[moment.state]],
       ["boundary loops", moment.loops], ["torn", moment.torn ? `${short(moment.torn, moment.torn / 10)} long${moment.torn_at_rest ? " at rest" : ""}` : "nothing"],
-      ["from", from(box.least)], ["to", from(box.most)],
+      ["from", from(least)], ["to", from(most)],
       ...data.facts,
-    ];
-    $("facts").replaceChildren(...rows.flatMap(([name, what]) => {
-      const [dt, dd] = ["dt", "dd"].map((tag) => document.createElement(tag));
-      dt.textContent = name;
-      dd.textContent = what;
-      return [dt, dd];
-    }));
+    ]);
   }
 
   // The picture that `tearmesh render` draws from here.
@@ -199,53 +173,29 @@ async function open() {
     redraw();
   }
 
-  async function copy() {
-    getSelection().selectAllChildren($("line"));
-    try {
-      await navigator.clipboard.writeText($("line").textContent);
-      say("Copied.");
-    } catch {
-      say(document.execCommand("copy") ? "Copied." : "Press Ctrl+C to copy the line.");
-    }
-  }
-
   // ---- Pointers: one turns, two pan and zoom, and one that does not move is a click
 
   const pointers = new Map();
-  let moved = 0, start = null, button = 0;
-  const at = (event) => {
-    const { left, top } = canvas.getBoundingClientRect();
-    return [event.clientX - left, event.clientY - top];
-  };
-  const spread = () => {
-    const [a, b] = [...pointers.values()];
-    return { middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], wide: Math.hypot(a[0] - b[0], a[1] - b[1]) };
-  };
-
+  let isClick = false, start = null, button = 0;
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, at(event));
-    moved = pointers.size > 1 ? Infinity : 0;
-    start = at(event);
-    button = event.button || (event.shiftKey || event.ctrlKey ? 2 : 0);
+    pointers.set(event.pointerId, placeOf(event));
+    isClick = pointers.size === 1;
+    start = placeOf(event);
+    button = buttonOf(event);
     if (pointers.size > 1) drawn = null;
   });
   canvas.addEventListener("pointermove", (event) => {
     const was = pointers.get(event.pointerId);
     if (!was) return;
-    const is = at(event), [dx, dy] = [is[0] - was[0], is[1] - was[1]];
+    const is = placeOf(event), [dx, dy] = [is[0] - was[0], is[1] - was[1]];
     if (pointers.size === 2) {
-      const before = spread();
-      pointers.set(event.pointerId, is);
-      const after = spread();
-      camera.pan(after.middle[0] - before.middle[0], after.middle[1] - before.middle[1]);
-      camera.zoom(before.wide / Math.max(after.wide, 1), after.middle);
+      moveByTwo(camera, pointers, event.pointerId, is);
       return redraw();
     }
     pointers.set(event.pointerId, is);
-    moved = Math.max(moved, Math.hypot(is[0] - start[0], is[1] - start[1]));
-    // A finger that clicks trembles.
-    if (moved < (event.pointerType === "touch" ? 9 : 4)) return;
+    isClick &&= !isMoved(start, is, event);
+    if (isClick) return;
     if (isDrawing && button === 0) drawn = [start, is];
     else if (button === 0) camera.turn(dx, dy);
     else camera.pan(dx, dy);
@@ -253,27 +203,18 @@ async function open() {
   });
   const up = (event) => {
     if (!pointers.delete(event.pointerId) || pointers.size) return;
-    const isClick = moved < (event.pointerType === "touch" ? 9 : 4) && event.type === "pointerup" && button === 0;
     const line = event.type === "pointerup" && drawn;
     drawn = null;
     if (line) {
       clear();
       line.forEach(choose);
-    } else if (isClick) {
-      choose(at(event));
+    } else if (isClick && event.type === "pointerup" && button === 0) {
+      choose(placeOf(event));
     }
     redraw();
   };
   canvas.addEventListener("pointerup", up);
   canvas.addEventListener("pointercancel", up);
-  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    // Two fingers that spread on a touchpad come as small steps of a wheel, with Ctrl.
-    const speed = [0.0015, 0.03, 0.5][event.deltaMode] * (event.ctrlKey ? 6 : 1);
-    camera.zoom(Math.exp(event.deltaY * speed), at(event));
-    redraw();
-  }, { passive: false });
 
   // ---- Buttons and keys
 
@@ -288,7 +229,7 @@ async function open() {
     edges: () => pressed("edges", hasEdges = !hasEdges),
     finer: () => {
       pressed("finer", scene.isFiner = !scene.isFiner);
-      state = -1;
+      state = "";
       load();
     },
     box: () => pressed("box", hasBox = !hasBox),
@@ -297,7 +238,7 @@ async function open() {
       canvas.classList.toggle("drawing", isDrawing);
       say(isDrawing ? "Drag a line across the mesh." : "");
     },
-    theme: () => setTheme(!isDark),
+    theme: () => theme.set(!theme.isDark),
   };
   for (const [id, action] of Object.entries(actions)) {
     $(id).addEventListener("click", () => {
@@ -305,7 +246,7 @@ async function open() {
       redraw();
     });
   }
-  $("copy").addEventListener("click", copy);
+  $("copy").addEventListener("click", () => copyLine().then(say));
   $("clear").addEventListener("click", clear);
   for (const id of ["front", "gap"]) {
     $(id).addEventListener("input", () => {
@@ -313,25 +254,16 @@ async function open() {
       redraw();
     });
   }
-  // After a click on a button or the slider, keys are the page's; where one is reached by keys, they are its own.
-  addEventListener("click", ({ detail, target }) => {
-    if (detail && target.matches("button, summary, #time")) canvas.focus({ preventScroll: true });
-  });
-  const isTyped = ({ key, target }) => target.id === "gap" || target.matches("button, summary, select, input") && !/^([a-z]|Escape)$/i.test(key);
-  const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
-  addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || isTyped(event)) return;
-    const keys = { f: "fit", e: "edges", n: "finer", b: "box", d: "draw", t: "theme" }, pressedBy = keys[event.key.toLowerCase()];
-    if (pressedBy) $(pressedBy).click();
-    else if (event.key === "Escape") clear();
-    else if (isPlayed && event.key === " ") play(!isPlaying);
-    else if (isPlayed && event.key === "ArrowRight") step(1);
-    else if (isPlayed && event.key === "ArrowLeft") step(-1);
-    else if (turns[event.key]) camera.turn(...turns[event.key]);
-    else return;
-    redraw();
-    event.preventDefault();
-  });
+  const keys = { f: "fit", e: "edges", n: "finer", b: "box", d: "draw", t: "theme" };
+  listen(camera, (key) => {
+    if (keys[key]) $(keys[key]).click();
+    else if (key === "Escape") clear();
+    else if (isPlayed && key === " ") play(!isPlaying);
+    else if (isPlayed && key === "ArrowRight") step(1);
+    else if (isPlayed && key === "ArrowLeft") step(-1);
+    else return false;
+    return true;
+  }, redraw);
 
   // ---- Playing
 
@@ -389,33 +321,12 @@ async function open() {
     for (const plot of plots) charts.push(new Chart($("plots"), plot, until, data.colors.pieces, seek));
   }
 
-  // ---- The window
-
-  const resize = () => {
-    const { clientWidth: width, clientHeight: height } = $("stage");
-    if (!width || !height) return;
-    const ratio = Math.min(devicePixelRatio, 2);
-    for (const one of [canvas, pen.canvas]) {
-      one.width = Math.round(width * ratio);
-      one.height = Math.round(height * ratio);
-    }
-    camera.size = [width, height];
-    draw();
-  };
-  canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-  canvas.addEventListener("webglcontextrestored", () => {
-    scene = Object.assign(new Scene(canvas), { isFiner: scene.isFiner });
-    state = -1;
-    show(now);
-  });
   $("title").textContent = data.title;
-  prefersDark.addEventListener("change", () => setTheme(prefersDark.matches));
-  setTheme(prefersDark.matches);
-  camera.size = [$("stage").clientWidth || 1, $("stage").clientHeight || 1];
+  camera.size = stageSize();
   say("");
   show(isFilm && tears.length ? tears[0] : 0);
   fit();
-  new ResizeObserver(resize).observe($("stage"));
+  followSize(camera, draw);
   document.body.dataset.ready = "yes";
 }
 

@@ -1,6 +1,10 @@
 // The mesh on the graphics card: faces and edges fetch the places of their vertices from a texture; lines are
 // quads as wide as they are on the screen.
 const WIDE = 2048;
+// The colour of solids.
+const GREY = [158, 158, 158];
+// The kind of a half-edge that is torn.
+const TORN = 2;
 // Into how many parts a finer mesh divides each edge.
 const FINER = 3;
 const FETCH = `#version 300 es
@@ -10,7 +14,7 @@ vec4 shown(vec3 p) { return matrix * vec4(eye + (p - eye) * nearer, 1); }
 ivec2 texel(uint v) { return ivec2(int(v) % ${WIDE}, int(v) / ${WIDE}); }
 `;
 const FACES = [`${FETCH}
-uniform vec3 colors[10]; in uint vertex; in uint piece; in vec3 corner; out vec3 normal; out vec2 sky; flat out vec3 color;
+uniform vec3 colors[11]; in uint vertex; in uint piece; in vec3 corner; out vec3 normal; out vec2 sky; flat out vec3 color;
 void main() {
   vec4 place = texelFetch(places, texel(vertex), 0);
   normal = corner;
@@ -61,17 +65,29 @@ void main() {
 }`, EDGES[1]];
 
 class Scene {
-  constructor(canvas) {
+  // A browser may lose what is on its graphics card; what was set is to be set again then.
+  constructor(canvas, restored) {
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
     if (!gl) throw new Error("This page needs WebGL 2, which this browser does not have or has turned off.");
     this.gl = gl;
     this.canvas = canvas;
     this.isFiner = false;
+    this.build();
+    canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.build();
+      restored();
+    });
+  }
+
+  build() {
+    const { gl } = this;
     this.faces = this.program(FACES);
     this.edges = this.program(EDGES);
     this.lines = this.program(LINES);
     this.ground = this.program(GROUND);
     this.buffers = {};
+    this.cells = null;
     this.texture = gl.createTexture();
     this.groundTexture = gl.createTexture();
     gl.enable(gl.DEPTH_TEST);
@@ -107,15 +123,24 @@ class Scene {
     this.buffers[name].length = numbers.length;
   }
 
-  setState({ corners, pieces }) {
+  // Faces behind those of pieces are of solids, and their edges are not of any kind.
+  setState({ corners, kinds, pieces }) {
     this.finer = this.isFiner ? new Finer(corners, FINER) : null;
     this.coarse = corners;
     this.corners = this.finer?.corners ?? corners;
     this.fill("corners", this.corners);
     const parts = this.corners.length / corners.length, numbers = new Uint8Array(this.corners.length);
-    for (let i = 0; i < numbers.length; i++) numbers[i] = pieces[Math.floor(i / 3 / parts)] % 10;
+    for (let i = 0; i < numbers.length; i++) {
+      const face = Math.floor(i / 3 / parts);
+      numbers[i] = face < pieces.length ? pieces[face] % 10 : 10;
+    }
     this.fill("pieces", numbers);
     this.hasEdges = false;
+    // The ends of edges that have a face on one side only.
+    this.open = { boundary: [], seam: [] };
+    kinds.forEach((kind, h) => {
+      if (kind) this.open[kind === TORN ? "seam" : "boundary"].push(corners[h], corners[h - h % 3 + (h + 1) % 3]);
+    });
   }
 
   // Without a shade, all vertices see all of the sky.
@@ -141,6 +166,7 @@ class Scene {
       for (let axis = 0; axis < 3; axis++, at++) ofCorners[at] = normals[3 * corners[i] + axis];
     }
     this.fill("normals", ofCorners);
+    for (const [name, ends] of Object.entries(this.open)) this.setEdges(name, ends);
   }
 
   // Lines along edges of the mesh, by the numbers of their ends.
@@ -226,7 +252,7 @@ class Scene {
 
   drawFaces(camera, box, colors, [ambient, key, head, b, u, r, ...back]) {
     const { gl } = this, names = this.use(this.faces, camera, box, 1);
-    gl.uniform3fv(names.colors, colors.flat().map((x) => x / 255));
+    gl.uniform3fv(names.colors, [...colors, GREY].flat().map((x) => x / 255));
     gl.uniform1fv(names.light, [ambient, key, head, b, u, r, ...back]);
     gl.uniform3fv(names.backward, camera.backward);
     gl.uniform3fv(names.key, unit(add(add(times(camera.backward, b), times(camera.up, u)), times(camera.right, r))));

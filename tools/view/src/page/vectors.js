@@ -22,3 +22,10 @@ function boxOf(places, corners) {
 
 const boxCorner = ({ least, most }, bits) => [0, 1, 2].map((axis) => (bits >> axis & 1 ? most : least)[axis]);
 
+// The numbers of two typed arrays, one behind the other.
+function joined(a, b) {
+  const all = new a.constructor(a.length + b.length);
+  all.set(a);
+  all.set(b, a.length);
+  return all;
+}

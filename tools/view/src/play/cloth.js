@@ -13,7 +13,7 @@ class Cloth {
     const at = this.wasm.room(bytes.length);
     new Uint8Array(this.wasm.memory.buffer, at, bytes.length).set(bytes);
   }
-  text() { return new TextDecoder().decode(this.block(6)); }
+  text() { return new TextDecoder().decode(this.block(8)); }
   ask(answer) {
     if (answer === 0 || answer === -1) throw new Error(this.text());
     return answer;
@@ -27,12 +27,15 @@ class Cloth {
   get pieces() { return this.block(2, Uint32Array); }
   get edges() { return this.block(3); }
   get held() { return this.block(4); }
+  // What the cloth lies on, where it is now.
+  get solidPositions() { return this.block(6, Float32Array); }
+  get solidIndices() { return this.block(7, Uint32Array); }
   get facts() {
     const [vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, ...at] = this.block(5, Float64Array);
     return { vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, at };
   }
-  obj() { this.ask(this.wasm.write_obj()); return this.block(6).slice(); }
-  log() { this.ask(this.wasm.write_log()); return this.block(6).slice(); }
+  obj() { this.ask(this.wasm.write_obj()); return this.block(8).slice(); }
+  log() { this.ask(this.wasm.write_log()); return this.block(8).slice(); }
   digest() { return BigInt.asUintN(64, this.wasm.digest()).toString(16).padStart(16, "0"); }
 }
 

@@ -1,5 +1,4 @@
 // The page that is played: what the pointers and buttons do to the cloth, and what is shown.
-const $ = (id) => document.getElementById(id);
 const short = (x) => String(Number(x.toPrecision(4))).replace("-", "−");
 
 // A frame may take so much time for the cloth; the rest is for drawing. More steps than fit are left out, so that
@@ -7,21 +6,20 @@ const short = (x) => String(Number(x.toPrecision(4))).replace("-", "−");
 const BUDGET_MS = 12, LONGEST_S = 1 / 20, FRAME_MS = 1000 / 60;
 // The force of the wind that is chosen, in kg/(m² s): that of the scene `flag`.
 const WIND = 1.5;
-// What the cloth lies on is grey.
-const GREY = [[158, 158, 158]];
 
 async function open() {
   if (!("DecompressionStream" in window)) throw new Error("This page needs a browser of 2023 or later.");
-  const [bytes, wasm] = await Promise.all([unpacked("data", "deflate"), unpacked("module", "gzip")]);
-  const length = new DataView(bytes.buffer).getUint32(0, true);
-  const data = JSON.parse(new TextDecoder().decode(bytes.subarray(4, 4 + length)));
+  const [{ data, bytes }, wasm] = await Promise.all([unpackedData(), unpacked("module", "gzip")]);
   const cloth = await Cloth.load(wasm);
   const canvas = $("scene"), pen = $("marks").getContext("2d");
   const camera = new Camera([0, 1, 0], [0, 0, 1], data.angle);
-  const prefersDark = matchMedia("(prefers-color-scheme: dark)");
-  let scene = new Scene(canvas);
-  let file = null, isDark, hasEdges = false, mode = "hand", isPaused = false, isStopped = false;
-  let solids = null, allSolids, lattice, box, places, corners, facts, topology = "";
+  const scene = new Scene(canvas, () => {
+    topology = "";
+    refresh();
+  });
+  const theme = new Theme(data.colors, () => {});
+  let file = null, hasEdges = false, mode = "hand", isPaused = false, isStopped = false;
+  let lattice, box, places, corners, facts, topology = "";
   // The first point of a cut, a line that is being drawn, and the OBJ file before the last cut.
   let first = null, drawn = null, before = null;
 
@@ -74,7 +72,6 @@ async function open() {
     const raw = cloth.positions, all = boxOf(raw, cloth.indices);
     const side = Math.max(...sub(all.most, all.least)) || 1;
     lattice = { origin: all.least, side };
-    solids = isOfFile() ? allSolids ??= makeSolids() : null;
     refresh();
     aim();
     const up = $("up").selectedOptions[0].textContent;
@@ -85,37 +82,6 @@ async function open() {
     if ($("wind").value !== "scene") blow();
     slow.length = 0;
     cost = told = 0;
-  }
-
-  // What the scene of a file has the cloth lie on: bodies and balls.
-  function makeSolids() {
-    const raw = [], corners = [];
-    for (const { shape } of JSON.parse(data.plan).colliders) {
-      const [points, faces] = shape.Body?.body ?? (shape.Sphere ? ball(shape.Sphere) : [[], []]), first = raw.length / 3;
-      for (const p of points) raw.push(...p);
-      for (const f of faces) corners.push(...f.map((v) => first + v));
-    }
-    if (!corners.length) return null;
-    const places = Float64Array.from(raw, (x, i) => (x - lattice.origin[i % 3]) / lattice.side);
-    const made = { scene: new Scene(canvas), box: boxOf(places, corners) };
-    made.scene.setState({ corners: Uint32Array.from(corners), pieces: new Uint32Array(corners.length / 3) });
-    made.scene.setPlaces(places);
-    return made;
-  }
-
-  // The points and faces of a ball, round the axis z.
-  function ball({ centre, radius_m: radius }) {
-    const points = [], faces = [], rows = 16, around = 32;
-    for (let i = 0; i <= rows; i++) {
-      for (let j = 0; j < around; j++) {
-        const [polar, turn] = [Math.PI * i / rows, 2 * Math.PI * j / around];
-        const out = [Math.sin(polar) * Math.cos(turn), Math.sin(polar) * Math.sin(turn), Math.cos(polar)];
-        points.push(add(centre, times(out, radius)));
-        const [a, b] = [i * around + j, i * around + (j + 1) % around];
-        if (i < rows) faces.push([a, a + around, b], [b, a + around, b + around]);
-      }
-    }
-    return [points, faces];
   }
 
   // Looks at the broad side, a little from the side and from above.
@@ -143,33 +109,20 @@ async function open() {
   // Takes over where the cloth was drawn last, and its faces once they are others.
   function refresh() {
     facts = cloth.facts;
-    const raw = cloth.positions, { origin, side } = lattice;
+    const raw = joined(cloth.positions, cloth.solidPositions), { origin, side } = lattice;
     places = new Float64Array(raw.length);
     for (let i = 0; i < raw.length; i++) places[i] = (raw[i] - origin[i % 3]) / side;
     const now = [facts.vertices, facts.faces, facts.pieces, facts.tears, facts.heals, facts.open].join();
     if (now !== topology) {
       topology = now;
-      corners = cloth.indices.slice();
-      scene.setState({ corners, pieces: cloth.pieces });
-      const edges = cloth.edges;
-      ends.boundary = [];
-      ends.seam = [];
-      for (let h = 0; h < edges.length; h++) {
-        if (edges[h]) ends[edges[h] === 2 ? "seam" : "boundary"].push(corners[h], corners[h - h % 3 + (h + 1) % 3]);
-      }
+      corners = joined(cloth.indices, cloth.solidIndices.map((v) => facts.vertices + v));
+      scene.setState({ corners, kinds: cloth.edges, pieces: cloth.pieces });
       pins = Array.from(cloth.held.entries()).filter(([, is]) => is).map(([v]) => v);
     }
     box = boxOf(places, corners);
-    if (solids) {
-      for (const [end, wins] of [["least", Math.min], ["most", Math.max]]) {
-        box[end] = box[end].map((x, axis) => wins(x, solids.box[end][axis]));
-      }
-    }
     scene.setPlaces(places);
-    for (const kind of ["boundary", "seam"]) scene.setEdges(kind, ends[kind]);
   }
-  // The ends of edges that have a face on one side only, and the vertices that are held.
-  const ends = { boundary: [], seam: [] };
+  // The vertices that are held.
   let pins = [];
 
   const world = (p) => p.map((x, axis) => lattice.origin[axis] + x * lattice.side);
@@ -310,31 +263,20 @@ async function open() {
     const isSlow = rate < 57 || p95 > FRAME_MS;
     const share = wanted > 0 ? Math.min(1, passed / wanted) : 1;
     $("slow").textContent = isSlow && !isPaused ? `${Math.round(rate)} frames/s · p95 of the cloth for 1/60 s ${p95.toFixed(1)} ms${share < 0.95 ? ` · time at × ${share.toFixed(2)}` : ""}` : "";
-    const rows = [
+    tellRows([
       ["time", `${facts.time.toFixed(2)} s`], ["vertices", facts.vertices], ["faces", facts.faces], ["pieces", facts.pieces],
       ["tears", facts.tears], ["pins", pins.length], ["step", `${short(facts.step * 1000)} ms`], ["size", `${short(lattice.side)} m`],
-    ];
-    $("facts").replaceChildren(...rows.flatMap(([name, what]) => {
-      const [dt, dd] = ["dt", "dd"].map((tag) => document.createElement(tag));
-      dt.textContent = name;
-      dd.textContent = what;
-      return [dt, dd];
-    }));
+    ]);
   }
 
   function draw() {
-    const colors = isDark ? data.colors.dark : data.colors.light;
+    const { colors } = theme;
     scene.begin(colors.background);
-    solids?.scene.drawFaces(camera, box, GREY, data.light);
     scene.drawFaces(camera, box, data.colors.pieces, data.light);
     if (hasEdges) scene.drawEdges(camera, box, colors.edge, 0.45);
     scene.drawLines("boundary", camera, box, colors.boundary, 1.7);
     scene.drawLines("seam", camera, box, colors.seam, 2);
-    const ratio = pen.canvas.width / camera.size[0];
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.clearRect(0, 0, ...camera.size);
-    const style = getComputedStyle(document.documentElement);
-    const [ink, faint, panel] = ["--ink", "--faint", "--panel"].map((name) => style.getPropertyValue(name));
+    const [ink, faint, panel] = wiped(pen, camera);
     pen.fillStyle = faint;
     for (const v of pins) {
       const [x, y, z] = camera.pixel(point(v));
@@ -349,47 +291,31 @@ async function open() {
 
   const pointers = new Map();
   let hover = null, pressed = null;
-  const at = (event) => {
-    const { left, top } = canvas.getBoundingClientRect();
-    return [event.clientX - left, event.clientY - top];
-  };
-  const spread = () => {
-    const [a, b] = [...pointers.values()];
-    return { middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], wide: Math.hypot(a[0] - b[0], a[1] - b[1]) };
-  };
-  const isMoved = ({ start, pixel, isTouch }) => Math.hypot(pixel[0] - start[0], pixel[1] - start[1]) >= (isTouch ? 9 : 4);
 
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
-    const pixel = at(event), isFirst = pointers.size + hands.size === 0;
-    const button = event.button || (event.shiftKey || event.ctrlKey ? 2 : 0);
+    const pixel = placeOf(event), isFirst = pointers.size + hands.size === 0;
+    const button = buttonOf(event);
     if (button === 0 && mode === "hand" && !pointers.size && grab(event.pointerId, pixel)) return hold();
     pointers.set(event.pointerId, pixel);
     // Two fingers that cut nothing move the view.
-    pressed = isFirst && button === 0 && mode !== "hand" ? { id: event.pointerId, start: pixel, pixel, isTouch: event.pointerType === "touch" } : null;
+    pressed = isFirst && button === 0 && mode !== "hand" ? { id: event.pointerId, start: pixel, isMoved: false } : null;
     drawn = null;
     buttons = button;
   });
   let buttons = 0;
   const hold = () => canvas.classList.toggle("holding", hands.size > 0);
   canvas.addEventListener("pointermove", (event) => {
-    const is = at(event), was = pointers.get(event.pointerId);
+    const is = placeOf(event), was = pointers.get(event.pointerId);
     hover = event.pointerType === "touch" ? null : is;
     if (hands.has(event.pointerId)) hands.get(event.pointerId).pixel = is;
     if (!was) return;
-    if (pointers.size === 2) {
-      const old = spread();
-      pointers.set(event.pointerId, is);
-      const now = spread();
-      camera.pan(now.middle[0] - old.middle[0], now.middle[1] - old.middle[1]);
-      camera.zoom(old.wide / Math.max(now.wide, 1), now.middle);
-      return;
-    }
+    if (pointers.size === 2) return moveByTwo(camera, pointers, event.pointerId, is);
     pointers.set(event.pointerId, is);
     const [dx, dy] = [is[0] - was[0], is[1] - was[1]];
     if (pressed) {
-      pressed.pixel = is;
-      if (mode === "cut" && isMoved(pressed)) drawn = [pressed.start, is];
+      pressed.isMoved ||= isMoved(pressed.start, is, event);
+      if (mode === "cut" && pressed.isMoved) drawn = [pressed.start, is];
     } else if (buttons) {
       camera.pan(dx, dy);
     } else {
@@ -406,21 +332,15 @@ async function open() {
     pressed = drawn = null;
     if (event.type !== "pointerup" || done?.id !== event.pointerId) return;
     if (line) return cut(...line);
-    if (isMoved(done)) return;
-    if (mode === "pin") return pin(done.pixel);
-    if (first) return cut(first, done.pixel);
-    first = done.pixel;
+    if (done.isMoved) return;
+    if (mode === "pin") return pin(done.start);
+    if (first) return cut(first, done.start);
+    first = done.start;
     say("Click the other end of the cut.");
   };
   canvas.addEventListener("pointerup", up);
   canvas.addEventListener("pointercancel", up);
   canvas.addEventListener("pointerleave", () => { hover = null; });
-  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    const speed = [0.0015, 0.03, 0.5][event.deltaMode] * (event.ctrlKey ? 6 : 1);
-    camera.zoom(Math.exp(event.deltaY * speed), at(event));
-  }, { passive: false });
 
   // ---- Buttons, choices and keys
 
@@ -437,13 +357,6 @@ async function open() {
   const pause = (is) => {
     isPaused = is;
     $("pause").textContent = is ? "Go on" : "Pause";
-  };
-  const setTheme = (dark) => {
-    isDark = dark;
-    const root = document.documentElement, colors = dark ? data.colors.dark : data.colors.light;
-    root.classList.toggle("dark", dark);
-    root.style.setProperty("--ground", `rgb(${colors.background})`);
-    root.style.setProperty("--accent", `rgb(${colors.trace})`);
   };
   const actions = {
     hand: () => choose("hand"),
@@ -462,12 +375,8 @@ async function open() {
       topology = "";
       refresh();
     },
-    theme: () => setTheme(!isDark),
-    copy: async () => {
-      getSelection().selectAllChildren($("line"));
-      const isCopied = await navigator.clipboard?.writeText($("line").textContent).then(() => true, () => false);
-      say(isCopied || document.execCommand("copy") ? "Copied." : "Press Ctrl+C to copy the line.");
-    },
+    theme: () => theme.set(!theme.isDark),
+    copy: () => copyLine().then(say),
     before: () => save(before, `${stem()}-before.obj`),
     save: () => tried(() => save(cloth.obj(), `${stem()}-torn.obj`)),
     record: () => tried(() => {
@@ -485,25 +394,14 @@ async function open() {
   }
   $("source").addEventListener("change", actions.reset);
   $("wind").addEventListener("change", blow);
-  // Keys are for the cloth again once something was chosen.
-  for (const one of document.querySelectorAll("select")) one.addEventListener("change", () => one.blur());
   const keys = { h: "hand", c: "cut", m: "mend", " ": "pause", r: "reset", f: "fit", e: "edges", n: "finer", t: "theme" };
-  // So they are after a click on a button or a box; where one is reached by keys, they are its own.
-  addEventListener("click", ({ detail, target }) => {
-    if (detail && target.matches("button, summary, #front")) canvas.focus({ preventScroll: true });
-  });
-  const isTyped = ({ key, target }) => target.matches("select") || target.matches("button, summary, input") && !/^([a-z]|Escape)$/i.test(key);
-  const turns = { ArrowLeft: [20, 0], ArrowRight: [-20, 0], ArrowUp: [0, 20], ArrowDown: [0, -20] };
-  addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || isTyped(event)) return;
-    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  listen(camera, (key) => {
     if (keys[key]) actions[keys[key]]();
     else if (key === "p") hover ? pin(hover) : choose("pin");
     else if (key === "Escape") first = drawn = null;
-    else if (turns[key]) camera.turn(...turns[key]);
-    else return;
-    event.preventDefault();
-  });
+    else return false;
+    return true;
+  }, () => {});
 
   // ---- Files
 
@@ -575,30 +473,8 @@ async function open() {
     if (event.dataTransfer.files.length) take(event.dataTransfer.files[0]);
   });
 
-  // ---- The window
-
-  const resize = () => {
-    const { clientWidth: width, clientHeight: height } = $("stage");
-    if (!width || !height) return;
-    const ratio = Math.min(devicePixelRatio, 2);
-    for (const one of [canvas, pen.canvas]) {
-      one.width = Math.round(width * ratio);
-      one.height = Math.round(height * ratio);
-    }
-    camera.size = [width, height];
-    draw();
-  };
-  canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
-  canvas.addEventListener("webglcontextrestored", () => {
-    scene = Object.assign(new Scene(canvas), { isFiner: scene.isFiner });
-    solids &&= allSolids = makeSolids();
-    topology = "";
-    refresh();
-  });
   $("title").textContent = data.title;
-  prefersDark.addEventListener("change", () => setTheme(prefersDark.matches));
-  setTheme(prefersDark.matches);
-  camera.size = [$("stage").clientWidth || 1, $("stage").clientHeight || 1];
+  camera.size = stageSize();
   if (data.plan) {
     cloth.scene(data.plan);
     $("held").prepend(new Option(data.scene, `file ${data.scene}`));
@@ -610,11 +486,11 @@ async function open() {
   }
   $("held").value = data.plan ? `file ${data.scene}` : data.scene;
   $("up").value = data.up;
-  if (data.file) use(bytes.slice(4 + length), data.file);
+  if (data.file) use(bytes, data.file);
   choose("hand");
   start();
   if (!facts) return;
-  new ResizeObserver(resize).observe($("stage"));
+  followSize(camera, draw);
   requestAnimationFrame(tick);
   document.body.dataset.ready = "yes";
 }
