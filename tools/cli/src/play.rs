@@ -47,9 +47,8 @@ pub(crate) fn run(
             tear::check::tearing(false, &scene, &source)?;
             let run = tear::begin(scene, &opened, &frame, &source)?;
             tear::record_seams(&run, &mut opened, &source)?;
-            let scene = run.scene();
-            faults.extend(left(scene));
-            made.plan = Some(serde_json::to_string(scene).expect("a scene is data"));
+            faults.extend(left(run.scene()));
+            made.plan = Some(serde_json::to_string(run.scene()).expect("a scene is data"));
         }
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
@@ -74,12 +73,8 @@ fn left(scene: &Scene) -> Option<Fault> {
     let cuts = cuts.filter(|(_, cut)| cut.at_s > 0.0 || cut.method != CutMethod::Exact);
     let mut names: Vec<String> = holds.map(|(number, _)| format!("hold {number}")).collect();
     names.extend(cuts.map(|(number, _)| format!("cut {number}")));
-    names.extend(
-        scene
-            .unpicks
-            .iter()
-            .map(|(_, seam)| format!("seam `{seam}`")),
-    );
+    let unpicks = scene.unpicks.iter();
+    names.extend(unpicks.map(|(_, seam)| format!("seam `{seam}`")));
     let message = "the page leaves to the hand what moves, begins or ends later, or is not exact";
     let fault = Fault::warning("W-PLAY-HAND", format!("{message}: {}", names.join(", ")));
     (!names.is_empty()).then_some(fault)

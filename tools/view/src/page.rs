@@ -105,15 +105,11 @@ const FILM: usize = 12;
 struct State {
     /// The vertex of each half-edge's origin: three a face.
     corners: Vec<u32>,
-    /// Of each half-edge, one of [`PAIRED`], [`BOUNDARY`] and [`TORN`].
+    /// Of each half-edge: 0 if the faces on both sides are joined, 1 if there never was another, 2 if they are torn.
     kinds: Vec<u32>,
     /// The number of the piece of each face.
     pieces: Vec<u32>,
 }
-
-const PAIRED: u32 = 0;
-const BOUNDARY: u32 = 1;
-const TORN: u32 = 2;
 
 /// A moment, as it is kept until the page is written.
 #[derive(Clone, Debug)]
@@ -190,10 +186,8 @@ impl Page {
             let camera = fit(mesh, place, self.up, ANGLE_OF_VIEW, [4.0, 3.0])?;
             [self.look, ..] = camera.axes();
         }
-        let kind = |h: HalfEdgeId| match (mesh.pair(h), mesh.ghost_pair(h)) {
-            (Some(_), _) => PAIRED,
-            (None, None) => BOUNDARY,
-            (None, Some(_)) => TORN,
+        let kind = |h: HalfEdgeId| {
+            u32::from(mesh.pair(h).is_none()) + u32::from(mesh.ghost_pair(h).is_some())
         };
         let kinds: Vec<u32> = mesh.half_edges().map(kind).collect();
         let is_known = |last: &State| last.corners == mesh.indices() && last.kinds == kinds;
