@@ -23,7 +23,7 @@ struct Module {
     /// that shows twenty files has twenty of them.
     document: Option<(ClothSource, &'static Document)>,
     player: Option<Player<'static>>,
-    /// Of each half-edge, how it hangs together with its neighbour.
+    /// Of each half-edge: 0 if the faces on both sides are joined, 1 if there never was another, 2 if they are torn.
     edges: Vec<u8>,
     /// Whether each vertex is held.
     held: Vec<u8>,
@@ -33,11 +33,6 @@ struct Module {
     /// Of each block but the text, where it is, and how many bytes it has.
     drawn: Vec<(usize, usize)>,
 }
-
-/// The faces of both sides are joined; there never was another face; the faces were torn or cut apart.
-const JOINED: u8 = 0;
-const BOUNDARY: u8 = 1;
-const TORN: u8 = 2;
 
 thread_local! {
     static MODULE: RefCell<Module> = RefCell::default();
@@ -242,11 +237,8 @@ fn verb<T>(refused: T, act: impl FnOnce(&mut Player<'static>) -> Result<T, Strin
 
 fn tell(text: impl FnOnce(&Player<'static>) -> Result<Vec<u8>, String>) -> bool {
     let told = verb(None, |player| text(player).map(Some));
-    let is_told = told.is_some();
-    if let Some(text) = told {
-        MODULE.with_borrow_mut(|module| module.text = text);
-    }
-    is_told
+    let told = told.map(|text| MODULE.with_borrow_mut(|module| module.text = text));
+    told.is_some()
 }
 
 /// Puts other elements in the place of those of a block.
@@ -302,11 +294,7 @@ impl Module {
         );
         let (sim, facts) = (player.simulation(), player.facts());
         let mesh = sim.mesh();
-        let edge = |h| match (mesh.pair(h), mesh.ghost_pair(h)) {
-            (Some(_), _) => JOINED,
-            (None, None) => BOUNDARY,
-            (None, Some(_)) => TORN,
-        };
+        let edge = |h| u8::from(mesh.pair(h).is_none()) + u8::from(mesh.ghost_pair(h).is_some());
         refill(&mut self.edges, mesh.half_edges().map(edge));
         let held = mesh.vertices().map(|v| u8::from(player.is_held(v)));
         refill(&mut self.held, held);

@@ -88,10 +88,10 @@ function drawnAt(moment, { states, solids }) {
   return { corners, kinds, pieces, places };
 }
 
-// The box round some moments, but for crumbs: pieces that have come off since the first of them, and have less
-// than a tenth of the faces.
+// The box round some moments, but for crumbs: pieces that have come off since the first of all, and have less than a
+// tenth of the faces.
 function boxOfMoments(shown, data) {
-  const { states } = data, first = new Set(states[shown[0].state].pieces);
+  const { states, moments } = data, first = new Set(states[moments[0].state].pieces);
   const box = { least: [Infinity, Infinity, Infinity], most: [-Infinity, -Infinity, -Infinity] };
   for (const number of new Set(shown.map((moment) => moment.state))) {
     const { corners, pieces } = states[number], faces = new Map();

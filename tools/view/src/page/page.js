@@ -12,7 +12,8 @@ async function open() {
     state = "";
     show(now);
   });
-  let now = 0, state = "", box, isDirty = false;
+  // The box round all that is drawn, and the one that is drawn, which crumbs far away do not widen.
+  let now = 0, state = "", box, frame, isDirty = false;
   let hasEdges = false, hasBox = true, isDrawing = false;
   // The points that were clicked, a line that is being drawn, and the cut between them.
   let targets = [], drawn = null, cut = null;
@@ -38,7 +39,7 @@ async function open() {
     scene.drawLines("trace", camera, box, colors.trace, 2.4, 0.35);
     scene.drawLines("trace", camera, box, colors.trace, 2.4);
     const [ink, faint, panel] = wiped(pen, camera);
-    if (hasBox) drawAxes(pen, camera, box, data, faint);
+    if (hasBox) drawAxes(pen, camera, frame, data, faint);
     const points = drawn ?? targets.map((p) => camera.pixel(p)).filter((pixel) => pixel[2] > 0);
     drawPoints(pen, points, ink, panel);
     tellView();
@@ -46,7 +47,7 @@ async function open() {
 
   // The box around what is shown: in a film, around all moments of it.
   let filmBox;
-  const seenBox = () => (isFilm ? filmBox ??= boxOfMoments(moments, data) : boxOfMoments([moments[now]], data));
+  const seenBox = () => (isFilm ? filmBox ??= boxOfMoments(moments, data) : box);
 
   // The faces of the moment that is shown, once they are others.
   function load() {
@@ -55,13 +56,14 @@ async function open() {
       state = `${moment.state} ${moment.vertices}`;
       scene.setState(drawn);
     }
+    box = boxOf(drawn.places, drawn.corners);
+    frame = isFilm ? boxOfMoments([moment], data) : box;
     // All moments of a film are above one ground.
     moment.sky ??= skyOf(drawn.places, drawn.corners, seenBox(), unit(data.up), isFilm);
     scene.setPlaces(drawn.places, moment.sky);
-    box = boxOf(drawn.places, drawn.corners);
     const edges = [];
     for (let bits = 0; bits < 8; bits++) {
-      for (const axis of [1, 2, 4]) if (!(bits & axis)) edges.push(...boxCorner(box, bits), ...boxCorner(box, bits | axis));
+      for (const axis of [1, 2, 4]) if (!(bits & axis)) edges.push(...boxCorner(frame, bits), ...boxCorner(frame, bits | axis));
     }
     scene.setLines("box", edges);
   }
