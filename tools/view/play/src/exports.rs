@@ -324,8 +324,10 @@ impl Module {
 
     /// Where a block is, and how many bytes it has.
     fn block(&self, block: u32) -> (usize, usize) {
-        let drawn = self.drawn.get(block as usize).copied();
-        drawn.unwrap_or_else(|| of(&self.text))
+        match block {
+            TEXT => of(&self.text),
+            _ => self.drawn.get(block as usize).copied().unwrap_or_default(),
+        }
     }
 }
 
