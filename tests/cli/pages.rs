@@ -66,7 +66,7 @@ fn a_page_has_the_bodies_of_its_scene_where_they_are() {
     let scene = folder.read("dress.toml").replace("[[collider]]\n", moves);
     folder.write("s.toml", scene);
     folder.done("tear dress.obj --scene s.toml --seconds 0.1 -o t.obj --view t.html");
-    let text = text(&folder.read("t.html"));
+    let (text, _) = content(&folder.read("t.html"));
     let solid = &text["solids"][0];
     assert_eq!(solid["vertices"], 434);
     let side = text["side"].as_f64().expect("a length");
@@ -78,7 +78,7 @@ fn a_page_has_the_bodies_of_its_scene_where_they_are() {
     }
     // A floor is not drawn.
     folder.done("tear sheet.obj --scene fall --seconds 0.1 -o t.obj --view t.html");
-    assert!(self::text(&folder.read("t.html"))["solids"].is_null());
+    assert!(content(&folder.read("t.html")).0["solids"].is_null());
 }
 
 /// The page of a simulation has as many moments as there are frames, says when each was, and what was pulled; it and
