@@ -1,5 +1,6 @@
 //! What the tests of cloth are made of: systems, cloths and scenes, loads, and comparisons. There is
-//! no test here, and no test takes its parts from another one's file.
+//! no test here, and no test takes its parts from another one's file, but for what must hold of a cloth
+//! after any edit (`follow::check`).
 
 pub(crate) mod cloths;
 pub(crate) mod nets;
