@@ -1,13 +1,13 @@
 //! Wind and drag that a method takes in by the velocities before: how long a step may be with them,
 //! and of which order they are.
 
-use tearmesh::{Point, Vector, shapes};
+use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::Method as Formula;
 use tearmesh_cloth::{
     Cloth, Fabric, Loads, Provot, Solver, StepError, Unstable, Verlet, Xpbd, air, frequency_bound,
 };
 
-use crate::parts::cloths::cloth;
+use crate::parts::cloths::loaded;
 use crate::parts::nets::row;
 use crate::parts::{G, blown, fastest, implicit_to, method, near, order, pulled, shake, take};
 use crate::random::Random;
@@ -38,10 +38,7 @@ fn by(name: &str) -> Box<dyn Solver> {
 
 /// A free sheet of n × n cells under these loads.
 fn sheet(n: u32, stiffness: f64, loads: Loads) -> Cloth {
-    let (mesh, positions) = shapes::grid(n, n);
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(stiffness));
-    cloth.system_mut().set_loads(loads).expect("loads");
-    cloth
+    loaded(n, Fabric::new(stiffness), loads).1
 }
 
 /// Still air, with this coefficient, and drag.

@@ -8,7 +8,7 @@ use tearmesh_cloth::{
     Tearing, Threshold, Unstable, Verlet, Xpbd,
 };
 
-use crate::parts::cloths::{cloth, of_edges};
+use crate::parts::cloths::{cloth, loaded, of_edges};
 use crate::parts::scenes::{methods, play, played, staged};
 use crate::parts::{
     METHODS, blown, implicit, mechanical_j, method, near, on_a_line, onto, path, plane, pulled,
@@ -221,11 +221,9 @@ fn an_impact_takes_motion() {
 /// A strained sheet in free fall: what is there before and after an edit, summed over everything.
 #[test]
 fn edits_make_what_is_there_after_and_was_not_before() {
-    let (mut mesh, positions) = shapes::grid(4, 4);
-    let mut cloth = cloth(&mesh, &positions, of_edges(50.0, Copies::Whole));
-    let system = cloth.system_mut();
     let loads = pulled(Vector::y() * -10.0, 0.0);
-    system.set_loads(loads).expect("loads");
+    let (mut mesh, mut cloth) = loaded(4, of_edges(50.0, Copies::Whole), loads);
+    let system = cloth.system_mut();
     let (x, v) = system.state_mut();
     for (i, (x, v)) in x.iter_mut().zip(v).enumerate() {
         x.x *= 1.3;

@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 use tearmesh::Vector;
-use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+use tearmesh_cloth::scene::{Axis, Frame, Region, Run, Scene};
 use tearmesh_cloth::{Fabric, Method, Tearing, Threshold, implicit};
 
 use crate::digest;
@@ -97,5 +97,19 @@ fn scenes_that_cannot_be_played_are_refused() {
             }
         };
         assert!(why.starts_with(when) && why.contains(said), "{row}: {why}");
+    }
+}
+
+/// Rows of the table beside this file: a region, and the vertices in it of a sheet of 4 × 4 cells.
+#[test]
+fn regions_hold_what_lies_in_them() {
+    let (mesh, positions) = square(4);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    for row in include_str!("regions.txt").lines() {
+        let (region, expected) = row.split_once(" => ").expect("vertices");
+        let region: Region = serde_json::from_str(region).expect(row);
+        let found = region.vertices(&mesh, positions.as_slice(), &frame);
+        let found: Vec<String> = found.iter().map(|v| v.index().to_string()).collect();
+        assert_eq!(found.join(" "), expected, "{row}");
     }
 }

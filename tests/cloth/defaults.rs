@@ -101,7 +101,7 @@ fn a_crushed_sheet_makes_no_energy_at_any_step() {
     for sheet in Sheet::all() {
         for noise in [0.0, 1e-3] {
             let crushed = || {
-                let mut system = sheet.free();
+                let mut system = sheet.free(ORDERS[0]);
                 system.state_mut().0.iter_mut().for_each(|x| *x *= 0.5);
                 shake(&mut system, noise, 0.0, &mut Random(9));
                 system
@@ -122,7 +122,7 @@ fn a_crushed_sheet_makes_no_energy_at_any_step() {
             }
         }
     }
-    let mut plain = Sheet::all()[0].free();
+    let mut plain = Sheet::all()[0].free(ORDERS[0]);
     let dt_s = 0.66 * stable_step_s(&mut plain, 2.0);
     plain.state_mut().0.iter_mut().for_each(|x| *x *= 0.5);
     let began = mechanical_j(&plain);

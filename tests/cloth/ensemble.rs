@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::num::NonZero;
 
-use tearmesh::{Mesh, Positions};
+use tearmesh::Mesh;
 use tearmesh_cloth::scene::ensemble::{
     self, Disturbance, Ensemble, Member, MemberStatus, NOISE_M, Quantity, Subject,
 };
@@ -16,35 +16,17 @@ const ONE: NonZero<u32> = NonZero::<u32>::MIN;
 const TWO: NonZero<u32> = ONE.saturating_add(1);
 const TORN: Quantity = Quantity::ALL[2];
 
-/// A cloth with a scene, which a [`Subject`] borrows.
-struct Staged {
-    mesh: Mesh,
-    positions: Positions,
-    frame: Frame,
-    scene: Scene,
-}
-
-impl Staged {
-    fn new(cells: u32, scene: impl Fn(&Frame) -> Scene) -> Staged {
-        let (mesh, positions) = square(cells);
-        let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-        let scene = scene(&frame);
-        Staged {
-            mesh,
-            positions,
-            frame,
-            scene,
-        }
-    }
-
-    fn subject(&self) -> Subject<'_> {
-        Subject {
-            mesh: &self.mesh,
-            positions: &self.positions,
-            frame: &self.frame,
-            scene: &self.scene,
-        }
-    }
+/// Does something with a scene on a [`square`].
+fn staged(cells: u32, scene: impl Fn(&Frame) -> Scene, act: impl FnOnce(Subject<'_>)) {
+    let (mesh, positions) = &square(cells);
+    let frame = &Frame::new(mesh, positions.as_slice(), Axis::Y);
+    let scene = &scene(frame);
+    act(Subject {
+        mesh,
+        positions,
+        frame,
+        scene,
+    });
 }
 
 fn gathered(members: Vec<Member>) -> Ensemble {
@@ -91,62 +73,75 @@ fn a_disturbance_shuffles_faces_and_moves_by_the_noise() {
 /// The oracle of a member is a run that is disturbed and played here.
 #[test]
 fn a_member_is_a_run_that_was_disturbed() {
-    let staged = Staged::new(8, Scene::rip);
-    let member = ensemble::member(staged.subject(), TWO, 5, &|| false);
-    assert_eq!((member.seed, member.status), (5, MemberStatus::Done));
-    let Disturbance { mesh, offsets_m } = Disturbance::new(&staged.mesh, 5);
-    let run = Run::new(mesh, &staged.positions, staged.scene.clone(), &staged.frame);
-    let run = run.expect("a scene").in_smaller_steps(TWO);
-    let Played { run, log, .. } = noted(run.displaced(|v| offsets_m[v.index()]).expect("a metre"));
-    let observed = member.observed.expect("a run that is done");
-    let first_tear = log.first_tear().expect("a rip");
-    assert_eq!(observed.first_tear_s, Some(first_tear.event.time_s));
-    assert_eq!(observed.first_force_n, first_tear.force_n);
-    assert_eq!(observed.torn_m, run.torn_length_m());
-    assert_eq!(observed.pieces, run.mesh().components().count());
-    assert_eq!(observed.largest_force_n, log.largest_force_n());
-    assert_eq!(observed.work_j, Some(run.energy_balance().held_j));
-    assert!(observed.torn_m > 0.0);
+    staged(8, Scene::rip, |subject| {
+        let member = ensemble::member(subject, TWO, 5, &|| false);
+        assert_eq!((member.seed, member.status), (5, MemberStatus::Done));
+        let Disturbance { mesh, offsets_m } = Disturbance::new(subject.mesh, 5);
+        let run = Run::new(
+            mesh,
+            subject.positions,
+            subject.scene.clone(),
+            subject.frame,
+        );
+        let run = run.expect("a scene").in_smaller_steps(TWO);
+        let run = run.displaced(|v| offsets_m[v.index()]).expect("a metre");
+        let Played { run, log, .. } = noted(run);
+        let observed = member.observed.expect("a run that is done");
+        let first_tear = log.first_tear().expect("a rip");
+        assert_eq!(observed.first_tear_s, Some(first_tear.event.time_s));
+        assert_eq!(observed.first_force_n, first_tear.force_n);
+        assert_eq!(observed.torn_m, run.torn_length_m());
+        assert_eq!(observed.pieces, run.mesh().components().count());
+        assert_eq!(observed.largest_force_n, log.largest_force_n());
+        assert_eq!(observed.work_j, Some(run.energy_balance().held_j));
+        assert!(observed.torn_m > 0.0);
+    });
 }
 
 #[test]
 fn an_interrupted_run_is_a_member_without_numbers() {
-    let staged = Staged::new(4, |frame| Scene {
+    let short = |frame: &_| Scene {
         duration_s: 0.05,
         ..Scene::hang(frame)
+    };
+    staged(4, short, |subject| {
+        let checks = Cell::new(0_u32);
+        let never = || checks.replace(checks.get() + 1) == u32::MAX;
+        let whole = ensemble::member(subject, ONE, 1, &never);
+        assert_eq!(whole.status, MemberStatus::Done);
+        let checks_of_a_run = checks.get();
+        assert!(checks_of_a_run > 10, "{checks_of_a_run}");
+        for allowed in [0, checks_of_a_run - 1, checks_of_a_run] {
+            checks.set(0);
+            let stop = || checks.replace(checks.get() + 1) >= allowed;
+            let stopped = ensemble::member(subject, ONE, 1, &stop);
+            let is_done = allowed == checks_of_a_run;
+            let status = [MemberStatus::Interrupted, MemberStatus::Done][usize::from(is_done)];
+            assert_eq!(stopped.status, status);
+            assert_eq!(stopped.observed.is_some(), is_done);
+            let numbers = gathered(vec![whole.clone(), stopped]).numbers(TORN);
+            assert_eq!(numbers, (vec![0.0; 1 + usize::from(is_done)], is_done));
+        }
     });
-    let checks = Cell::new(0_u32);
-    let never = || checks.replace(checks.get() + 1) == u32::MAX;
-    let whole = ensemble::member(staged.subject(), ONE, 1, &never);
-    assert_eq!(whole.status, MemberStatus::Done);
-    let checks_of_a_run = checks.get();
-    assert!(checks_of_a_run > 10, "{checks_of_a_run}");
-    for allowed in [0, checks_of_a_run - 1, checks_of_a_run] {
-        checks.set(0);
-        let stop = || checks.replace(checks.get() + 1) >= allowed;
-        let stopped = ensemble::member(staged.subject(), ONE, 1, &stop);
-        let is_done = allowed == checks_of_a_run;
-        let status = [MemberStatus::Interrupted, MemberStatus::Done][usize::from(is_done)];
-        assert_eq!(stopped.status, status);
-        assert_eq!(stopped.observed.is_some(), is_done);
-        let numbers = gathered(vec![whole.clone(), stopped]).numbers(TORN);
-        assert_eq!(numbers, (vec![0.0; 1 + usize::from(is_done)], is_done));
-    }
 }
 
 #[test]
 fn a_failed_run_and_one_of_a_refused_scene_are_members() {
-    let failed = |change: &dyn Fn(&mut Scene)| {
-        let mut staged = Staged::new(4, Scene::hang);
-        change(&mut staged.scene);
-        let failed = ensemble::member(staged.subject(), ONE, 1, &|| false);
-        assert_eq!(failed.status, MemberStatus::Failed);
-        failed
-    };
     // Such a step is far beyond what is stable, and is not divided since the scene names it.
-    let unstable = failed(&|scene| scene.step_s = Some(0.1));
-    assert!(unstable.why.contains("stab"), "{}", unstable.why);
-    assert_eq!(gathered(vec![unstable]).numbers(TORN), (Vec::new(), false));
-    let refused = failed(&|scene| scene.duration_s = -1.0);
-    assert!(refused.why.starts_with("-1 s cannot be"), "{}", refused.why);
+    for (step_s, duration_s, why) in [
+        (Some(0.1), 1.0, "exceeds the stability limit"),
+        (None, -1.0, "-1 s cannot be"),
+    ] {
+        let scene = |frame: &_| Scene {
+            step_s,
+            duration_s,
+            ..Scene::hang(frame)
+        };
+        staged(4, scene, |subject| {
+            let failed = ensemble::member(subject, ONE, 1, &|| false);
+            assert_eq!(failed.status, MemberStatus::Failed);
+            assert!(failed.why.contains(why), "{}", failed.why);
+            assert_eq!(gathered(vec![failed]).numbers(TORN), (Vec::new(), false));
+        });
+    }
 }

@@ -125,17 +125,12 @@ fn f15_what_cannot_be_simulated_is_refused_with_its_index() {
         assert_eq!(error.to_string(), text);
     }
     let mut system = on_a_line([0.0, 1.0, 2.0], 1.0);
+    let (none, endless) = (f64::NAN, f64::INFINITY);
     for (ends, rest_length_m, stiffness_n_per_m, setting, given) in [
         ([0, 1], 0.0, 1.0, "rest_length_m", 0.0),
         ([0, 1], 1.0, 0.0, "stiffness_n_per_m", 0.0),
-        ([0, 1], f64::NAN, 1.0, "rest_length_m", f64::NAN),
-        (
-            [0, 1],
-            1.0,
-            f64::INFINITY,
-            "stiffness_n_per_m",
-            f64::INFINITY,
-        ),
+        ([0, 1], none, 1.0, "rest_length_m", none),
+        ([0, 1], 1.0, endless, "stiffness_n_per_m", endless),
         ([0, 0], 1.0, 1.0, "ends", 0.0),
         ([0, 3], 1.0, 1.0, "ends", 3.0),
     ] {

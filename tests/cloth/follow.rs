@@ -1,16 +1,16 @@
-//! A cloth that is split, subdivided and sewn while it moves is the cloth that one would make anew.
+//! A cloth that is split, subdivided, torn and sewn while it moves is the cloth that one would make anew.
 
 use tearmesh::insert::Plan;
 use tearmesh::{
-    Edit, Edits, FaceId, HalfEdgeId, Masses, Mesh, Place, Point, Positions, TornLink, Vector,
+    Edit, Edits, FaceId, HalfEdgeId, Masses, Mesh, PerVertex, Point, Positions, TornLink, Vector,
     VertexId, mend, shapes, split,
 };
 use tearmesh_cloth::{
-    Bending, Buckling, Cloth, Constraint, Copies, Fabric, Stretch, Unbend, Unstable, Xpbd, energy,
-    frequency_bound,
+    Bending, Buckling, Cloth, Constraint, Copies, Fabric, Stretch, Tear, Tearing, Threshold,
+    Unbend, Unstable, Xpbd, energy, frequency_bound,
 };
 
-use crate::parts::cloths::{Done, bent, cloth, edit, momentum, of_edges};
+use crate::parts::cloths::{Done, bent, cloth, edit, momentum, of_edges, split_off};
 use crate::parts::vibration::rayleigh_quotient;
 use crate::parts::woven::of_moduli;
 use crate::parts::{gravity, method, near, shake, v};
@@ -175,6 +175,31 @@ fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
     Fabric { unbend, ..fabric }
 }
 
+/// What a cloth tears by, one split at a time, with strengths of its vertices; and what these must be: values that
+/// nothing but the log touches.
+fn tearing(mesh: &Mesh, cloth: &Cloth, seed: u64) -> (Tear, PerVertex<f64>) {
+    let tearing = Tearing {
+        splits_per_step_max: Some(1),
+        weakening: (!seed.is_multiple_of(3)).then_some(0.7),
+        ..Tearing::new(match seed % 5 {
+            0 => Threshold::Stretch(1.2),
+            1 => Threshold::Toughness(0.15),
+            2 => Threshold::Force(1.0),
+            3 => Threshold::PrincipalStretch(1.2),
+            _ => Threshold::WarpWeft {
+                warp: 1.2,
+                weft: 1.3,
+                axis: Vector::x(),
+            },
+        })
+    };
+    let mut random = Random(1000 + seed);
+    let strengths: Vec<f64> = mesh.vertices().map(|_| 0.7 + 0.6 * random.next()).collect();
+    let tear = Tear::new(cloth, tearing).expect("a tear");
+    let tear = tear.with_strengths(strengths.clone());
+    (tear.expect("strengths"), PerVertex::new(strengths))
+}
+
 /// A cloth in motion, strained and shaken.
 fn shaken(mesh: &Mesh, positions: &Positions, fabric: Fabric, random: &mut Random) -> Cloth {
     let mut cloth = cloth(mesh, positions, fabric);
@@ -224,7 +249,7 @@ fn made_j(cloth: &Cloth, edits: &Edits, before: &[f64], copies: Copies) -> f64 {
 /// By halves a split makes no energy, and by whole copies what the torn links store.
 #[test]
 fn a_running_cloth_follows_every_edit_as_if_made_anew() {
-    let (mut counts, mut seen) = ([0; 5], [0; 3]);
+    let (mut counts, mut seen, mut tears) = ([0; 5], [0; 3], 0);
     for seed in 0..130 {
         let mut random = Random(seed);
         let (mut mesh, positions) = match seed % 4 {
@@ -260,7 +285,9 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
         let triangles_alone = fabric.stretch == Stretch::Slack && !with_bends;
         let mut cloth = shaken(&mesh, &positions, fabric, &mut random);
         check(&mesh, &cloth, bends);
+        let (mut tear, mut strengths) = tearing(&mesh, &cloth, seed);
         let mut edits = Edits::new();
+        edits.replay(&mut strengths);
         for _ in 0..40 {
             let elastic = energy::elastic_j(cloth.system());
             let moving = momentum(&cloth);
@@ -304,11 +331,19 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 taken.expect("a step");
                 check(&mesh, &cloth, bends);
             }
+            let torn = tear.apply(&mut mesh, &mut cloth, &mut edits);
+            assert!(torn.splits <= torn.overstretched.min(1));
+            tears += torn.splits;
+            check(&mesh, &cloth, bends);
+            edits.replay(&mut strengths);
+            let is_kept = |v: VertexId| tear.strength(v) == *strengths.at(v);
+            assert!(mesh.vertices().all(is_kept));
         }
         assert!(mesh.check().is_empty());
     }
     assert!(seen.iter().all(|&seen| seen > 10_000), "{seen:?}");
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+    assert!(tears > 100, "{tears}");
 }
 
 #[test]
@@ -384,36 +419,14 @@ fn a_merge_undoes_a_split_and_pins_are_inherited() {
             (edges, bends_of(cloth))
         };
         let before = sets(&cloth);
-        let mut edits = Edits::new();
-        let faces: Vec<FaceId> = mesh.faces_of(v(12)).take(2).collect();
-        let split = split::vertex(&mut mesh, v(12), &faces, &mut edits);
-        let new = split.expect("a split").new;
-        edits.replay(&mut cloth);
+        let new = split_off(&mut mesh, &mut cloth, v(12), 2);
         assert!(cloth.system().is_held(new.index()) && !cloth.system().is_held(0));
         assert_ne!(sets(&cloth), before);
+        let mut edits = Edits::starting_at(cloth.seen());
         mend::merge(&mut mesh, v(12), new, [1.0, 1.0], &mut edits).expect("a merge");
         edits.replay(&mut cloth);
         assert_eq!(sets(&cloth), before);
     }
-}
-
-#[test]
-fn a_pin_stays_where_it_is_when_a_free_copy_is_sewn_to_it() {
-    let (mut mesh, positions) = shapes::grid(2, 2);
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(5.0));
-    let v = v(4);
-    let mut edits = Edits::new();
-    let faces: Vec<FaceId> = mesh.faces_of(v).take(3).collect();
-    let split = split::vertex(&mut mesh, v, &faces, &mut edits);
-    let new = split.expect("a split").new;
-    edits.replay(&mut cloth);
-    let pin = cloth.positions().at(new);
-    cloth.system_mut().hold(new.index());
-    cloth.system_mut().state_mut().0[v.index()].z += 2.0;
-    mend::merge(&mut mesh, v, new, [1.0, 1.0], &mut edits).expect("a merge");
-    edits.replay(&mut cloth);
-    assert!(cloth.system().is_held(v.index()));
-    assert_eq!(cloth.positions().at(v), pin);
 }
 
 #[test]
@@ -422,21 +435,6 @@ fn a_cloth_takes_no_constraint_from_elsewhere() {
     let (mesh, positions) = shapes::grid(2, 2);
     let mut cloth = cloth(&mesh, &positions, Fabric::new(5.0));
     let _ = cloth.system_mut().bend([0, 2], 0.5, 1.0);
-}
-
-#[test]
-fn a_cloth_that_cannot_be_is_refused_with_ids() {
-    let (mesh, positions) = shapes::grid(1, 1);
-    let masses = Masses::area(&mesh, &positions, 1.0).expect("masses");
-    let refused = |positions: &Positions, fabric| {
-        let made = Cloth::new(&mesh, positions, masses.clone(), fabric);
-        made.expect_err("no cloth").to_string()
-    };
-    let text = "modulus_n_per_m is -1, and has to be finite and above 0";
-    assert_eq!(refused(&positions, Fabric::new(-1.0)), text);
-    let twice = [[0.0; 3], [0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let twice = Positions::new(twice).expect("positions");
-    assert!(refused(&twice, Fabric::new(1.0)).ends_with("has the rest length 0 m"));
 }
 
 #[test]

@@ -11,9 +11,9 @@
 //!   while velocities go on to grow, no step is stable under such a load, however short.)
 
 use tearmesh::Vector;
-use tearmesh_cloth::{Limiter, Loads, Provot, System, Unstable, energy};
+use tearmesh_cloth::{Limiter, Provot, System, Unstable, energy};
 
-use crate::parts::nets::{framed, row};
+use crate::parts::nets::{pushed, row};
 use crate::parts::vibration::largest_frequency;
 use crate::parts::{gravity, limited, mechanical_j, run_with, shake};
 use crate::random::Random;
@@ -33,16 +33,7 @@ fn with_passes(passes_max: u32) -> Provot {
 
 /// Nets without weight, kicked.
 fn kicked(name: &str, seed: u64) -> System {
-    let row = |springs, pitch: f64| row(springs, 0.02, 1000.0, 0.03, Vector::x() * pitch);
-    let mut system = match name {
-        "chain" => row(31, 0.03),
-        "string" => row(32, 1.0 / 32.0),
-        _ => framed(6, 100.0, 0.0),
-    };
-    if name == "string" {
-        system.hold(32);
-    }
-    system.set_loads(Loads::default()).expect("no load");
+    let mut system = pushed(name, 1000.0);
     system.when_unstable(Unstable::Allow);
     let springs = system.stretches();
     let rests = springs.iter().map(|id| springs.get(id).rest_length_m);

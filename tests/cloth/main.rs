@@ -13,7 +13,6 @@ mod data;
 mod defaults;
 mod ensemble;
 mod failures;
-mod first_tears;
 mod follow;
 mod held;
 mod implicit;
@@ -26,10 +25,14 @@ mod parts;
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod plain_verlet;
 mod reaction;
+#[path = "../../tools/lab/src/reference.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
+mod reference;
 #[path = "../../tools/lab/src/rk4.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod rk4;
 mod scenes;
+mod second;
 mod sewing;
 mod simulation;
 mod statistics;
@@ -41,9 +44,7 @@ mod support;
 mod tables;
 mod tear_log;
 mod tearing;
-mod tearing_links;
 mod tearing_order;
-mod tearing_runs;
 #[path = "../support/vectors.rs"]
 mod vectors;
 mod watch;

@@ -6,7 +6,7 @@ use tearmesh_cloth::{
 };
 
 use crate::parts::cloths::{Torn, sheet};
-use crate::parts::{METHODS, ORDERS, gravity, method, near, plane, pulled, run};
+use crate::parts::{G, METHODS, ORDERS, gravity, method, near, plane, pulled, run, tension_n};
 use crate::random::Random;
 
 /// A sheet that hangs by its top and is pulled about, what tears it, and how long a step is.
@@ -104,5 +104,49 @@ fn xpbd_tears_a_chain_by_the_weight_that_hangs_from_it() {
             off = off.max(((chain.stretch_ratio(id) - 1.0) / strain - 1.0).abs());
         }
         assert!(off > 0.2, "{off}");
+    }
+}
+
+/// R2's chain at rest under its weight and this force at its end, with these stiffnesses, and the loads of its links
+/// from the top.
+fn loads(threshold: Threshold, force_n: f64, stiffness: impl Fn(usize) -> f64) -> [f64; 10] {
+    let pull_n = |i: usize| force_n + (10 - i) as f64 * 0.01 * G;
+    let mut points = vec![Point::origin()];
+    for i in 0..10 {
+        points.push(points[i] - Vector::z() * (0.1 + pull_n(i) / stiffness(i)));
+    }
+    let mut chain = System::new(points, vec![0.01; 11]).expect("particles");
+    std::array::from_fn(|i| {
+        let link = chain.stretch([i, i + 1], 0.1, stiffness(i));
+        let link = link.expect("a spring");
+        near(tension_n(&chain, link), pull_n(i), 1e-12);
+        threshold.load(&chain, link).expect("a load")
+    })
+}
+
+#[test]
+fn r7_a_chain_tears_at_the_load_and_order_of_statics() {
+    let strain = Threshold::Stretch(1.5);
+    let onset = 50.0 * 0.1 * 0.5 - 10.0 * 0.01 * G;
+    near(onset, 1.519, 1e-12);
+    // The same strain as an energy per length and as a force.
+    let toughness = Threshold::Toughness(0.5 * 50.0 * 0.05 * 0.05 / 0.1);
+    let force = Threshold::Force(50.0 * 0.05);
+    for threshold in [strain, toughness, force] {
+        near(loads(threshold, onset, |_| 50.0)[0], 1.0, 1e-12);
+    }
+    // Links that are stiffer the lower they are tear one after the other from the top.
+    let stiffer = |i: usize| 50.0 * (1.0 + 0.1 * i as f64);
+    for (stiffness, torn, onset) in [
+        (&(|_| 50.0) as &dyn Fn(usize) -> f64, 1, onset),
+        (&stiffer, 1, 1.519),
+        (&stiffer, 2, 1.8671),
+        (&stiffer, 3, 2.2152),
+    ] {
+        for (force_n, torn) in [(onset - 1e-9, torn - 1), (onset + 1e-9, torn)] {
+            let loads = loads(strain, force_n, stiffness);
+            assert!(loads.is_sorted_by(|one, next| one > next), "{loads:?}");
+            assert_eq!(loads.iter().filter(|load| **load >= 1.0).count(), torn);
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! A scene pays for what it uses, and for nothing else: by counts, at the defaults of each method. By a clock:
 //! `tools/bench`, subcommand `cloth`.
 
-use tearmesh::{CutMethod, Edits, Follower as _, Positions, Scissor, Vector, shapes};
+use tearmesh::{CutMethod, Edits, Follower as _, Positions, Scissor, Vector};
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{Run, Scene};
 use tearmesh_cloth::{
@@ -9,7 +9,7 @@ use tearmesh_cloth::{
     Unstable, Verlet, Xpbd,
 };
 
-use crate::parts::cloths::{bent, cloth};
+use crate::parts::cloths::{bent, loaded};
 use crate::parts::nets::chain;
 use crate::parts::scenes::{methods, play, staged, swaying};
 use crate::parts::woven::weave;
@@ -142,11 +142,8 @@ fn each_method_counts_what_it_evaluates() {
 /// Without colliders, the end of a substep and the begin of the next are one pass.
 #[test]
 fn a_collider_that_nothing_meets_changes_no_bit_of_a_step() {
-    let (mesh, positions) = shapes::grid(12, 12);
-    let mut free = cloth(&mesh, &positions, Fabric::new(1e4));
-    let system = free.system_mut();
-    system.set_loads(gravity_along_y(1.0)).expect("loads");
-    (156..169).for_each(|top| system.hold(top));
+    let (_, mut free) = loaded(12, Fabric::new(1e4), gravity_along_y(1.0));
+    (156..169).for_each(|top| free.system_mut().hold(top));
     let mut above = free.clone();
     let floor = Collider::plane(plane([0.0, -1e3, 0.0], Vector::y()));
     let loads = onto(floor, &gravity_along_y(1.0));

@@ -1,9 +1,9 @@
 //! Forces in constraints and at hands, against weights and accelerations.
 
-use tearmesh::{Edits, Mesh, Positions, Vector, shapes, split};
+use tearmesh::{Mesh, Positions, Vector, shapes};
 use tearmesh_cloth::{Cloth, Fabric, System, Threshold, Xpbd, force};
 
-use crate::parts::cloths::{bent, cloth};
+use crate::parts::cloths::{bent, cloth, loaded, split_off};
 use crate::parts::nets::{chain, link};
 use crate::parts::woven::weave;
 use crate::parts::{G, METHODS, blown, gravity, method, near, run_with, shake, v};
@@ -36,14 +36,12 @@ fn a_hand_feels_the_weight_of_a_chain_with_every_method() {
 
 #[test]
 fn a_free_particle_lacks_what_accelerates_it() {
-    let (mesh, positions) = shapes::grid(4, 4);
     let springs = bent(Fabric::new(30.0), 2.0);
     let mut random = Random(7);
     for fabric in [springs, Fabric::woven(weave())] {
-        let mut cloth = cloth(&mesh, &positions, fabric);
-        let system = cloth.system_mut();
         let loads = blown(Vector::new(1.0, 2.0, 5.0), 0.4, gravity(0.0));
-        system.set_loads(loads).expect("loads");
+        let (_, mut cloth) = loaded(4, fabric, loads);
+        let system = cloth.system_mut();
         shake(system, 0.1, 1.0, &mut random);
         let mut accelerations = Vec::new();
         force::accelerations(system, &mut accelerations);
@@ -66,8 +64,6 @@ fn copies_of_a_torn_link_share_its_multiplier() {
         system.set_loads(gravity(0.0)).expect("loads");
         (0..3).chain(6..9).for_each(|v| system.hold(v));
         cloth.step(&mut Xpbd::new(4, 4), 0.05).expect("a step");
-        let centre = v(4);
-        let faces: Vec<_> = mesh.faces_of(centre).take(3).collect();
         let threshold = Threshold::Force(2.0);
         let felt = |mesh: &Mesh, cloth: &Cloth| -> Vec<(f64, Option<f64>)> {
             let force = |h| force::force_n(cloth.system(), cloth.stretch(h));
@@ -76,9 +72,7 @@ fn copies_of_a_torn_link_share_its_multiplier() {
         };
         let before = felt(&mesh, &cloth);
         assert!(before.iter().any(|(force, _)| force.abs() > 1e-4));
-        let mut edits = Edits::new();
-        split::vertex(&mut mesh, centre, &faces, &mut edits).expect("a split");
-        edits.replay(&mut cloth);
+        split_off(&mut mesh, &mut cloth, v(4), 3);
         let now = felt(&mesh, &cloth);
         for (h, ((force, load), before)) in mesh.half_edges().zip(now.into_iter().zip(before)) {
             let share = [1.0, 0.5][usize::from(mesh.ghost_pair(h).is_some())];

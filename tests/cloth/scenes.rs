@@ -186,36 +186,6 @@ fn what_one_hold_lets_go_another_still_holds() {
 }
 
 #[test]
-fn regions_hold_what_lies_in_them() {
-    let (mesh, positions) = square(4);
-    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    let within = |region: Region| -> Vec<usize> {
-        let vertices = region.vertices(&mesh, positions.as_slice(), &frame);
-        vertices.into_iter().map(VertexId::index).collect()
-    };
-    let near = |at, radius| Region::Near { at, radius };
-    let cells = Region::Box {
-        from: Point::new(0.5, 0.75, -1.0),
-        to: Point::new(0.75, 2.0, 1.0),
-    };
-    let ball = Region::Ball {
-        centre: Point::origin(),
-        radius_m: 0.3,
-    };
-    for (region, expected) in [
-        (near([0.0, 1.0], 0.0), &[20][..]),
-        (near([0.6, 0.4], 0.0), &[12]),
-        (near([1.0, 0.0], 0.25), &[3, 4, 9]),
-        (top(), &[20, 21, 22, 23, 24]),
-        (cells, &[17, 18, 22, 23]),
-        (ball, &[0, 1, 5]),
-        (Region::Vertices(vec![v(7), v(3), v(99)]), &[7, 3]),
-    ] {
-        assert_eq!(within(region), expected);
-    }
-}
-
-#[test]
 fn a_ball_under_a_falling_cloth_is_not_entered() {
     let (mesh, positions) = square(12);
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Z);

@@ -370,10 +370,13 @@ fn what_is_held_is_not_sewn_to_what_is_in_a_hand() {
     assert_eq!(sim.mesh().vertex_count(), vertices - 4);
     assert_eq!(sim.in_hand(hand), Ok(&[v(22)][..]));
     sim.release(hand).expect("a hand");
-    // It falls, and is drawn up again by the half that is held.
+    // It falls, and is drawn up again by the half that is held, which stays where it is.
+    let pinned = at(&sim, v(22));
     pass(&mut sim, 0.1);
+    assert_ne!(at(&sim, v(22)), pinned);
     assert_eq!(heal(&mut sim, Wounds::All), (1, 0));
     assert!(sim.cloth().system().is_held(22));
+    assert_eq!(at(&sim, v(22)), pinned);
     check(&mut sim);
 }
 
@@ -459,7 +462,10 @@ fn definitions_that_make_no_simulation_are_refused() {
     type Change = fn(&mut SimulationDef);
     let changes: [(Change, &str); 5] = [
         (|def| def.density_kg_per_m2 = -1.0, "the density -1"),
-        (|def| def.fabric = Fabric::new(-1.0), "modulus_n_per_m is"),
+        (
+            |def| def.fabric = Fabric::new(-1.0),
+            "modulus_n_per_m is -1, and has to be finite and above 0",
+        ),
         (|def| def.loads.drag_per_s = Some(-1.0), "drag_per_s is -1"),
         (|def| def.strengths = vec![1.0; 8], "there are 8 strengths"),
         (|def| def.step_s = Some(0.0), "a step of 0 s"),

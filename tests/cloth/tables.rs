@@ -1,7 +1,6 @@
 //! Every method against every reference answer, its order, and where it blows up: each cell asserted.
 
 mod blow_up;
-mod orders;
 mod references;
 mod theory;
 

@@ -1,13 +1,15 @@
-//! What a log tells of a run, against what the run itself says and the balance of energy.
+//! When and where a cloth tears first, and what a log tells of a run, against what the run itself says and the
+//! balance of energy.
 
 use std::num::NonZero;
 
 use tearmesh::Vector;
-use tearmesh_cloth::Method;
+use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::scene::{HeldVertices, Region, Run, Scene, TearLog};
+use tearmesh_cloth::{Method, Tearing, Threshold, Xpbd};
 
-use crate::parts::near;
-use crate::parts::scenes::{Played, methods, play, played, staged};
+use crate::parts::scenes::{Played, methods, noted, play, played, staged, torn_first};
+use crate::parts::{near, order};
 
 /// How far a hold has been led by then: straight between the points of its way.
 fn led(hold: &HeldVertices, time_s: f64) -> Vector {
@@ -122,6 +124,23 @@ fn events_are_the_steps_in_which_something_tore() {
     }
 }
 
+/// What it takes to tear a coarse and a fine mesh.
+#[test]
+fn a_strain_tears_a_finer_mesh_more_easily_toughness_not() {
+    let slope = |threshold| {
+        let forces = [8, 16].map(|cells| {
+            let played = noted(staged(cells, |frame| Scene {
+                tearing: Some(Tearing::new(threshold)),
+                ..Scene::trouser(frame)
+            }));
+            played.log.largest_force_n().expect("springs have forces")
+        });
+        order(forces)
+    };
+    let slopes = [Threshold::Stretch(1.3), Threshold::Toughness(4.0)].map(slope);
+    assert!(slopes[0] > 0.5 && slopes[1].abs() < 0.3, "{slopes:?}");
+}
+
 #[test]
 fn smaller_steps_are_those_of_a_scene_that_names_them() {
     let scene = |step_s| {
@@ -160,4 +179,45 @@ fn what_is_displaced_has_its_rest_as_before() {
     assert!(began_j > 0.0);
     let balance = play(moved).energy_balance();
     assert!(balance.made_j() < 1e-3 * began_j, "{balance:?}");
+}
+
+/// `rip` on a sheet of 10 × 10 cells, with the number of the step, and the edge with the largest load. All
+/// that would move them is a change of the fabric, of a step's length, or of what decides.
+const EXPECTED: &str = include_str!("first_tears.txt");
+
+const TWO: NonZero<u32> = NonZero::<u32>::MIN.saturating_add(1);
+
+/// Methods that do not depend on the step tear at the same time at half of it.
+#[test]
+fn first_tears_of_all_methods_by_all_thresholds() {
+    let mut found = String::new();
+    let [explicit @ .., _] = methods();
+    let others = [
+        ("implicit", Method::Implicit(Settings::default())),
+        ("xpbd by tens", Method::Xpbd(Xpbd::default())),
+    ];
+    for (name, solver) in explicit.into_iter().chain(others) {
+        for (kind, threshold) in [
+            ("stretch", Threshold::Stretch(1.5)),
+            ("toughness", Threshold::Toughness(12.5)),
+            ("force", Threshold::Force(50.0)),
+        ] {
+            let rip = || {
+                staged(10, |frame| Scene {
+                    solver: solver.clone(),
+                    tearing: Some(Tearing::new(threshold)),
+                    ..Scene::rip(frame)
+                })
+            };
+            let (run, edge) = torn_first(rip());
+            if ["verlet", "implicit"].contains(&name) {
+                let (halved, _) = torn_first(rip().in_smaller_steps(TWO));
+                near(halved.elapsed_s() / run.elapsed_s(), 1.0, 0.02);
+            }
+            let [a, b] = [run.mesh().origin(edge), run.mesh().target(edge)];
+            let (step, per_s) = (run.tally().steps, 1.0 / run.step_s());
+            found += &format!("{name} {kind}: step {step} of 1/{per_s:.0} s, {a}-{b}\n");
+        }
+    }
+    assert_eq!(found, EXPECTED);
 }

@@ -192,20 +192,15 @@ fn what_cannot_be_is_refused_with_what_was_given() {
     let (mesh, positions) = shapes::grid(2, 2);
     let cloth = cloth(&mesh, &positions, Fabric::new(1.0));
     // Others are in `refused.txt`.
-    for (threshold, text) in [
-        (
-            Threshold::Stretch(f64::NAN),
-            "threshold is NaN, and has to be finite and above 1",
-        ),
-        (
-            Threshold::Toughness(f64::INFINITY),
-            "threshold is inf, and has to be finite and above 0",
-        ),
+    for (threshold, given, least) in [
+        (Threshold::Stretch(f64::NAN), "NaN", 1),
+        (Threshold::Toughness(f64::INFINITY), "inf", 0),
     ] {
         let tearing = Tearing::new(threshold);
-        let error = Tear::new(&cloth, tearing).expect_err(text);
+        let text = format!("threshold is {given}, and has to be finite and above {least}");
+        let error = Tear::new(&cloth, tearing).expect_err(given);
         assert_eq!(error.to_string(), text);
-        assert_eq!(tearing.check().expect_err(text).to_string(), text);
+        assert_eq!(tearing.check().expect_err(given).to_string(), text);
     }
     let tear = Tear::new(&cloth, Tearing::default()).expect("a tear");
     let mut strengths = vec![1.0; 9];

@@ -1,14 +1,14 @@
 //! The watch over stability after something went wrong: a state that was no number, one that was
 //! set, a step that failed.
 
-use tearmesh::{Edits, Mesh, Vector, shapes, split};
+use tearmesh::{Mesh, Vector};
 use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{
     Balance, Buckling, Cloth, EnergyBalance, Fabric, Failure, Implicit, Limiter, Pbd, Provot,
     Solver, StepError, System, Threshold, Verlet, Xpbd, force,
 };
 
-use crate::parts::cloths::cloth;
+use crate::parts::cloths::{loaded, split_off};
 use crate::parts::nets::row;
 use crate::parts::{
     METHODS, blown, gravity_along_y, implicit_to, method, on_a_line, particles, path, state,
@@ -128,11 +128,9 @@ fn a_method_that_gives_up_blames_nothing_that_is_not_there() {
 
 /// A sheet in a wind, held at a corner, with all that a step leaves behind.
 fn in_wind() -> (Mesh, Cloth, Balance) {
-    let (mesh, positions) = shapes::grid(4, 4);
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(10.0));
-    let system = cloth.system_mut();
     let loads = blown(Vector::z() * 5.0, 0.5, gravity_along_y(1.0));
-    system.set_loads(loads).expect("loads");
+    let (mesh, mut cloth) = loaded(4, Fabric::new(10.0), loads);
+    let system = cloth.system_mut();
     let x = system.positions()[0];
     system.grab(0, path([(0.0, x.into()), (1.0, [x.x - 5.0, x.y, x.z])]));
     let balance = Balance::new(system);
@@ -165,11 +163,7 @@ fn a_refused_step_leaves_state_and_balance_as_they_were() {
         for _ in 0..8 {
             take(&mut cloth, &mut balance, dt_s).expect("a step");
         }
-        let mut edits = Edits::new();
-        let v = v(12);
-        let face = mesh.faces_of(v).next().expect("a face");
-        split::vertex(&mut mesh, v, &[face], &mut edits).expect("a split");
-        edits.replay(&mut cloth);
+        split_off(&mut mesh, &mut cloth, v(12), 1);
         let before = left_behind(&cloth, &balance);
         let mut untried = (cloth.clone(), balance.clone());
 

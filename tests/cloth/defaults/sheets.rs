@@ -64,18 +64,14 @@ impl Sheet {
 
     /// The sheet with its constraints in this order, held by its top.
     pub(super) fn system(&self, order: Order) -> System {
-        let mut system = self.with(order);
+        let mut system = self.free(order);
         let top = (0..self.points.len()).filter(|&i| self.points[i].y == 1.0);
         top.for_each(|i| system.hold(i));
         system
     }
 
     /// The sheet, held by nobody.
-    pub(super) fn free(&self) -> System {
-        self.with(Order::Mesh)
-    }
-
-    fn with(&self, order: Order) -> System {
+    pub(super) fn free(&self, order: Order) -> System {
         let mut system =
             System::new(self.points.iter().copied(), self.masses.clone()).expect("particles");
         let mut edges = self.edges.clone();

@@ -2,10 +2,10 @@
 
 use super::matrix::crumpled;
 use super::{G, Scene, step};
-use crate::parts::cloths::cloth;
+use crate::parts::cloths::loaded;
 use crate::parts::nets::row;
 use crate::parts::{gravity, implicit_by_default, near, plane, solved, state, v};
-use tearmesh::{Edits, Point, Vector, mend, shapes, split};
+use tearmesh::{Edits, Point, Vector, mend, split};
 use tearmesh_cloth::implicit::Method;
 use tearmesh_cloth::{
     Abilities, Fabric, Failure, Implicit, Solver, StepError, System, Unstable, Verlet,
@@ -153,9 +153,7 @@ fn pushed_particles_go_on_with_their_acceleration() {
 
 #[test]
 fn particles_that_came_and_went_have_no_history() {
-    let (mut mesh, positions) = shapes::grid(3, 3);
-    let mut cloth = cloth(&mesh, &positions, Fabric::new(50.0));
-    cloth.system_mut().set_loads(gravity(0.0)).expect("loads");
+    let (mut mesh, mut cloth) = loaded(3, Fabric::new(50.0), gravity(0.0));
     cloth.system_mut().hold(0);
     let (mut solver, mut edits) = (bdf2(), Edits::new());
     let vertex = v(5);

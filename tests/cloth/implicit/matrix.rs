@@ -2,13 +2,13 @@
 
 use super::dense::{clamped, jacobian, solve};
 use super::{Scene, forces, step};
-use crate::parts::cloths::cloth;
+use crate::parts::cloths::{loaded, split_off};
 use crate::parts::woven::weave;
-use crate::parts::{implicit, implicit_to, near, run, shake};
+use crate::parts::{implicit, implicit_to, near, run, shake, v};
 use crate::random::Random;
-use tearmesh::{Edits, Point, Vector, shapes, split};
+use tearmesh::{Point, Vector};
 use tearmesh_cloth::implicit::Method;
-use tearmesh_cloth::{Bending, Buckling, Fabric, Implicit};
+use tearmesh_cloth::{Bending, Buckling, Fabric, Implicit, Loads};
 
 /// A sheet with triangles, springs along its rows and bends two apart, crumpled.
 pub(super) fn crumpled(n: u32, seed: u64) -> Scene {
@@ -106,7 +106,6 @@ fn a_step_is_the_dense_solution_where_some_are_held() {
 /// new one gives, to the bit.
 #[test]
 fn a_solver_that_has_followed_tears_steps_as_a_new_one() {
-    let (mut mesh, positions) = shapes::grid(6, 6);
     let fabric = Fabric {
         weave: Some(weave()),
         bend: Some(Bending::Buckling {
@@ -115,16 +114,12 @@ fn a_solver_that_has_followed_tears_steps_as_a_new_one() {
         }),
         ..Fabric::new(5.0)
     };
-    let mut cloth = cloth(&mesh, &positions, fabric);
+    let (mut mesh, mut cloth) = loaded(6, fabric, Loads::default());
     shake(cloth.system_mut(), 0.05, 0.0, &mut Random(3));
     let mut solver = Implicit::default();
-    let mut edits = Edits::new();
     for turn in 0..6 {
         if turn % 2 == 1 {
-            let v = mesh.vertices().nth(10 + 3 * turn).expect("a vertex");
-            let faces: Vec<_> = mesh.faces_of(v).take(2).collect();
-            split::vertex(&mut mesh, v, &faces, &mut edits).expect("more than two faces");
-            edits.replay(&mut cloth);
+            split_off(&mut mesh, &mut cloth, v(10 + 3 * turn), 2);
         }
         let mut other = cloth.clone();
         cloth.step(&mut solver, 0.005).expect("a step");

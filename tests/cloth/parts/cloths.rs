@@ -5,7 +5,7 @@ use tearmesh::{
     Edit, Edits, ExactSum, FaceId, HalfEdgeId, Masses, Mesh, Point, Positions, VertexId, mend,
     shapes, slide, split,
 };
-use tearmesh_cloth::{Bending, Cloth, Copies, Fabric, Stretch, Tear, TearReport, Tearing};
+use tearmesh_cloth::{Bending, Cloth, Copies, Fabric, Loads, Stretch, Tear, TearReport, Tearing};
 
 use crate::random::Random;
 
@@ -13,6 +13,24 @@ use crate::random::Random;
 pub(crate) fn cloth(mesh: &Mesh, positions: &Positions, fabric: Fabric) -> Cloth {
     let masses = Masses::area(mesh, positions, 0.2).expect("masses");
     Cloth::new(mesh, positions, masses, fabric).expect("a cloth")
+}
+
+/// A cloth of a square metre in n × n cells under these loads, and its mesh.
+pub(crate) fn loaded(n: u32, fabric: Fabric, loads: Loads) -> (Mesh, Cloth) {
+    let (mesh, positions) = shapes::grid(n, n);
+    let mut cloth = cloth(&mesh, &positions, fabric);
+    cloth.system_mut().set_loads(loads).expect("loads");
+    (mesh, cloth)
+}
+
+/// Splits so many faces of a vertex off, and has the cloth follow; gives the copy.
+pub(crate) fn split_off(mesh: &mut Mesh, cloth: &mut Cloth, v: VertexId, faces: usize) -> VertexId {
+    let mut edits = Edits::starting_at(cloth.seen());
+    let faces: Vec<FaceId> = mesh.faces_of(v).take(faces).collect();
+    let split = split::vertex(mesh, v, &faces, &mut edits);
+    let new = split.expect("a split").new;
+    edits.replay(cloth);
+    new
 }
 
 /// Springs of one stiffness, whose copies are as stiff as that.

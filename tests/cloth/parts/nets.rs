@@ -72,28 +72,33 @@ pub(crate) fn push(mut system: System, particle: usize) -> System {
     system
 }
 
-/// Where the particles of a net rest under gravity, by statics with no dynamics and no code in common:
-/// particle by particle, each goes the way of its force until none has any.
-pub(crate) fn relaxed(net: &System) -> Vec<Point> {
-    let springs = net.stretches();
-    let springs: Vec<_> = springs.iter().map(|id| springs.get(id)).collect();
-    let mut points = net.positions().to_vec();
-    for _ in 0..4000 {
-        for i in 0..points.len() {
-            if net.is_held(i) {
-                continue;
-            }
-            let mut force = Vector::new(0.0, 0.0, -G * net.masses()[i]);
-            let mut stiffness = 0.0;
-            for spring in springs.iter().filter(|spring| spring.ends.contains(&i)) {
-                let other = spring.ends[0] + spring.ends[1] - i;
-                let d = points[other] - points[i];
-                let tension = spring.stiffness_n_per_m * (d.norm() - spring.rest_length_m);
-                force += d.normalize() * tension;
-                stiffness += spring.stiffness_n_per_m;
-            }
-            points[i] += force / stiffness;
+/// Where particles rest under gravity, by statics with no dynamics and no code in common: particle by particle,
+/// each goes the way of its force until none has any. Given are the force on one and its stiffness.
+pub(crate) fn relaxed(
+    system: &System,
+    pull: impl Fn(&[Point], usize) -> (Vector, f64),
+) -> Vec<Point> {
+    let mut points = system.positions().to_vec();
+    for _ in 0..6000 {
+        for i in (0..points.len()).filter(|&i| !system.is_held(i)) {
+            let (force, stiffness) = pull(&points, i);
+            points[i] += (force - Vector::z() * (G * system.masses()[i])) / stiffness;
         }
     }
     points
+}
+
+/// Where a net of springs rests.
+pub(crate) fn relaxed_net(net: &System) -> Vec<Point> {
+    let springs = net.stretches();
+    let springs: Vec<_> = springs.iter().map(|id| springs.get(id)).collect();
+    relaxed(net, |points, i| {
+        let own = springs.iter().filter(|spring| spring.ends.contains(&i));
+        own.fold((Vector::zeros(), 0.0), |(force, stiffness), spring| {
+            let d = points[spring.ends[0] + spring.ends[1] - i] - points[i];
+            let k = spring.stiffness_n_per_m;
+            let pull = d.normalize() * (k * (d.norm() - spring.rest_length_m));
+            (force + pull, stiffness + k)
+        })
+    })
 }

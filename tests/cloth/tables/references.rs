@@ -1,4 +1,4 @@
-//! R1–R11 by every method, with chains of springs and with strips of triangles.
+//! R1–R11 by every method, with chains of springs and with strips of triangles; and orders of convergence.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -6,10 +6,10 @@ use tearmesh::{Point, Vector};
 use tearmesh_cloth::{Cloth, Solver, System, Weave, energy, force, frequency_bound};
 
 use super::{Links, METHODS, theory};
-use crate::parts::nets::{framed, relaxed, row};
+use crate::parts::nets::{framed, relaxed, relaxed_net, row};
 use crate::parts::vibration::largest_frequency;
 use crate::parts::woven::{self, moduli, weave};
-use crate::parts::{gravity, is_implicit, mechanical_j, method, near, run_with};
+use crate::parts::{gravity, is_implicit, mechanical_j, method, near, order, run_with};
 
 /// An error, and the largest that it may be; `None` where the answer is none of the method's.
 type Cell = Option<(f64, f64)>;
@@ -236,7 +236,7 @@ fn r11(links: Links, name: &str) -> Cell {
     let (mut net, answer) = match links {
         Links::Springs => {
             let net = framed(6, 100.0, 8.0);
-            (net.clone(), relaxed(&net))
+            (net.clone(), relaxed_net(&net))
         }
         Links::Triangles => {
             let sheet = woven::framed(6, weave());
@@ -249,8 +249,7 @@ fn r11(links: Links, name: &str) -> Cell {
     Some((off.fold(0.0, f64::max), tolerance))
 }
 
-/// Statics of a flat sheet of triangles with no dynamics and no code in common: particle by particle,
-/// each goes the way of its force until none has any.
+/// Where a sheet of triangles rests that is flat without loads.
 fn relaxed_sheet(sheet: &Cloth) -> Vec<Point> {
     let Weave {
         warp_n_per_m: k_u,
@@ -279,35 +278,26 @@ fn relaxed_sheet(sheet: &Cloth) -> Vec<Point> {
             )
         })
         .collect();
-    let mut points = sheet.positions().to_vec();
-    let masses = sheet.system().masses();
-    for _ in 0..6000 {
-        for i in 0..points.len() {
-            if sheet.system().is_held(i) {
+    relaxed(sheet.system(), |points, i| {
+        let (mut force, mut stiffness) = (Vector::zeros(), 0.0);
+        for (corners, area, slopes) in &faces {
+            let Some(own) = corners.iter().position(|&v| v == i) else {
                 continue;
-            }
-            let mut force = Vector::new(0.0, 0.0, -9.81 * masses[i]);
-            let mut stiffness = 0.0;
-            for (corners, area, slopes) in &faces {
-                let Some(own) = corners.iter().position(|&v| v == i) else {
-                    continue;
-                };
-                let w = |c: usize| {
-                    let parts = corners.iter().zip(slopes);
-                    parts.fold(Vector::zeros(), |w, (&v, s)| w + points[v].coords * s[c])
-                };
-                let (w_u, w_v) = (w(0), w(1));
-                let shear = k_s * w_u.dot(&w_v);
-                let p_u = w_u * (k_u * (1.0 - 1.0 / w_u.norm())) + w_v * shear;
-                let p_v = w_v * (k_v * (1.0 - 1.0 / w_v.norm())) + w_u * shear;
-                let [g, h] = slopes[own];
-                force -= (p_u * g + p_v * h) * *area;
-                stiffness += area * ((k_u + 2.0 * k_s) * g * g + (k_v + 2.0 * k_s) * h * h);
-            }
-            points[i] += force / stiffness;
+            };
+            let w = |c: usize| {
+                let parts = corners.iter().zip(slopes);
+                parts.fold(Vector::zeros(), |w, (&v, s)| w + points[v].coords * s[c])
+            };
+            let (w_u, w_v) = (w(0), w(1));
+            let shear = k_s * w_u.dot(&w_v);
+            let p_u = w_u * (k_u * (1.0 - 1.0 / w_u.norm())) + w_v * shear;
+            let p_v = w_v * (k_v * (1.0 - 1.0 / w_v.norm())) + w_u * shear;
+            let [g, h] = slopes[own];
+            force -= (p_u * g + p_v * h) * *area;
+            stiffness += area * ((k_u + 2.0 * k_s) * g * g + (k_v + 2.0 * k_s) * h * h);
         }
-    }
-    points
+        (force, stiffness)
+    })
 }
 
 /// R8 is of the net, not of the method: E, ν and the shear by pulling of springs in three directions alike,
@@ -410,5 +400,36 @@ fn largest_frequencies_of_chains_are_those_of_closed_forms() {
     ] {
         near(largest_frequency(&system) / answer, 1.0, 1e-6);
         near(frequency_bound(&mut system).omega_rad_per_s, bound, 1e-9);
+    }
+}
+
+/// The relative error in x and v/ω after 0.25 s.
+fn error(links: Links, name: &str, dt: f64) -> f64 {
+    let omega = 4000.0_f64.sqrt();
+    let mut system = links.row(1, 0.01, 40.0, 1.0, Vector::x());
+    links.change(&mut system, 1, |p, _| p.x = 1.1);
+    let steps = (0.25 / dt).round() as usize;
+    run_with(&mut system, &mut *method(name, 1), dt, steps);
+    let x = links.point(&system, 1).x - 1.0 - 0.1 * (omega * 0.25).cos();
+    let v = system.velocities()[links.at(1).start].x / omega + 0.1 * (omega * 0.25).sin();
+    (x * x + v * v).sqrt() / 0.1
+}
+
+/// PBD has none: as Δt → 0 it converges to no solution (F7).
+#[test]
+fn table_of_orders() {
+    for links in [Links::Springs, Links::Triangles] {
+        for &name in METHODS {
+            let (dt, expected) = match name {
+                "Verlet" | "guarded" => (1.0 / 4096.0, 2.0),
+                "BDF2" => (1.0 / 8192.0, 2.0),
+                "RK4" => (1.0 / 1024.0, 4.0),
+                "PBD" => continue,
+                "XPBD" if links == Links::Triangles => continue,
+                _ => (1.0 / 32_768.0, 1.0),
+            };
+            let errors = [dt, dt / 2.0].map(|dt| error(links, name, dt));
+            near(order(errors), expected, 0.05);
+        }
     }
 }
