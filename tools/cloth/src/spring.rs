@@ -182,25 +182,6 @@ mod tests {
             let (colour, positions) = (&mut self.colour, &mut self.positions);
             project::<IS_FIRST>(colour, &self.inverse_masses, correction, positions)
         }
-
-        /// Moves the ends of a constraint by a part of their difference; by none where there is
-        /// no length, or both are held.
-        fn move_one(&self, i: usize, change: f64, positions: &mut [Point]) {
-            let d = self.positions[2 * i + 1] - self.positions[2 * i];
-            if self.weight(i) > 0.0 && self.length(i) > 0.0 {
-                positions[2 * i] += d * change * self.inverse_masses[2 * i];
-                positions[2 * i + 1] -= d * change * self.inverse_masses[2 * i + 1];
-            }
-        }
-
-        fn length(&self, i: usize) -> f64 {
-            let d = self.positions[2 * i + 1] - self.positions[2 * i];
-            (d.x * d.x + d.y * d.y + d.z * d.z).sqrt()
-        }
-
-        fn weight(&self, i: usize) -> f64 {
-            self.inverse_masses[2 * i] + self.inverse_masses[2 * i + 1]
-        }
     }
 
     /// With a part of the correction and without compliance, and with compliance in the first sweep, which reads
@@ -219,11 +200,18 @@ mod tests {
             let mut expected_multipliers = Vec::new();
             let before = if is_first { 0.0 } else { before };
             for i in 0..COUNT {
-                let (length, w) = (pairs.length(i), pairs.weight(i));
+                let [a, b] = [2 * i, 2 * i + 1];
+                let d = pairs.positions[b] - pairs.positions[a];
+                let length = (d.x * d.x + d.y * d.y + d.z * d.z).sqrt();
+                let [w_a, w_b] = [a, b].map(|end| pairs.inverse_masses[end]);
+                let w = w_a + w_b;
                 let compliance = scale * (1.0 / pairs.colour.stiffness[i]);
                 let error = length - pairs.colour.rest[i] + compliance * before;
                 let change = fraction * error / ((w + compliance) * length);
-                pairs.move_one(i, change, &mut expected);
+                if w > 0.0 && length > 0.0 {
+                    expected[a] += d * change * w_a;
+                    expected[b] -= d * change * w_b;
+                }
                 let pulls = length > 0.0 && w + compliance > 0.0;
                 expected_multipliers.push(before - if pulls { change * length } else { 0.0 });
             }

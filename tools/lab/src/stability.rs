@@ -69,20 +69,3 @@ impl Experiment for Stability {
         theory.rows(method, &self.stiffness_n_per_m, bounds.stop)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::experiment::Status;
-
-    #[test]
-    fn a_run_that_failed_without_a_message_is_silent() {
-        for (measured, codes, expected) in [
-            (Status::Wrong, &[][..], true),
-            (Status::Wrong, &["W"][..], false),
-            (Status::Ok, &[][..], false),
-        ] {
-            assert_eq!(trial::is_silent(measured, codes), expected);
-        }
-    }
-}

@@ -46,17 +46,6 @@ const OMEGA: f64 = 20.0;
 const SECONDS: f64 = 0.6;
 const AMPLITUDE: f64 = 0.1;
 
-fn assessed() -> Vec<Row> {
-    let experiment = Pareto {
-        options: Options {
-            visits_max: u64::MAX,
-            ..options(&[], 2)
-        },
-        cases: vec![oscillator()],
-    };
-    conduct(&experiment, workers(), &UNBOUNDED, |_| {}).0
-}
-
 /// The error of a weight that moves as cos wt: the largest of ten checkpoints.
 fn off(w: f64) -> f64 {
     let each = (1..=10).map(|i| {
@@ -69,7 +58,14 @@ fn off(w: f64) -> f64 {
 
 #[test]
 fn error_of_plain_verlet_is_of_its_discrete_frequency() {
-    let rows = assessed();
+    let experiment = Pareto {
+        options: Options {
+            visits_max: u64::MAX,
+            ..options(&[], 2)
+        },
+        cases: vec![oscillator()],
+    };
+    let (rows, _) = conduct(&experiment, workers(), &UNBOUNDED, |_| {});
     let mut count = 0;
     for row in rows.iter().filter(|row| row.method == "verlet-plain") {
         let Some(error) = row.error_total else {

@@ -285,22 +285,14 @@ mod tests {
         let label = |text: &str| Layer::Label([1.0, 1.0], text.to_owned(), INK);
         let labels = vec![label("first <&>"), label("second"), label("third")];
         let drawn = drawn(Axis::linear("x"), labels);
-        let heights = ["first &lt;&amp;&gt;", "second", "third"].map(|text| {
-            let line = drawn
-                .lines()
-                .find(|line| line.contains(&format!(">{text}<")));
-            let line = line.expect("a label");
-            let (_, rest) = line.split_once(" y=\"").expect("a height");
-            rest.split('"')
-                .next()
-                .expect("a number")
-                .parse::<f64>()
-                .expect("a number")
+        let mut heights = ["first &lt;&amp;&gt;", "second", "third"].map(|text| {
+            let (before, _) = drawn.split_once(&format!(">{text}<")).expect("a label");
+            let (_, height) = before.rsplit_once(" y=\"").expect("a height");
+            let (height, _) = height.split_once('"').expect("its end");
+            height.parse::<f64>().expect("a number")
         });
-        for i in 0..3 {
-            for j in 0..i {
-                assert!((heights[i] - heights[j]).abs() >= 11.0, "{heights:?}");
-            }
-        }
+        heights.sort_unstable_by(f64::total_cmp);
+        let mut gaps = heights.windows(2).map(|two| two[1] - two[0]);
+        assert!(gaps.all(|gap| gap >= 11.0), "{heights:?}");
     }
 }

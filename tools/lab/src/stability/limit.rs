@@ -145,6 +145,7 @@ impl Theory {
 
 #[cfg(test)]
 mod tests {
+    use super::super::trial::is_silent;
     use super::*;
 
     #[test]
@@ -174,5 +175,8 @@ mod tests {
         };
         assert_eq!(again(Status::Refused, ""), (Some(true), Some(true)));
         assert_eq!(again(Status::Ok, "E"), (Some(false), Some(true)));
+        // Of a scene nothing but a message tells that it failed.
+        assert!(is_silent(Status::Wrong, &[]));
+        assert!(!is_silent(Status::Wrong, &["W"]) && !is_silent(Status::Ok, &[]));
     }
 }

@@ -94,7 +94,7 @@ fn strips(rows: &[Row]) -> Panel {
 }
 
 /// What the strips show.
-fn title(rows: &[Row]) -> String {
+pub(super) fn title(rows: &[Row]) -> String {
     match RULES.map(|(rule, _)| slope(&forces(rows, rule))) {
         [Some(stretch), Some(toughness)] if toughness.abs() < 0.5 * stretch => format!(
             "By stretch ratio the force to tear depends on the mesh (slope {stretch:+.2}), by toughness much less \

@@ -1,7 +1,6 @@
 //! Titles say what is found of strips, and references are found where methods agree.
 
 use super::*;
-use crate::experiment::{Chart, Provenance};
 
 /// Slopes by hand: forces that are proportional to the length of edges, or to its root, or nearly the same.
 #[test]
@@ -17,14 +16,7 @@ fn title_says_that_toughness_depends_less_if_it_does() {
             })
         });
         let rows: Vec<Row> = rows.collect();
-        let strips = Tear {
-            strips: vec![8, 16],
-            scenes: Vec::new(),
-            cells: Vec::new(),
-            methods: Vec::new(),
-            seeds: 0,
-        };
-        strips.figure(&rows, &Provenance::default()).title
+        chart::title(&rows)
     };
     let [little, much] = [0.25, 0.75].map(title);
     assert!(
