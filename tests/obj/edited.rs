@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::random::Random;
-use super::work::{Work, files};
+use super::work::{Work, files, simplified_later};
 use super::{read, text};
 
 /// The lines of a file, to be edited, and its vertices, looked up as a person would.
@@ -68,8 +68,7 @@ fn sewn(seed: usize, first: usize) -> (String, Random, Lines) {
 
 /// What is left of a file once it is simplified, and how many vertices stay for their edits.
 fn simplified(file: &[u8]) -> (Lines, usize) {
-    let document = read(file);
-    let (left, [edited, ..]) = Work::on(&document).simplified();
+    let (left, [edited, ..]) = simplified_later(file);
     (Lines::of(left.as_bytes()), edited)
 }
 

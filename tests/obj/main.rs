@@ -13,7 +13,6 @@ mod digits;
 mod edited;
 mod fuzz;
 mod memory;
-mod mesh;
 mod normals;
 mod numbers;
 mod raw;

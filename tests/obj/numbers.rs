@@ -1,7 +1,5 @@
 //! Under which numbers vertices are written, and how they are found again.
 
-use tearmesh_obj::Document;
-
 use super::bodies::Sheets;
 use super::random::Random;
 use super::tables::with_record;
@@ -13,17 +11,18 @@ const WHEEL: &str = "o wheel\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv -1 0 0\nv -1 -1 0\nv 
     f 7 1 2\nf 7 2 3\nf 7 3 4\nf 7 4 5\nf 7 5 6\nf 7 6 1\n\
     o tile\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 8 9 10\n";
 
-/// Two opposite faces of the wheel get a hub of their own: four fans, and so two copies.
-fn with_bow_ties(document: &Document) -> Work<'_> {
-    let mut work = Work::on(document);
+/// What is written once two opposite faces of the wheel have a hub of their own: four fans, and so two copies. And
+/// whether vertices are written in their order.
+fn with_bow_ties(file: &str) -> (String, bool) {
+    let document = read(file.as_bytes());
+    let mut work = Work::on(&document);
     work.deeds("split 6 0 3");
-    work
+    (text(&work.written()), work.in_order().is_sorted())
 }
 
 #[test]
 fn copies_for_fans_are_counted_behind_their_object() {
-    let document = read(WHEEL.as_bytes());
-    let written = text(&with_bow_ties(&document).written());
+    let (written, _) = with_bow_ties(WHEEL);
     let tile = written.find("o tile").expect("the second object");
     let of_wheel = written[..tile].matches("\nv ").count();
     assert_eq!(of_wheel, 14, "a new hub, and copies of both and of the rim");
@@ -57,9 +56,7 @@ fn copies_for_fans_are_counted_behind_their_object() {
 fn vertices_that_statements_may_name_keep_numbers() {
     for statement in ["l 8 9", "p 8", "surf 0 1 0 1 8 9 10", "e 8 9"] {
         let file = format!("{WHEEL}{statement}\n");
-        let document = read(file.as_bytes());
-        let work = with_bow_ties(&document);
-        let written = text(&work.written());
+        let (written, is_sorted) = with_bow_ties(&file);
         let vertices = |file: &str| {
             let lines = file.lines().filter(|line| line.starts_with("v "));
             lines.map(str::to_owned).collect::<Vec<_>>()
@@ -68,16 +65,12 @@ fn vertices_that_statements_may_name_keep_numbers() {
         assert!(is.starts_with(&was), "{statement}");
         assert!(written.contains(&format!("f 8 9 10\n{statement}\n#tearmesh record 1 ")));
         assert_eq!(text(&rewritten(written.as_bytes())), written, "{statement}");
-        assert!(work.in_order().is_sorted(), "{statement}");
+        assert!(is_sorted, "{statement}");
     }
     for statement in ["nl 2", "nv 8 9 10", "g 8 9", "# l 8 9", "vp 8 9"] {
-        let file = format!("{WHEEL}{statement}\n");
-        let document = read(file.as_bytes());
-        let written = text(&with_bow_ties(&document).written());
-        assert!(
-            written.contains("f 15 16 17\n"),
-            "{statement} names no vertex"
-        );
+        let (written, _) = with_bow_ties(&format!("{WHEEL}{statement}\n"));
+        let is_renumbered = written.contains("f 15 16 17\n");
+        assert!(is_renumbered, "{statement} names no vertex");
     }
 }
 
@@ -85,8 +78,7 @@ fn vertices_that_statements_may_name_keep_numbers() {
 /// first: these numbers have to stay, so nothing is mended, and that is said.
 #[test]
 fn a_line_added_to_a_torn_file_keeps_what_it_names() {
-    let document = read(WHEEL.as_bytes());
-    let written = text(&with_bow_ties(&document).written());
+    let (written, _) = with_bow_ties(WHEEL);
     let file = written.replace("f 15 16 17\n", "f 15 16 17\nl 15 16\n");
     let again = read(file.as_bytes());
     let why = "this record is not used, since another program changed the file: `l` may";
@@ -96,8 +88,7 @@ fn a_line_added_to_a_torn_file_keeps_what_it_names() {
     assert_eq!(file.split("#tearmesh").next(), Some(&*plain));
     // Where the new vertices are the last ones anyway, the record stays.
     let alone = WHEEL.split("o tile").next().expect("the first object");
-    let document = read(alone.as_bytes());
-    let written = text(&with_bow_ties(&document).written());
+    let (written, _) = with_bow_ties(alone);
     let file = written.replace("#tearmesh record", "l 1 2\n#tearmesh record");
     assert_eq!(text(&rewritten(file.as_bytes())), file);
 }

@@ -5,7 +5,7 @@ use tearmesh::mend;
 
 use super::random::Random;
 use super::torn_record::survives;
-use super::work::{Work, files, undone_later, vertex};
+use super::work::{Work, files, simplified_later, undone_later, vertex};
 use super::{read, rewritten, text};
 
 /// Two objects, with all kinds of corners, and with colours, which slide along.
@@ -97,15 +97,6 @@ fn is_undone_after_sessions(
     assert_eq!(undone_later(&bytes), text(&rewritten(file)), "{name}");
 }
 
-/// What is written of a torn file once it is sewn and simplified, what of it stays for edits: inserted
-/// vertices, and slid ones; and how many of these are put back.
-fn simplified(file: &[u8]) -> (String, [usize; 3]) {
-    let document = read(file);
-    let mut work = Work::on(&document);
-    work.sew_all();
-    work.simplified()
-}
-
 /// Edits a line of a file.
 fn edited(file: &str, from: &str, to: &str) -> String {
     assert_eq!(file.matches(from).count(), 1, "{from} in {file}");
@@ -118,7 +109,10 @@ fn edits_of_a_slid_vertex_are_kept_and_told() {
     let mut work = Work::on(&document);
     work.deeds("slide 1 3 .5, slide 0 2 .5");
     let written = text(&work.written());
-    assert_eq!(simplified(written.as_bytes()), (FLAG.to_owned(), [0, 0, 2]));
+    assert_eq!(
+        simplified_later(written.as_bytes()),
+        (FLAG.to_owned(), [0, 0, 2])
+    );
     for (from, to) in [
         ("v 1 0.5 0 0.5 1 0.5\n", "v 1 0.5 0.25 0.5 1 0.5\n"),
         ("v 1 0.5 0 0.5 1 0.5\n", "v 1 0.5 0 0.5 1 0.75\n"),
@@ -127,18 +121,18 @@ fn edits_of_a_slid_vertex_are_kept_and_told() {
         ("vt 1 0.5\n", "vt 1\n"),
     ] {
         let file = edited(&written, from, to);
-        let (after, counts) = simplified(file.as_bytes());
+        let (after, counts) = simplified_later(file.as_bytes());
         assert_eq!(counts, [0, 1, 1], "{from} -> {to}");
         // The other vertex is back, and the edit is there.
         assert!(after.starts_with("o flag\nv 0 0 0 1 0 0\n"), "{after}");
         assert!(after.contains(to), "{to} in {after}");
         // It stays on record, so it is said again, and so on.
-        let (again, counts) = simplified(after.as_bytes());
+        let (again, counts) = simplified_later(after.as_bytes());
         assert_eq!((again, counts), (after, [0, 1, 0]));
     }
     // What the corner had before may be edited: the corner has it back, as it is now.
     let file = edited(&written, "vt 1 0\n", "vt 1 0.125\n");
-    let (after, counts) = simplified(file.as_bytes());
+    let (after, counts) = simplified_later(file.as_bytes());
     assert_eq!(counts, [0, 0, 2]);
     assert_eq!(after, FLAG.replace("vt 1 0\n", "vt 1 0.125\n"));
     // Other numbers of texture coordinates may be others altogether.
@@ -149,7 +143,7 @@ fn edits_of_a_slid_vertex_are_kept_and_told() {
         said.starts_with("2 vertices that slid stay where they are"),
         "{said}"
     );
-    let (after, counts) = simplified(file.as_bytes());
+    let (after, counts) = simplified_later(file.as_bytes());
     assert_eq!(counts, [0, 0, 0]);
     assert!(after.contains("v 1 0.5 0 0.5 1 0.5\n"), "{after}");
 }

@@ -315,6 +315,15 @@ pub(crate) fn undone_later(file: &[u8]) -> String {
     Work::on(&document).undone()
 }
 
+/// What is written of a file once it is sewn and simplified, by a session that reads it, and what [`Work::simplest`]
+/// counts.
+pub(crate) fn simplified_later(file: &[u8]) -> (String, [usize; 3]) {
+    let document = read(file);
+    let mut work = Work::on(&document);
+    work.sew_all();
+    work.simplified()
+}
+
 /// A file of a mesh, with texture coordinates.
 pub(crate) fn file_of(mesh: &Mesh, at: &Positions) -> String {
     let mut file = String::from("vt 0.25 0.5\nvt 1 0\nvt 0 1\n");
