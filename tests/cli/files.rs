@@ -20,7 +20,7 @@ fn no_escape_bytes_reach_a_pipe_unless_asked_for() {
 }
 
 #[test]
-fn help_fits_a_screen_and_has_two_examples_and_every_key() {
+fn help_fits_a_screen_and_has_two_examples() {
     let folder = Folder::new();
     for (verb, other) in [("cut", "tear"), ("tear", "cut")] {
         let short = folder.done(&format!("{verb} -h"));
@@ -28,19 +28,6 @@ fn help_fits_a_screen_and_has_two_examples_and_every_key() {
         let long = folder.done(&format!("{verb} --help"));
         let examples = |verb| long.matches(&format!("  tearmesh {verb} ")).count();
         assert_eq!((examples(verb), examples(other)), (2, 0));
-    }
-    let long = folder.done("tear --help");
-    let words = long.split_whitespace().collect::<Vec<_>>().join(" ");
-    for said in [
-        "stretch_n_per_m",
-        "splits_per_step",
-        "[[hold]]",
-        "sway_m_per_s",
-        "replaces all entries of its kind in the base",
-        "A [tear] section enables tearing",
-        "without duplicates (named in comments `#~ fan` of a torn file)",
-    ] {
-        assert!(words.contains(said), "{said}");
     }
     let words = ["no", "one", "two", "three", "four", "five", "six", "seven"];
     let meshes = words[tearmesh_lab::tear::CELLS.len()];

@@ -5,7 +5,8 @@ use serde_json::Value;
 use tearmesh::{Positions, shapes};
 use tearmesh_cli::Exit;
 
-use crate::harness::{Folder, file_of, in_memory};
+use crate::harness::{Folder, file_of};
+use crate::in_process::{Ran, in_memory};
 use crate::plain::{Plain, pieces};
 use crate::random::Random;
 use crate::support::cases::stride;
@@ -58,6 +59,11 @@ impl Apart {
     }
 }
 
+/// Runs a command on a mesh in memory.
+fn run(typed: &str, mesh: &[u8]) -> Ran {
+    in_memory(typed.split(' '), mesh, false)
+}
+
 fn normal(face: &[usize], points: &[[f64; 3]]) -> [f64; 3] {
     let [a, b, c] = [0, 1, 2].map(|i| points[face[i]]);
     cross(minus(b, a), minus(c, a))
@@ -77,16 +83,18 @@ struct Counts {
 /// A cut with a gap, against the same without: `second` is cut after it.
 fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), tally: &mut Counts) {
     let cut = format!("tearmesh cut - {cut}");
-    let (exit, plain, _) = in_memory(&format!("{cut} -q -o -"), mesh, false);
-    if exit != Exit::Done {
+    let ran = run(&format!("{cut} -q -o -"), mesh);
+    if ran.exit != Exit::Done {
         return;
     }
+    let plain = ran.output;
     tally.made += 1;
     let line = format!("{cut} --gap {gap}");
-    let (exit, gapped, said) = in_memory(&format!("{line} -q -o -"), mesh, false);
-    assert_eq!(exit, Exit::Done, "{said}");
+    let ran = run(&format!("{line} -q -o -"), mesh);
+    let (gapped, said) = (ran.output, ran.error);
+    assert_eq!(ran.exit, Exit::Done, "{said}");
     let [report, other] = [&line, &cut].map(|line| -> Value {
-        let (_, report, _) = in_memory(&format!("{line} --format json"), mesh, false);
+        let report = run(&format!("{line} --format json"), mesh).output;
         serde_json::from_slice(&report).expect("JSON")
     });
     assert_eq!(
@@ -157,22 +165,18 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
     let mut whole = Vec::new();
     for options in ["", " --simplify"] {
         let mend = format!("tearmesh mend -{options} -q -o -");
-        let [(_, one, _), (_, other, _)] =
-            [&gapped, &plain].map(|bytes| in_memory(&mend, bytes, false));
+        let [one, other] = [&gapped, &plain].map(|bytes| run(&mend, bytes).output);
         assert!(one == other, "{name} {line}{options}");
         whole = one;
     }
     let miss = "tearmesh cut - --plane 1e9,0,0:1,0,0 --allow-miss -q -o -";
-    let (_, uncut, _) = in_memory(miss, mesh, false);
-    assert!(whole == uncut, "{name} {line}");
+    assert!(whole == run(miss, mesh).output, "{name} {line}");
     let again = format!("tearmesh cut - {second} --gap 0 --allow-miss -q -o -");
-    let [(_, one, _), (_, other, _)] =
-        [&gapped, &plain].map(|bytes| in_memory(&again, bytes, false));
+    let [one, other] = [&gapped, &plain].map(|bytes| run(&again, bytes).output);
     assert!(one == other, "{name} {line}, then {second}");
     // One that says nothing of the gap leaves it open, where it is not cut across.
     let again = format!("tearmesh cut - {second} --allow-miss -q -o -");
-    let (_, one, _) = in_memory(&again, &gapped, false);
-    let one = Apart::read(&one);
+    let one = Apart::read(&run(&again, &gapped).output);
     assert_eq!(one.is, Apart::read(&other).shown);
     assert!(count("vertices_moved") == 0 || one.is != one.shown);
 }
@@ -230,11 +234,11 @@ fn real_files_with_a_gap_are_what_they_were() {
             continue;
         }
         let bytes = std::fs::read(&path).expect("a file");
-        let (exit, checked, _) = in_memory("tearmesh check - --format json", &bytes, false);
-        if exit != Exit::Done {
+        let checked = run("tearmesh check - --format json", &bytes);
+        if checked.exit != Exit::Done {
             continue;
         }
-        let report: Value = serde_json::from_slice(&checked).expect("JSON");
+        let report: Value = serde_json::from_slice(&checked.output).expect("JSON");
         let bounds = &report["mesh"]["bounds"];
         let at = |part: f64| -> Vec<f64> {
             let axis = |i: usize| {

@@ -9,10 +9,9 @@ use std::sync::{Mutex, PoisonError};
 use base64::Engine as _;
 use serde_json::Value;
 use tearmesh::{Mesh, Positions};
-use tearmesh_cli::Exit;
 
 use crate::digest;
-use crate::in_process::ran;
+use crate::in_process::in_memory;
 
 /// The repository.
 pub(crate) fn root() -> PathBuf {
@@ -190,16 +189,15 @@ impl Folder {
         if typed.iter().any(|word| word == "-h" || word == "--help") {
             return self.process(line); // It is as wide as the terminal of the process.
         }
-        let mut output = Vec::new();
         let typed = typed.iter().map(String::as_str);
-        let (exit, error) = self.within(|| ran(typed, &input, &mut output, false));
+        let mut ran = self.within(|| in_memory(typed, &input, false));
         if let Some(file) = file {
-            self.write(&file, std::mem::take(&mut output));
+            self.write(&file, std::mem::take(&mut ran.output));
         }
         Answer {
-            exit: exit as i32,
-            output,
-            error,
+            exit: ran.exit as i32,
+            output: ran.output,
+            error: ran.error,
         }
     }
 
@@ -259,13 +257,6 @@ fn has_own_folder() -> bool {
     return nix::sched::unshare(nix::sched::CloneFlags::CLONE_FS).is_ok();
     #[cfg(not(target_os = "linux"))]
     false
-}
-
-/// Runs a command line on a mesh in memory: its exit status, its output, and what it says.
-pub(crate) fn in_memory(typed: &str, mesh: &[u8], terminal: bool) -> (Exit, Vec<u8>, String) {
-    let mut output = Vec::new();
-    let (exit, error) = ran(typed.split(' '), mesh, &mut output, terminal);
-    (exit, output, error)
 }
 
 /// Sends a signal to a process.

@@ -30,6 +30,29 @@ pub(crate) fn ran<'w>(
     (exit, String::from_utf8(error).expect("words are text"))
 }
 
+/// What a run left.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Ran {
+    pub(crate) exit: Exit,
+    pub(crate) output: Vec<u8>,
+    pub(crate) error: String,
+}
+
+/// Runs it on a mesh in memory.
+pub(crate) fn in_memory<'w>(
+    typed: impl IntoIterator<Item = &'w str>,
+    mesh: &[u8],
+    terminal: bool,
+) -> Ran {
+    let mut output = Vec::new();
+    let (exit, error) = ran(typed, mesh, &mut output, terminal);
+    Ran {
+        exit,
+        output,
+        error,
+    }
+}
+
 /// Options that take the name of a file. Here each means the standard stream.
 pub(crate) const PATHS: [&str; 9] = [
     "--output",
@@ -50,14 +73,6 @@ pub(crate) struct Case {
     input: Vec<u8>,
     /// Whether output and error are terminals.
     terminal: bool,
-}
-
-/// What a run left.
-#[derive(Debug, PartialEq)]
-struct Ran {
-    exit: Exit,
-    output: Vec<u8>,
-    error: String,
 }
 
 impl Case {
@@ -114,13 +129,7 @@ impl Case {
     fn run(&self) -> Ran {
         let typed = ["tearmesh", "cut", "-"].into_iter();
         let typed = typed.chain(self.args.iter().map(String::as_str));
-        let mut output = Vec::new();
-        let (exit, error) = ran(typed, &self.input, &mut output, self.terminal);
-        Ran {
-            exit,
-            output,
-            error,
-        }
+        in_memory(typed, &self.input, self.terminal)
     }
 
     fn asks_for(&self, what: &str) -> bool {

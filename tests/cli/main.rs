@@ -4,7 +4,6 @@
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
 mod answers;
-mod cache;
 mod charts;
 mod check;
 mod cut;
@@ -32,7 +31,6 @@ mod progress;
 mod support;
 mod tear;
 mod transcripts;
-mod units;
 #[path = "../support/vectors.rs"]
 mod vectors;
 mod words;
