@@ -5,7 +5,7 @@ use serde_json::Value;
 use tearmesh::{Positions, shapes};
 use tearmesh_cli::Exit;
 
-use crate::harness::{Folder, file_of};
+use crate::harness::{Folder, file_of, files_in};
 use crate::in_process::{Ran, in_memory};
 use crate::plain::{Plain, pieces};
 use crate::random::Random;
@@ -225,10 +225,7 @@ fn real_files_with_a_gap_are_what_they_were() {
         return;
     };
     let mut tally = Counts::default();
-    let entries = std::fs::read_dir(folder).expect("a folder");
-    let mut paths: Vec<_> = entries.map(|entry| entry.expect("one").path()).collect();
-    paths.sort();
-    for path in paths {
+    for path in files_in(folder.as_ref()) {
         let name = path.display().to_string();
         if !name.ends_with(".obj") || path.metadata().is_ok_and(|file| file.len() > 300_000) {
             continue;

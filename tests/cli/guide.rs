@@ -3,12 +3,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde_json::Value;
 
-use crate::harness::{Answer, Folder, root};
+use crate::harness::{Answer, Folder, files_in, root};
 
 /// A page of the guide.
 fn page(name: &str) -> String {
@@ -73,16 +73,12 @@ fn is_code(word: &str) -> bool {
 
 /// The codes that stand as literals in the sources of a folder, tests left out.
 fn codes_in(folder: &Path, codes: &mut BTreeSet<String>) {
-    for entry in fs::read_dir(folder).expect("sources") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            codes_in(&path, codes);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let text = fs::read_to_string(&path).expect("a source");
-            let code = text.split("#[cfg(test)]").next().expect("some code");
-            let literals = code.split('"').filter(|word| is_code(word));
-            codes.extend(literals.map(str::to_owned));
-        }
+    let is_source = |path: &PathBuf| path.extension().is_some_and(|end| end == "rs");
+    for path in files_in(folder).filter(is_source) {
+        let text = fs::read_to_string(&path).expect("a source");
+        let code = text.split("#[cfg(test)]").next().expect("some code");
+        let literals = code.split('"').filter(|word| is_code(word));
+        codes.extend(literals.map(str::to_owned));
     }
 }
 
@@ -149,8 +145,8 @@ fn codes_come_with_the_exit_statuses_of_the_guide() {
     let told = codes_of_the_guide();
     let mut seen = BTreeSet::new();
     let mut answers = 0;
-    for entry in fs::read_dir(root().join("tests/cli/transcripts")).expect("transcripts") {
-        let text = fs::read_to_string(entry.expect("one").path()).expect("a transcript");
+    for path in files_in(&root().join("tests/cli/transcripts")) {
+        let text = fs::read_to_string(path).expect("a transcript");
         for answer in text.split("$ tearmesh ").skip(1) {
             // An empty line ends an answer.
             let answer = answer.split("\n\n").next().expect("an answer");
@@ -168,8 +164,8 @@ fn codes_come_with_the_exit_statuses_of_the_guide() {
     assert!(answers > 200);
 
     // What is refused in rows: the exit status and, below, parts of what is said.
-    for entry in fs::read_dir(root().join("tests/cli/answers")).expect("answers") {
-        let rows = fs::read_to_string(entry.expect("one").path()).expect("rows");
+    for path in files_in(&root().join("tests/cli/answers")) {
+        let rows = fs::read_to_string(path).expect("rows");
         let mut exit = 0;
         for line in rows.lines().filter(|line| !line.starts_with("  ! ")) {
             if let Some(Ok(status)) = line.split(' ').next().map(str::parse) {

@@ -139,20 +139,9 @@ impl Folder {
 
     /// The digest of the names and bytes of all files, after what has this digest.
     pub(crate) fn digest(&self, digest: u64) -> u64 {
-        let mut paths = vec![self.folder.path().to_owned()];
-        let mut next = 0;
-        while let Some(path) = paths.get(next).cloned() {
-            next += 1;
-            if path.is_dir() {
-                let entries = fs::read_dir(&path).expect("a folder");
-                paths.extend(entries.map(|entry| entry.expect("an entry").path()));
-            }
-        }
-        paths.sort();
-        let files = paths.iter().filter(|path| path.is_file());
-        files.fold(digest, |digest, path| {
+        files_in(self.folder.path()).fold(digest, |digest, path| {
             let name = path.strip_prefix(self.folder.path()).expect("in here");
-            let bytes = fs::read(path).expect("a file");
+            let bytes = fs::read(&path).expect("a file");
             digest::after(digest, name.to_string_lossy().bytes().chain(bytes))
         })
     }
@@ -228,6 +217,13 @@ impl Folder {
         assert_eq!(answer.exit, 0, "{line}\n{}", answer.seen());
         answer.json()
     }
+}
+
+/// All files in a folder and in those in it, sorted.
+pub(crate) fn files_in(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let all = walkdir::WalkDir::new(folder).sort_by_file_name();
+    let paths = all.into_iter().map(|one| one.expect("one").into_path());
+    paths.filter(|path| path.is_file())
 }
 
 /// A mesh as a file.

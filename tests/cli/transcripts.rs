@@ -13,7 +13,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::digest;
-use crate::harness::{Folder, root};
+use crate::harness::{Folder, files_in, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
@@ -27,12 +27,9 @@ const DIGEST: u64 = 0x007e_72b9_d7c2_99a1;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {
-    let entries = fs::read_dir(root().join("tests/cli/transcripts")).expect("transcripts");
-    let mut paths: Vec<_> = entries.map(|entry| entry.expect("one").path()).collect();
-    paths.sort();
     let mut commands = 0;
     let mut digest = digest::EMPTY;
-    for path in paths {
+    for path in files_in(&root().join("tests/cli/transcripts")) {
         let folder = Folder::new();
         folder.add_files("tests/cli/inputs.txt");
         commands += play(&path, &folder, true);

@@ -2,13 +2,13 @@
 
 use tearmesh::{Point, Vector};
 use tearmesh_cloth::{
-    BlowUpSite, Loads, Path, Pbd, StepError, System, SystemError, Unstable, Verlet, Xpbd,
-    frequency_bound,
+    BlowUpSite, Loads, Path, Pbd, Quality, Solver as _, StepError, System, SystemError, Unstable,
+    Verlet, Xpbd, frequency_bound,
 };
 
 use crate::parts::nets::{chain, framed, link, row};
 use crate::parts::vibration::largest_frequency;
-use crate::parts::{blown, gravity, near, on_a_line, residual_n, run, run_with, shake};
+use crate::parts::{blown, gravity, near, on_a_line, run, run_with, shake};
 use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 
@@ -108,7 +108,10 @@ fn f8_xpbd_says_that_it_is_wrong_under_pretension() {
         let mut net = framed(8, 1e4, 10.0);
         run(&mut net, solver, dt, steps);
         let off = (net.positions()[40].z / verlet - 1.0).abs();
-        (residual_n(solver, &net), off)
+        match solver.quality(&net) {
+            Quality::Residual(newtons) => (newtons, off),
+            other => panic!("{other:?}"),
+        }
     };
     let [few, many] = [16, 1024].map(|substeps| wrong(Xpbd::new(substeps, 1)));
     assert!(few.0 > 1.0 && few.1 > 0.5, "{few:?}");

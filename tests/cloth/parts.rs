@@ -199,14 +199,6 @@ pub(crate) fn solved(solver: &Implicit, system: &System) -> Stats {
     }
 }
 
-/// How far the forces that XPBD used are from those that the springs have now, in newtons.
-pub(crate) fn residual_n(xpbd: Xpbd, system: &System) -> f64 {
-    match xpbd.quality(system) {
-        Quality::Residual(newtons) => newtons,
-        _ => unreachable!("XPBD tells its residual"),
-    }
-}
-
 /// The force of a spring by its length, in newtons.
 pub(crate) fn tension_n(system: &System, id: ConstraintId) -> f64 {
     let spring = system.stretches().get(id);
@@ -293,9 +285,4 @@ pub(crate) fn method(name: &str, sweeps: u32) -> Box<dyn Solver> {
         "PBD" => Box::new(Pbd::new(sweeps)),
         other => panic!("no method is called {other}"),
     }
-}
-
-/// Whether a method is implicit.
-pub(crate) fn is_implicit(name: &str) -> bool {
-    name == "Euler" || name == "BDF2"
 }

@@ -9,7 +9,7 @@ use super::{Links, METHODS, theory};
 use crate::parts::nets::{framed, relaxed, relaxed_net, row};
 use crate::parts::vibration::largest_frequency;
 use crate::parts::woven::{self, moduli, weave};
-use crate::parts::{gravity, is_implicit, mechanical_j, method, near, order, run_with};
+use crate::parts::{gravity, mechanical_j, method, near, order, run_with};
 
 /// An error, and the largest that it may be; `None` where the answer is none of the method's.
 type Cell = Option<(f64, f64)>;
@@ -29,7 +29,7 @@ fn projects(name: &str) -> bool {
 
 /// A step of any length is stable.
 fn is_stiff(name: &str) -> bool {
-    projects(name) || is_implicit(name)
+    projects(name) || name == "Euler" || name == "BDF2"
 }
 
 /// The largest difference from the method's own discrete oscillation, relative to the amplitude.

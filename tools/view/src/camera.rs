@@ -181,21 +181,17 @@ mod tests {
     fn what_is_no_camera_is_refused() {
         let eye = Point::new(0.0, 0.0, 5.0);
         let up = Vector::y();
-        let camera = |at, up, degrees| Camera::new([eye, at], up, degrees, [4.0, 3.0]).map(|_| ());
-        assert_eq!(camera(Point::origin(), up, 40.0), Ok(()));
-        assert_eq!(camera(eye, up, 40.0), Err(CameraError::At));
-        assert_eq!(
-            camera(Point::new(0.0, 9.0, 5.0), up, 40.0),
-            Err(CameraError::Up)
-        );
-        assert_eq!(
-            camera(Point::origin(), Vector::zeros(), 40.0),
-            Err(CameraError::Up)
-        );
-        assert_eq!(camera(Point::origin(), up, 180.0), Err(CameraError::Angle));
-        assert_eq!(
-            camera(Point::origin(), up, f64::NAN),
-            Err(CameraError::Angle)
-        );
+        let (at, above) = (Point::origin(), Point::new(0.0, 9.0, 5.0));
+        for (at, up, degrees, error) in [
+            (at, up, 40.0, None),
+            (eye, up, 40.0, Some(CameraError::At)),
+            (above, up, 40.0, Some(CameraError::Up)),
+            (at, Vector::zeros(), 40.0, Some(CameraError::Up)),
+            (at, up, 180.0, Some(CameraError::Angle)),
+            (at, up, f64::NAN, Some(CameraError::Angle)),
+        ] {
+            let camera = Camera::new([eye, at], up, degrees, [4.0, 3.0]);
+            assert_eq!(camera.err(), error);
+        }
     }
 }
