@@ -1,8 +1,10 @@
-//! Times by a clock of our own. (Each run of the experiment holds all implementations against the simulation.)
+//! Implementations against each other and against splits by hand, and times by a clock of our own.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use tearmesh::geometry::Vector;
+use tearmesh::VertexId;
+use tearmesh::geometry::{Plane, Vector};
+use tearmesh_cloth::statistics::Random;
 
 use super::implementations::SCAN;
 use super::*;
@@ -56,4 +58,36 @@ fn times_are_those_beyond_the_overhead_of_the_clock() {
         micros.collect::<Vec<_>>(),
         [(Some(0), 15.0), (Some(1), 25.0)]
     );
+}
+
+/// Splits at random places by random planes, until most vertices have one face: after each, all
+/// implementations have the same triangles.
+#[test]
+fn all_implementations_agree_on_random_splits() {
+    for seed in 0..20 {
+        let mut random = Random::new(seed);
+        let (mesh, positions) = shapes::grid(5, 5);
+        let mut places = positions.as_slice().to_vec();
+        let mut all = IMPLEMENTATIONS[1..].iter().map(|(_, new)| new(&mesh));
+        let mut all: [Box<dyn Implementation>; 3] =
+            std::array::from_fn(|_| all.next().expect("three of them"));
+        for _ in 0..600 {
+            let v = random.below(places.len());
+            let normal = Vector::from_fn(|_, _| random.next() - 0.5);
+            let split = Split {
+                vertex: VertexId::new(v).expect("a number"),
+                plane: Plane::new(places[v], normal).expect("a plane"),
+            };
+            for one in &mut all {
+                one.split(&split, &places);
+            }
+            let [first, second, third] = all.each_ref().map(|one| one.indices());
+            assert_eq!(first, second, "seed {seed}");
+            assert_eq!(first, third, "seed {seed}");
+            if first.iter().any(|v| *v as usize == places.len()) {
+                places.push(places[v]);
+            }
+        }
+        assert!(places.len() > 36 + 50, "seed {seed}: {}", places.len());
+    }
 }
