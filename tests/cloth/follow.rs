@@ -346,6 +346,32 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
     assert!(tears > 100, "{tears}");
 }
 
+/// What is in the log is seen first by the cloth, and by what knows how strong it is.
+#[test]
+fn a_cloth_that_is_behind_the_log_catches_up_before_it_tears() {
+    let mut tears = 0;
+    for seed in 0..20 {
+        let mut random = Random(seed);
+        let (mut mesh, positions) = shapes::grid(5, 5);
+        let mut cloth = shaken(&mesh, &positions, Fabric::new(40.0), &mut random);
+        let (x, _) = cloth.system_mut().state_mut();
+        x.iter_mut().for_each(|p| p.x *= 1.5);
+        let (mut tear, mut strengths) = tearing(&mesh, &cloth, seed);
+        let mut edits = Edits::new();
+        edits.replay(&mut strengths);
+        for _ in 0..40 {
+            edit(&mut mesh, &cloth, &mut edits, &mut random);
+            tears += tear.apply(&mut mesh, &mut cloth, &mut edits).splits;
+            check(&mesh, &cloth, false);
+            edits.replay(&mut strengths);
+            let is_kept = |v: VertexId| tear.strength(v) == *strengths.at(v);
+            assert!(mesh.vertices().all(is_kept));
+            edits.clear();
+        }
+    }
+    assert!(tears > 100, "{tears}");
+}
+
 #[test]
 fn pieces_of_a_face_without_area_fall_and_meet_again() {
     // The second face is on a line, and weighs three units; its three pieces have nine corners.
