@@ -271,7 +271,17 @@ pub fn sew(
     if !refused.is_empty() {
         return Err(SewError { refused });
     }
-    let mut copies = copies(mesh, &roots, weight);
+    let copies = copies(mesh, &roots, weight);
+    Ok(sew_checked(mesh, stitches, copies, edits))
+}
+
+/// Carries out stitches that are not refused, with what is known of each vertex.
+fn sew_checked(
+    mesh: &mut Mesh,
+    stitches: &[Stitch],
+    mut copies: Vec<Copied>,
+    edits: &mut Edits,
+) -> usize {
     // Highest first: what is renumbered on the way is above all that is still to go, and so
     // is in no stitch.
     let mut rest: BinaryHeap<Stitch> = stitches.iter().copied().collect();
@@ -294,7 +304,7 @@ pub fn sew(
             rest.extend(also);
         }
     }
-    Ok(merges)
+    merges
 }
 
 /// What sewing knows of each vertex, so that it need not walk round a whole hub for each copy.

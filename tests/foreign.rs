@@ -9,7 +9,7 @@ use std::sync::Once;
 
 use tearmesh::insert::{ChordEnd, Plan};
 use tearmesh::mend::{self, Stitch};
-use tearmesh::script::{Script, Step, World};
+use tearmesh::script::{Script, World};
 use tearmesh::{
     Edits, FaceId, HalfEdgeId, Mesh, PerVertex, Place, Plane, Point, Vector, VertexId, classify,
     shapes, slide, split, tear,
@@ -62,13 +62,12 @@ fn operations<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
     moving.insert(random.below(moving.len() + 1), f);
     let weights = [[1.0; 2], [-1.0; 2]][random.below(2)];
     let t = [0.5, 0.0][random.below(2)];
-    let quiet = |_: &World, _: &Step<'_>| {};
     // A point on an edge of this mesh comes before what is foreign.
     let insert = move |world: &mut World, more: &dyn Fn(&mut Plan, ChordEnd)| {
         let mut plan = Plan::new();
         let point = plan.on_edge(corner, 0.5);
         more(&mut plan, ChordEnd::Point(point));
-        world.insert(&plan, quiet);
+        world.insert(&plan, &mut |_, _| {});
     };
     let slide = move |w: &mut World, v, toward| {
         slide::toward(&mut w.mesh, v, toward, t, &mut w.edits).is_ok()
@@ -76,16 +75,26 @@ fn operations<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
 
     let mut cases = Cases::default();
     let near = corner.face();
-    cases.add(v, "split a vertex", move |w| w.split(v, &[near], quiet));
-    cases.add(v, "split into nothing", move |w| w.split(v, &[], quiet));
-    cases.add(f, "split off a face", move |w| w.split(own, &moving, quiet));
+    cases.add(v, "split a vertex", move |w| {
+        w.split(v, &[near], &mut |_, _| {})
+    });
+    cases.add(v, "split into nothing", move |w| {
+        w.split(v, &[], &mut |_, _| {})
+    });
+    cases.add(f, "split off a face", move |w| {
+        w.split(own, &moving, &mut |_, _| {})
+    });
     cases.add(v, "split by a plane", move |w| {
         split::by_plane(&mut w.mesh, v, &plane, &w.positions, &mut w.edits).is_some()
     });
-    cases.add(v, "merge one", move |w| w.merge(v, own, weights, quiet));
-    cases.add(v, "merge other", move |w| w.merge(own, v, weights, quiet));
+    cases.add(v, "merge one", move |w| {
+        w.merge(v, own, weights, &mut |_, _| {})
+    });
+    cases.add(v, "merge other", move |w| {
+        w.merge(own, v, weights, &mut |_, _| {})
+    });
     cases.add(v, "merge with itself", move |w| {
-        w.merge(v, v, weights, quiet);
+        w.merge(v, v, weights, &mut |_, _| {});
     });
     cases.add(v, "sew", move |w| {
         let stitches = [Stitch::new(v, own).expect("they differ")];
@@ -189,7 +198,7 @@ fn a_foreign_id_is_a_panic_that_changes_nothing(world: &World, case: &Case<'_>) 
         let mut world = world.clone();
         for v in world.mesh.vertices() {
             let face = world.mesh.faces_of(v).next();
-            world.split(v, &Vec::from_iter(face), |_, _| {});
+            world.split(v, &Vec::from_iter(face), &mut |_, _| {});
         }
         world
     };

@@ -76,27 +76,24 @@ impl Soup<'_> {
         for f in 0..self.triangles.len() as u32 {
             self.is_sound(f, visit);
         }
-        let smaller_end = |h| self.ends(h)[0];
-        self.in_ranges(smaller_end, |half_edges| {
-            half_edges.sort_unstable_by_key(|&h| (self.ends(h), self.opposite(h), h));
-            for along in half_edges.chunk_by_mut(|&h, &g| self.ends(h) == self.ends(g)) {
-                self.look_at_edge(along, visit);
-            }
-        });
-        self.in_ranges(
-            |h| self.origin(h),
+        self.by_vertex(
+            |h| self.ends(h)[0],
             |half_edges| {
-                half_edges.sort_unstable_by_key(|&h| (self.origin(h), h));
-                for around in half_edges.chunk_by_mut(|&h, &g| self.origin(h) == self.origin(g)) {
-                    self.look_at_vertex(around, visit);
+                half_edges.sort_unstable_by_key(|&h| [self.ends(h)[1], self.opposite(h)]);
+                for along in half_edges.chunk_by_mut(|&h, &g| self.ends(h) == self.ends(g)) {
+                    self.look_at_edge(along, visit);
                 }
             },
         );
+        self.by_vertex(
+            |h| self.origin(h),
+            |half_edges| self.look_at_vertex(half_edges, visit),
+        );
     }
 
-    /// Hands out the half-edges of sound faces by ranges of vertices: as many as have a quarter of
-    /// them, or one that has more.
-    fn in_ranges(self, vertex: impl Fn(u32) -> u32, mut look: impl FnMut(&mut [u32])) {
+    /// Hands out the half-edges of sound faces by their vertices, in ascending order. Those of as many
+    /// vertices are found at once as have a quarter of them, or of one that has more.
+    fn by_vertex(self, vertex: impl Fn(u32) -> u32, mut look: impl FnMut(&mut [u32])) {
         let all = || {
             let faces = (0..self.triangles.len() as u32).filter(|&f| self.is_sound(f, &mut |_| {}));
             faces.flat_map(|f| 3 * f..3 * f + 3)
@@ -109,15 +106,27 @@ impl Soup<'_> {
         let mut half_edges = Vec::with_capacity(limit);
         let mut start = 0;
         while start < sizes.len() {
+            // Sizes become the places where the next half-edge of each vertex goes, and then where those end.
             let (mut end, mut size) = (start, 0);
             while end < sizes.len() && size + sizes[end] as usize <= limit {
+                let first = size as u32;
                 size += sizes[end] as usize;
+                sizes[end] = first;
                 end += 1;
             }
-            let is_here = |&h: &u32| (start..end).contains(&(vertex(h) as usize));
-            half_edges.clear();
-            half_edges.extend(all().filter(is_here));
-            look(&mut half_edges);
+            half_edges.resize(size, 0);
+            for h in all() {
+                let vertex = vertex(h) as usize;
+                if (start..end).contains(&vertex) {
+                    half_edges[sizes[vertex] as usize] = h;
+                    sizes[vertex] += 1;
+                }
+            }
+            let mut first = 0;
+            for &last in &sizes[start..end] {
+                look(&mut half_edges[first..last as usize]);
+                first = last as usize;
+            }
             start = end;
         }
     }
@@ -167,15 +176,16 @@ impl Soup<'_> {
         [from.min(to), from.max(to)]
     }
 
-    /// Looks at the half-edges along one edge, which are in their order: whether they are too many,
-    /// and whether faces lie on the same three vertices of which the edge has the first two.
+    /// Looks at the half-edges along one edge, which are in the order of the vertices opposite: whether they are
+    /// too many, and whether faces lie on the same three vertices of which the edge has the first two.
     fn look_at_edge(self, along: &mut [u32], visit: &mut impl FnMut(Defect)) {
         let [first, _, ..] = *along else {
             return;
         };
         let [a, b] = self.ends(first);
         let ends = [a, b].map(VertexId::from_u32);
-        for group in along.chunk_by(|&h, &g| self.opposite(h) == self.opposite(g)) {
+        for group in along.chunk_by_mut(|&h, &g| self.opposite(h) == self.opposite(g)) {
+            group.sort_unstable();
             let c = self.opposite(group[0]);
             let vertices = [ends[0], ends[1], VertexId::from_u32(c)];
             match *group {
@@ -210,7 +220,7 @@ impl Soup<'_> {
         }
     }
 
-    /// Looks at the corners at one vertex. Faces round it belong to one fan if they share an edge
+    /// Looks at the corners at one vertex, which ascend. Faces round it belong to one fan if they share an edge
     /// at it, in any direction and with however many others: what is wrong with the edge is
     /// said elsewhere. So fans are the connected parts of the link of the vertex: its nodes are
     /// the neighbours, and each face joins two.

@@ -155,7 +155,7 @@ impl World {
     /// # Panics
     ///
     /// If the mesh has no vertex or no face.
-    pub fn apply(&mut self, operation: &Operation, mut observe: impl FnMut(&World, &Step<'_>)) {
+    pub fn apply(&mut self, operation: &Operation, observe: &mut dyn FnMut(&World, &Step<'_>)) {
         match *operation {
             Operation::Split {
                 vertex,
@@ -273,7 +273,7 @@ impl World {
             Operation::Tear => {
                 for v in self.mesh.vertices() {
                     for &face in self.faces(v).iter().skip(1) {
-                        self.split(v, &[face], &mut observe);
+                        self.split(v, &[face], observe);
                     }
                 }
             }
@@ -336,7 +336,7 @@ impl World {
         &mut self,
         vertex: VertexId,
         faces: &[FaceId],
-        observe: impl FnMut(&World, &Step<'_>),
+        observe: &mut dyn FnMut(&World, &Step<'_>),
     ) {
         let split = split::vertex(&mut self.mesh, vertex, faces, &mut self.edits);
         let outcome = split.map(|split| split.before);
@@ -349,7 +349,7 @@ impl World {
     }
 
     /// Inserts vertices, and calls `observe` after this step.
-    pub fn insert(&mut self, plan: &Plan, observe: impl FnMut(&World, &Step<'_>)) {
+    pub fn insert(&mut self, plan: &Plan, observe: &mut dyn FnMut(&World, &Step<'_>)) {
         let insert = plan.apply(&mut self.mesh, &mut self.edits);
         let outcome = insert.map(|insert| insert.before);
         if outcome.is_ok() {
@@ -364,7 +364,7 @@ impl World {
         one: VertexId,
         other: VertexId,
         weights: [f64; 2],
-        observe: impl FnMut(&World, &Step<'_>),
+        observe: &mut dyn FnMut(&World, &Step<'_>),
     ) {
         let merge = mend::merge(&mut self.mesh, one, other, weights, &mut self.edits);
         let outcome = merge.map(|merge| merge.before);
@@ -378,7 +378,7 @@ impl World {
     }
 
     /// Lets the followers replay a step, and shows it.
-    fn end(&mut self, step: &Step<'_>, mut observe: impl FnMut(&World, &Step<'_>)) {
+    fn end(&mut self, step: &Step<'_>, observe: &mut dyn FnMut(&World, &Step<'_>)) {
         if let Some(half) = &mut self.half {
             self.edits.replay(half);
         }
