@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use tearmesh::shapes;
 
 use crate::harness::{Folder, file_of, signal};
+use crate::support::cases::stride;
 
 /// A folder with a sheet that takes a while to read and to write.
 struct Sheet {
@@ -70,13 +71,14 @@ fn a_run_ended_by_a_signal_leaves_no_draft() {
     let whole = sheet.whole("new.obj");
     let new = sheet.folder.read("new.obj");
     let mut in_writing = 0;
-    for i in 0..60 {
+    let runs = 60 / stride() as u32;
+    for i in 0..runs {
         let old = "something old\n";
         sheet.folder.write("out.obj", old);
         let mut child = sheet.cut("out.obj");
         // Half of them as soon as there is a draft.
         if i % 2 == 0 {
-            std::thread::sleep(whole * i / 60);
+            std::thread::sleep(whole * i / runs);
         } else {
             while child.try_wait().expect("a state").is_none() && sheet.left().is_empty() {}
         }

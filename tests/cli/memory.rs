@@ -39,33 +39,26 @@ fn exit_and_peak(args: &[&str]) -> (String, usize) {
     (words[at - 1].to_owned(), peak)
 }
 
-// Two tests, since each takes as long as all others on one of two processors.
-
-#[test]
-fn refused_nonagons_take_no_more_memory_than_promised() {
-    takes_no_more_than_promised("nonagons", "f 1 2 3 4 5 6 7 8 9\n", &["check", "cut"]);
-}
-
-#[test]
-fn a_refused_bow_tie_takes_no_more_memory_than_promised() {
-    let faces = "f 1 2 3 4 5\nf 1 6 7 8 9\n";
-    takes_no_more_than_promised("a bow-tie of pentagons", faces, &["cut", "check"]);
-}
-
 /// The size of such a file. Twelve times it is just more than 64 MiB, so that what is taken besides counts
 /// most.
 const MIB: usize = 6;
 
-/// A file that has these faces again and again, by the first of the verbs, and in CI by all.
-fn takes_no_more_than_promised(name: &str, faces: &str, verbs: &[&str]) {
+/// Files that have the same faces again and again: the first of them by the first verb, and in CI both by both.
+#[test]
+fn refused_files_take_no_more_memory_than_promised() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("refused.obj");
     let path = path.to_str().expect("a plain name");
     let nine = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nv 2 0 1\nv 0 2 1\nv 2 2 0\nv 3 1 0\nv 1 3 0\n";
-    let file = nine.to_owned() + &faces.repeat((MIB << 20) / faces.len());
-    std::fs::write(path, &file).expect("a temporary file");
-    let allowed = 12 * file.len() / 1024;
-    for &verb in verbs.iter().step_by(stride()) {
+    let files = [
+        ("nonagons", "f 1 2 3 4 5 6 7 8 9\n"),
+        ("a bow-tie of pentagons", "f 1 2 3 4 5\nf 1 6 7 8 9\n"),
+    ];
+    let cases = files.map(|file| ["check", "cut"].map(|verb| (file, verb)));
+    for &((name, faces), verb) in cases.as_flattened().iter().step_by(stride()) {
+        let file = nine.to_owned() + &faces.repeat((MIB << 20) / faces.len());
+        std::fs::write(path, &file).expect("a temporary file");
+        let allowed = 12 * file.len() / 1024;
         let rays = ["--rays", "0.1,0,5:0,0,-1", "0.2,1,5:0,0,-1", "--dry-run"];
         let rays = if verb == "cut" { &rays[..] } else { &[] };
         let (exit, peak) = exit_and_peak(&[&["tearmesh", verb, path], rays].concat());

@@ -18,12 +18,12 @@ use crate::harness::{Folder, files_in, root};
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
     ("README.md", 0x8708_94c6_1bd7_f1dc),
-    ("tear.txt", 0xe4be_167b_3b51_cb23),
+    ("tear.txt", 0x5ee6_fc2a_a4f9_8252),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x007e_72b9_d7c2_99a1;
+const DIGEST: u64 = 0xdba5_2eb1_eea4_b3ac;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

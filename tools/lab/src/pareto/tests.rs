@@ -119,7 +119,7 @@ fn options(scenes: &[&str], cells: u32) -> Options {
 fn fronts_are_those_of_the_record() {
     let scenes = ["hang", "swing", "sliver", "taut", "strip"];
     let meshes = MeshKind::ALL.to_vec();
-    let options = options(&scenes, 5);
+    let options = options(&scenes, 4);
     let experiment = Pareto::new(Options { meshes, ..options });
     let (rows, _) = conduct(&experiment, workers(), &UNBOUNDED, |_| {});
     let mut found = String::new();
