@@ -1,12 +1,12 @@
 //! What exactly is wrong with triangles that `build.rs` refused.
 //!
-//! Thorough rather than fast: half-edges are sorted, and nothing is assumed of the rest of the mesh
-//! when one part of it is broken. O(n log n).
+//! Thorough rather than fast: nothing is assumed of the rest of the mesh when one part of it is broken.
+//! O(n log n).
 //!
-//! Lean, since whoever is told must not run out of memory instead: what is sorted are bare numbers
-//! whose keys are looked up in the triangles, by their edges and then by their origins, and those of a
-//! quarter of the mesh at a time. So beside the triangles there are three bytes a face, or up to eight
-//! where all faces meet at one vertex.
+//! Lean, since whoever is told must not run out of memory instead: what is dealt out to the vertices,
+//! and sorted there by edges, are bare numbers of half-edges, whose keys are looked up in the triangles,
+//! and those of a quarter of the mesh at a time. So beside the triangles there are three bytes a face,
+//! or up to eight where all faces meet at one vertex.
 
 use std::collections::BTreeMap;
 
