@@ -79,11 +79,12 @@ impl Played {
     fn pull(&mut self, from: [f64; 2], to: [f64; 2], seconds: f64) {
         self.chrome.mouse("mouseMoved", from);
         self.chrome.mouse("mousePressed", from);
-        for part in 1..=10 {
-            let part = f64::from(part) / 10.0;
+        // The page tells its time five times a second.
+        for part in 1..=4 {
+            let part = f64::from(part) / 4.0;
             let at = [0, 1].map(|i| from[i] + (to[i] - from[i]) * part);
             self.chrome.mouse("mouseDragged", at);
-            self.pass(seconds / 10.0);
+            self.pass(seconds / 4.0);
         }
     }
 
