@@ -9,7 +9,7 @@ use std::sync::Once;
 
 use tearmesh::insert::{ChordEnd, Plan};
 use tearmesh::mend::{self, Stitch};
-use tearmesh::script::{Script, World};
+use tearmesh::script::{Script, Step, World};
 use tearmesh::{
     Edits, FaceId, HalfEdgeId, Mesh, PerVertex, Place, Plane, Point, Vector, VertexId, classify,
     shapes, slide, split, tear,
@@ -47,6 +47,9 @@ impl<'c> Cases<'c> {
     }
 }
 
+/// Looks at no step.
+fn quiet(_: &World, _: &Step<'_>) {}
+
 /// Every operation and every query, with a foreign id.
 fn operations<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
     let mesh = &world.mesh;
@@ -67,7 +70,7 @@ fn operations<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
         let mut plan = Plan::new();
         let point = plan.on_edge(corner, 0.5);
         more(&mut plan, ChordEnd::Point(point));
-        world.insert(&plan, &mut |_, _| {});
+        world.insert(&plan, &mut quiet);
     };
     let slide = move |w: &mut World, v, toward| {
         slide::toward(&mut w.mesh, v, toward, t, &mut w.edits).is_ok()
@@ -76,25 +79,25 @@ fn operations<'c>(world: &World, random: &mut Random) -> Vec<Case<'c>> {
     let mut cases = Cases::default();
     let near = corner.face();
     cases.add(v, "split a vertex", move |w| {
-        w.split(v, &[near], &mut |_, _| {})
+        w.split(v, &[near], &mut quiet);
     });
     cases.add(v, "split into nothing", move |w| {
-        w.split(v, &[], &mut |_, _| {})
+        w.split(v, &[], &mut quiet);
     });
     cases.add(f, "split off a face", move |w| {
-        w.split(own, &moving, &mut |_, _| {})
+        w.split(own, &moving, &mut quiet);
     });
     cases.add(v, "split by a plane", move |w| {
         split::by_plane(&mut w.mesh, v, &plane, &w.positions, &mut w.edits).is_some()
     });
     cases.add(v, "merge one", move |w| {
-        w.merge(v, own, weights, &mut |_, _| {})
+        w.merge(v, own, weights, &mut quiet);
     });
     cases.add(v, "merge other", move |w| {
-        w.merge(own, v, weights, &mut |_, _| {})
+        w.merge(own, v, weights, &mut quiet);
     });
     cases.add(v, "merge with itself", move |w| {
-        w.merge(v, v, weights, &mut |_, _| {});
+        w.merge(v, v, weights, &mut quiet);
     });
     cases.add(v, "sew", move |w| {
         let stitches = [Stitch::new(v, own).expect("they differ")];
@@ -198,7 +201,7 @@ fn a_foreign_id_is_a_panic_that_changes_nothing(world: &World, case: &Case<'_>) 
         let mut world = world.clone();
         for v in world.mesh.vertices() {
             let face = world.mesh.faces_of(v).next();
-            world.split(v, &Vec::from_iter(face), &mut |_, _| {});
+            world.split(v, &Vec::from_iter(face), &mut quiet);
         }
         world
     };
