@@ -190,7 +190,8 @@ fn an_interrupted_chart_ends_at_once_with_what_was_done() {
     use std::time::{Duration, Instant};
 
     let folder = Folder::new();
-    let line = "chart pareto --scene undamped --size 2,32 --visits-max 100000000000 --threads 1 -o p.svg --csv p.csv";
+    let line = "chart pareto --scene undamped --size 2,32 --threads 1 --visits-max 100000000000 \
+                -o p.svg --csv p.csv";
     let mut command = folder.command(line);
     let piped = command.stderr(Stdio::piped()).stdout(Stdio::null());
     let mut child = piped.spawn().expect("a run");
@@ -198,7 +199,7 @@ fn an_interrupted_chart_ends_at_once_with_what_was_done() {
     let mut said = String::new();
     words.read_line(&mut said).expect("how long it will take");
     // The small mesh is done by then, and nothing of the other.
-    std::thread::sleep(Duration::from_secs(2));
+    std::thread::sleep(Duration::from_secs(1));
     let begun = Instant::now();
     crate::harness::signal("-INT", child.id());
     let status = child.wait().expect("an end");
