@@ -137,8 +137,8 @@ pub use mesh::{
 pub use nalgebra;
 pub use place::{Place, PositionError, Positions};
 pub use scissor::{
-    Cut, CutEnd, CutError, CutLayers, CutMethod, CutNeck, CutPieces, CutReport, CutTips, LayerHit,
-    Scissor, ScissorError, SeamLine,
+    Cut, CutAim, CutEnd, CutError, CutLayers, CutMethod, CutNeck, CutPieces, CutReport, CutTips,
+    LayerHit, Scissor, ScissorError, SeamLine,
 };
 pub use sets::DisjointSets;
 pub use sheet::Sheet;

@@ -214,7 +214,8 @@ pub enum Operation {
         /// The normal of the plane. If it is zero, nothing is done.
         normal: [i8; 3],
     },
-    /// Cut between two rays by the method `partition`. If they span no plane, nothing is done.
+    /// Cut between two rays by the method `partition`. If they span no plane, or cross within the mesh,
+    /// nothing is done.
     Cut {
         /// Whether the cut continues beyond the rays.
         through: bool,

@@ -6,7 +6,7 @@
 
 use tearmesh::script::Script;
 use tearmesh::{
-    Cursor, CutEnd, CutLayers, CutMethod, Mesh, Point, Positions, Ray, Scissor, VertexId,
+    Cursor, CutEnd, CutError, CutLayers, CutMethod, Mesh, Point, Positions, Ray, Scissor, VertexId,
 };
 
 use crate::work::{METHODS, Work, area};
@@ -196,7 +196,11 @@ impl World {
     ) -> Option<CutEnd> {
         let (first, before) = (self.work.edits.cursor(), self.work.positions.clone());
         let pieces_before = self.work.mesh.components().count();
-        let (cut, report) = self.work.cut(method, scissor);
+        let (cut, report) = match self.work.try_cut(method, scissor) {
+            Ok(made) => made,
+            Err(CutError::RaysCross { .. } | CutError::TooShort { .. }) => return None,
+            Err(error) => panic!("positions are in step: {error}"),
+        };
         if snap_move {
             // With a large snap, on a mesh of a few faces, that may be half of it.
             self.area = area(&self.work.mesh, &self.work.positions);

@@ -120,7 +120,9 @@ impl Made {
     fn a_plane_cuts_as_two_rays_through_everything_do(&self, case: &Case, method: CutMethod) {
         let through = case.scissor().through(true);
         let by_rays = Made::new(case, &through, method);
-        let alone = Scissor::by_plane(through.plane());
+        let before = Work::of(&case.before);
+        let aimed = through.aimed_at(&before.mesh, &before.positions);
+        let alone = Scissor::by_plane(aimed.expect("no side planes").plane());
         assert_eq!(alone.sides(), None);
         let by_plane = Made::new(case, &alone.through(false), method);
         assert_eq!(by_plane.work.mesh, by_rays.work.mesh, "{}", self.name);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tearmesh::{CutEnd, CutMethod, CutReport, Edit, Scissor, VertexId};
 
-use crate::oracle::straight::{Cut, Surface, is_generic, judge_polyline};
+use crate::oracle::straight::{Cut, Surface, is_generic, judge_polyline, minus};
 use crate::random::Random;
 use crate::straight::{judged, random_generic_cut, said};
 use crate::straight_polylines::random_corners;
@@ -67,13 +67,16 @@ fn cuts_across_cuts_satisfy_the_oracle_and_are_mended() {
     assert!(of_torn >= 150, "{of_torn} cuts of torn meshes");
 }
 
-/// Cuts along a polyline of points of the plane z = 0, seen from above.
-fn along_polyline(work: &mut Work, corners: &[[f64; 2]], snap: f64) {
+/// A ray through a point of the plane z = 0.
+type View<'v> = &'v dyn Fn([f64; 2]) -> ([f64; 3], [f64; 3]);
+
+/// Cuts along a polyline of points of the plane z = 0.
+fn along_polyline(work: &mut Work, corners: &[[f64; 2]], view: View<'_>, snap: f64) {
     let mut last: Option<CutEnd> = None;
     for two in corners.windows(2) {
         let scissor = match &last {
-            Some(end) => Scissor::continued(end, ray(down(two[1])), &work.positions),
-            None => Ok(between(two[0], two[1])),
+            Some(end) => Scissor::continued(end, ray(view(two[1])), &work.positions),
+            None => Scissor::new(ray(view(two[0])), ray(view(two[1]))),
         };
         let scissor = scissor.expect("a plane").snap(snap);
         let (cut, _) = work.cut(CutMethod::Exact, &scissor);
@@ -89,7 +92,7 @@ fn loops_of_polylines(sheet: &Surface, count: usize, snap: f64, seed: u64) -> Ve
     let lines = lines.filter(|corners| corners.iter().all(inside));
     let cut = |corners: Vec<[f64; 2]>| {
         let mut work = Work::of(sheet);
-        along_polyline(&mut work, &corners, snap);
+        along_polyline(&mut work, &corners, &down, snap);
         work.mesh.boundary_loops().len()
     };
     lines.take(count).map(cut).collect()
@@ -123,21 +126,38 @@ fn every_polyline_is_one_slit_on_each_sheet_that_it_passes() {
     assert!(joined >= 57, "{joined}");
 }
 
+/// A ray from an eye, or from a place that is so far from it, through a point of the plane z = 0.
+fn from_eye([x, y]: [f64; 2], aside: f64) -> ([f64; 3], [f64; 3]) {
+    // Another place for each point.
+    let aside = [aside * (40.0 * x).sin(), aside * (40.0 * y).sin(), 0.0];
+    let eye = minus([0.35, 0.6, 4.0], aside);
+    (eye, minus([x, y, 0.0], eye))
+}
+
+/// From above, from one eye, and from eyes that are nearly one.
 #[test]
 fn polylines_satisfy_the_oracle() {
+    satisfy_the_oracle(&down, &down);
+    for aside in [0.0, 1e-15, 1e-12] {
+        satisfy_the_oracle(&|p| from_eye(p, aside), &|p| from_eye(p, 0.0));
+    }
+}
+
+/// `meant` is the view by which the oracle judges.
+fn satisfy_the_oracle(view: View<'_>, meant: View<'_>) {
     let mut random = Random(43);
     for sheet in sheets() {
         let mut done = 0;
         while done < 40 {
             let corners = random_corners(&mut random);
-            let cut = |two: &[[f64; 2]]| Cut::between([down(two[0]), down(two[1])]);
+            let cut = |two: &[[f64; 2]]| Cut::between([meant(two[0]), meant(two[1])]);
             let cuts: Vec<Cut> = corners.windows(2).map(cut).collect();
             if !cuts.iter().all(|cut| is_generic(&sheet, cut)) {
                 continue;
             }
             done += 1;
             let mut work = Work::of(&sheet);
-            along_polyline(&mut work, &corners, 0.0);
+            along_polyline(&mut work, &corners, view, 0.0);
             if let Err(faults) = judge_polyline(&sheet, &cuts, &work.surface()) {
                 panic!("{corners:?}: {}", said(&faults));
             }

@@ -27,6 +27,7 @@ mod oracle;
 mod pick;
 mod planes;
 mod polygons;
+mod polylines;
 mod proof;
 mod properties;
 mod rational;

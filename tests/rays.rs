@@ -180,8 +180,16 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
         assert!(leaves <= 16.0 * EPSILON / spread, "V_A leaves the plane");
     }
     assert!((0.0..=1.0 + 8.0 * EPSILON).contains(&scissor.skew()));
+    // Where the normal is not known to the last digits, neither is the skew, and less than that is none.
     let skew = normal.dot(&along_b).abs();
-    assert!((scissor.skew() - skew).abs() <= 64.0 * EPSILON, "{skew}");
+    let of_normal = if by_origins {
+        spanned.amax() / apart.amax()
+    } else {
+        angle
+    };
+    let is_vague = scissor.skew() == 0.0 && skew * of_normal <= 256.0 * EPSILON;
+    let off = (scissor.skew() - skew).abs();
+    assert!(off <= 64.0 * EPSILON || is_vague || !known, "{skew}");
 
     // Near the smallest numbers a bound that is a part of them vanishes.
     let out = -128.0 * EPSILON * reach - f64::MIN_POSITIVE;
@@ -205,8 +213,12 @@ fn scissor(a: &Ray, b: &Ray) -> Option<Scissor> {
             assert!(side.normal().dot(&normal).abs() <= bound, "upright");
             assert!(side.normal().dot(&along).abs() <= bound, "along the ray");
         }
+        // The other ray ends up inside. If it begins there, it is inside as a whole.
+        let leaves = side.normal().dot(&[along_b, along_a][i]);
+        assert!(leaves >= -256.0 * EPSILON, "outward: {leaves:e}");
         let inward = side.distance(origins[1 - i]);
-        assert!(inward >= out, "inward is out: {inward:e}");
+        let is_parallel = leaves <= 8.0 * EPSILON;
+        assert!(inward >= out || !is_parallel, "inward is out: {inward:e}");
     }
     if angle == 0.0 {
         let middle = Point::from((a.origin().coords + b.origin().coords) / 2.0);

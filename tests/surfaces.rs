@@ -71,7 +71,7 @@ pub(crate) fn delaunay(count: usize, border: u32, random: &mut Random) -> Surfac
 }
 
 /// An octahedron, subdivided and blown up.
-fn sphere(times: usize) -> Surface {
+pub(crate) fn sphere(times: usize) -> Surface {
     let mut sphere = surface(&shapes::octahedron());
     for _ in 0..times {
         let mut middles = BTreeMap::new();

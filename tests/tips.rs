@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use tearmesh::{CutMethod, CutReport, Edit, Scissor, VertexId, shapes};
 
+use crate::cases::cases;
 use crate::oracle::straight::Surface;
 use crate::random::Random;
 use crate::surfaces::{sheets, surface};
@@ -185,4 +186,34 @@ fn rays_barely_beyond_the_boundary_cut_off_a_piece() {
             is_divided(n, ends, CutMethod::Exact, snap);
         }
     }
+}
+
+/// What [`Scissor::snap`] says of slits with both ends inside sheets of a few hundred triangles.
+#[test]
+fn tips_are_as_far_from_where_they_should_be_as_the_documentation_says() {
+    let (mut random, mut off, mut told) = (Random(7), Vec::new(), 0);
+    let count = 4 * cases();
+    let sheets = sheets();
+    for i in 0..count {
+        let sheet = &sheets[i as usize % 3];
+        let ends =
+            [0; 2].map(|_: usize| in_face(sheet, random.below(sheet.faces.len()), &mut random));
+        let (work, report, _) = slit(sheet, ends, Scissor::SNAP, false);
+        if work.edits.is_empty() {
+            continue;
+        }
+        let edge = sheet.mean_edge();
+        off.extend(report.tip_overshoots.iter().map(|off| off.abs() / edge));
+        let aims = report.aims.into_iter().flatten().flatten();
+        told += aims.filter(tearmesh::CutAim::is_missed).count();
+    }
+    off.sort_by(f64::total_cmp);
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    let most = off[off.len() * 99 / 100];
+    let told = told as f64 / off.len() as f64;
+    println!("mean {mean}, 99 % within {most}, told {told}");
+    assert!(
+        mean < 0.005 && most < 0.05 && told < 0.01,
+        "{mean}, {most}, {told}"
+    );
 }

@@ -3,8 +3,8 @@
 //! The fuzz target `cut_mend` uses this too.
 
 use tearmesh::{
-    Cut, CutMethod, CutReport, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray, Scissor,
-    Vector, VertexId, mend,
+    Cut, CutError, CutMethod, CutReport, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray,
+    Scissor, Vector, VertexId, mend,
 };
 
 /// Two rays: an origin and a direction each.
@@ -80,15 +80,28 @@ impl Work {
 
     /// Cuts, and checks what holds of every cut.
     pub(crate) fn cut(&mut self, method: CutMethod, scissor: &Scissor) -> (Cut, CutReport) {
+        let made = self.try_cut(method, scissor);
+        made.expect("positions are in step, and it is clear what to cut")
+    }
+
+    /// Cuts, or changes nothing if that is refused; and checks what holds of every cut.
+    pub(crate) fn try_cut(
+        &mut self,
+        method: CutMethod,
+        scissor: &Scissor,
+    ) -> Result<(Cut, CutReport), CutError> {
+        let (first, mesh_before) = (self.edits.cursor(), self.mesh.clone());
         let (mesh, positions) = (&mut self.mesh, &mut self.positions);
         let made = scissor.cut_measured(method, mesh, positions, &mut self.edits);
-        let (cut, report) = made.expect("positions are in step");
+        let (cut, report) = made.inspect_err(|_| {
+            assert!(self.edits.cursor() == first && self.mesh == mesh_before);
+        })?;
         self.follow();
         self.is_sound();
         assert_eq!(report.pieces, self.mesh.components().count());
         let seam = cut.seam().map(|line| 2 * line.lips.len()).sum();
         assert_eq!(report.ghost_pairs, seam);
-        (cut, report)
+        Ok((cut, report))
     }
 
     /// Has all that follows the mesh replay the log.

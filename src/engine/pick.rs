@@ -20,6 +20,7 @@
 //! All faces are tested, in the order of their ids. The cost is linear, and no search tree must be
 //! updated while the mesh moves and tears.
 
+use crate::attribute::Blend as _;
 use crate::exact::{ExactSum, ROUNDING, product};
 use crate::geometry::{Point, Ray, Vector, cross, dot, length, scaled};
 use crate::id::FaceId;
@@ -37,6 +38,19 @@ pub struct RayHit {
     pub weights: [f64; 3],
     /// The distance of the hit point from the origin of the ray, in units of the model.
     pub distance: f64,
+}
+
+impl RayHit {
+    /// Returns the point at which the ray meets the face.
+    ///
+    /// # Panics
+    ///
+    /// If the face is not one of this mesh, or `place` does not store the positions of its vertices.
+    #[must_use]
+    pub fn point(&self, mesh: &Mesh, place: &(impl Place + ?Sized)) -> Point {
+        let corners = mesh.face_vertices(self.face).map(|v| place.at(v));
+        Point::weighted(corners.each_ref(), self.weights)
+    }
 }
 
 /// Returns the nearest face that a ray meets, from either side, or `None` if it meets no face.

@@ -36,7 +36,7 @@ use super::outcome::{Judged, Outcome, Sides, faces_at};
 use super::pieces::{Census, Pinch};
 use super::way::Way;
 use crate::edit::{Cursor, Edit, Edits};
-use crate::geometry::{Point, between};
+use crate::geometry::Point;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::insert::{InsertRefusal, Plan};
 use crate::mesh::Mesh;
@@ -46,6 +46,11 @@ use label::Patches;
 use planner::Planner;
 pub(super) use trace::Trace;
 use trace::{Place, Site};
+
+/// How near a node a tip may be without being that node, as a part of the way through the face.
+pub(super) fn nearest_tip(snap: f64) -> f64 {
+    snap.max(tracer::TIP_MIN)
+}
 
 /// Finds where the slit runs, and where it has to end so that no face gets thin.
 pub(super) fn trace(way: &Way<'_>, snap: f64, mesh: &Mesh, positions: &Positions) -> Trace {
@@ -205,15 +210,8 @@ fn sides(
 
 /// Whether the plane crosses a triangle between the side planes.
 fn meets(way: &Way<'_>, corners: [Point; 3]) -> bool {
-    let crossing = |i: usize| {
-        let (p, q) = (corners[i], corners[(i + 1) % 3]);
-        let plane = way.strip.plane;
-        let (from, to) = (plane.offset(p), plane.offset(q));
-        ((from < 0.0) != (to < 0.0)).then(|| between(p, q, from / (from - to)))
-    };
-    let mut ends = (0..3).filter_map(crossing);
-    let is_inside = |(p, q)| way.strip.clip(p, q, way.offsets.bound()).is_some();
-    ends.next().zip(ends.next()).is_some_and(is_inside)
+    let is_inside = |[p, q]: [Point; 2]| way.strip.clip(p, q, way.offsets.bound()).is_some();
+    way.strip.section(corners).is_some_and(is_inside)
 }
 
 /// The edges that are to be torn, and that are in the mesh once all points are inserted.

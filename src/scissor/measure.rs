@@ -6,6 +6,7 @@
 //! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
 //! still share are counted.
 
+use super::aim::{Aim, Aims, CutAim};
 use super::exact::{self, Trace, with_copies};
 use super::neck::{self, CutNeck};
 use super::outcome::{Outcome, side_of};
@@ -76,11 +77,15 @@ pub struct CutReport {
     /// that stops short of that plane. A tip is an end of the seam inside the mesh. The list is in
     /// ascending order of the tips' vertices, and empty for a cut along the whole plane.
     pub tip_overshoots: Vec<f64>,
+    /// How near the seam comes to the points at which the two rays are aimed. An entry is `None` if its
+    /// ray does not meet the mesh, or if nothing was split. `None` for a cut along the whole plane.
+    pub aims: Option<[Option<CutAim>; 2]>,
 }
 
 /// The mesh before a cut, as the slit sees it.
 pub(super) struct Survey<'w> {
     way: &'w Way<'w>,
+    aims: Aims,
     census: Census,
     /// The faces that the slit meets, ascending.
     slit: Vec<FaceId>,
@@ -95,6 +100,7 @@ impl<'w> Survey<'w> {
     /// `trace` is that of a method that decides where the slit runs before it cuts.
     pub(super) fn new(
         way: &'w Way<'w>,
+        aims: Aims,
         mesh: &Mesh,
         positions: &Positions,
         trace: Option<&Trace>,
@@ -105,6 +111,7 @@ impl<'w> Survey<'w> {
         let census = Census::new(mesh, &touched);
         let mut survey = Survey {
             way,
+            aims,
             slit: Vec::new(),
             slit_length: 0.0,
             pinches: Vec::new(),
@@ -300,6 +307,11 @@ impl<'w> Survey<'w> {
             altitude_min: places.map(altitude).reduce(f64::min).unwrap_or(0.0),
             missed: self.slit.is_empty(),
             tip_overshoots: self.overshoots(mesh, positions, ends),
+            aims: {
+                let is_cut = splits > 0;
+                let compare = |aim: Aim| aim.compare(mesh, positions).filter(|_| is_cut);
+                self.aims.map(|aims| aims.map(|aim| aim.and_then(compare)))
+            },
             ..self.report.clone()
         }
     }

@@ -10,7 +10,7 @@ use crate::mass::Masses;
 use crate::mend::{self, Stitch};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::scissor::{CutMethod, CutReport, Scissor};
+use crate::scissor::{CutError, CutMethod, CutReport, Scissor};
 use crate::slide;
 use crate::split::{self, SplitRefusal};
 
@@ -210,8 +210,14 @@ impl World {
                 let (mesh, positions) = (&mut self.mesh, &mut self.positions);
                 let cut =
                     scissor.cut_measured(CutMethod::Partition, mesh, positions, &mut self.edits);
-                let (_, report) = &cut.expect("positions are in step");
-                self.end(&Step::Cut { first, report }, observe);
+                match cut {
+                    Ok((_, report)) => {
+                        let report = &report;
+                        self.end(&Step::Cut { first, report }, observe);
+                    }
+                    Err(CutError::RaysCross { .. }) => observe(self, &Step::Nothing),
+                    Err(error) => panic!("positions are in step: {error}"),
+                }
             }
             Operation::Insert {
                 half_edge,

@@ -10,7 +10,7 @@ use crate::scissor::way::Way;
 
 /// Tips nearer to a node than this part of the way between nodes are the node, also where
 /// snapping is off: the faces round them could not be told from nothing.
-const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
+pub(super) const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// Traces the slit. `snap` is how near an end of its edge a crossing is taken for that end; `met` are
 /// nodes beyond the side planes that are snapped like those between them, ascending.

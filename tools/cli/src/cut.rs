@@ -84,8 +84,14 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     for (i, along) in cuts.iter().enumerate() {
         let number = (cuts.len() > 1).then_some(i + 1);
         let scissor = scissor(args, along, &line, &positions)?;
-        let made = scissor.cut_measured(args.method, &mut mesh, &mut positions, &mut edits);
-        let (cut, done) = made.expect("what follows every cut is in step");
+        let aimed = scissor.aimed_at(&mesh, &positions);
+        let made = aimed.and_then(|scissor| {
+            let (mesh, positions) = (&mut mesh, &mut positions);
+            let made = scissor.cut_measured(args.method, mesh, positions, &mut edits)?;
+            Ok((scissor, made))
+        });
+        let refused = |error| scissors::refused(number, error, &positions);
+        let (scissor, (cut, done)) = made.map_err(refused)?;
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
         edits.replay(&mut (&mut masses, &mut torn));
         texture.follow(&edits);

@@ -39,7 +39,10 @@ impl Exit {
     fn of(code: &str) -> Exit {
         let family = code.split('-').nth(1).unwrap_or_default();
         match (code, family) {
-            ("E-RAY-ONE-LINE" | "E-RAY-ZERO" | "E-PLANE-ZERO", _) => Exit::NoPlane,
+            (
+                "E-RAY-ONE-LINE" | "E-RAY-CROSS" | "E-RAY-SHORT" | "E-RAY-ZERO" | "E-PLANE-ZERO",
+                _,
+            ) => Exit::NoPlane,
             ("E-IO-WRITE", _) => Exit::Output,
             ("E-SIM-MESH" | "E-MASS", _) => Exit::Input,
             (_, "CHART" | "IO" | "MESH" | "OBJ" | "PLAY" | "VIEW") => Exit::Input,

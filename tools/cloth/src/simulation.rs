@@ -29,7 +29,7 @@ pub use report::{CutId, Event, Picked, Reached};
 use tearmesh::geometry::{Point, Ray, check_point, cross, length};
 use tearmesh::{
     Cursor, CutMethod, CutReport, Edits, FaceId, Follower as _, Masses, Mesh, Mix, PerVertex,
-    PositionError, Positions, Scissor, VertexId, engine::pick, mend, unshare,
+    Positions, Scissor, VertexId, engine::pick, mend, unshare,
 };
 
 use self::hand::Hands;
@@ -507,12 +507,12 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// [`InputError`] if the scissor continues another cut, or the cloth is too far away.
+    /// [`InputError`] if the scissor continues another cut, if its rays cross within the cloth, or if the
+    /// cloth is too far away.
     pub fn cut(&mut self, scissor: &Scissor) -> Result<CutId, InputError> {
         let words = scissor.to_words().ok_or(InputError::Continued)?;
         self.edits.clear();
-        let made = self.cut_measured(scissor, CutMethod::Exact);
-        let (cut, report) = made.map_err(InputError::Positions)?;
+        let (cut, report) = self.cut_measured(scissor, CutMethod::Exact)?;
         self.note("cut", words);
         self.events.push(Event::Cut {
             cut,
@@ -527,12 +527,13 @@ impl Simulation {
         &mut self,
         scissor: &Scissor,
         method: CutMethod,
-    ) -> Result<(CutId, CutReport), PositionError> {
-        let positions = Positions::new(self.cloth.positions().iter().copied())?;
+    ) -> Result<(CutId, CutReport), InputError> {
+        let positions = Positions::new(self.cloth.positions().iter().copied());
+        let positions = positions.map_err(InputError::Positions)?;
         let mut positions = positions.starting_at(self.edits.cursor());
         let (mesh, edits) = (&mut self.mesh, &mut self.edits);
         let made = scissor.cut_measured(method, mesh, &mut positions, edits);
-        let (cut, report) = made.expect("positions that follow every edit are in step");
+        let (cut, report) = made.map_err(InputError::Cut)?;
         self.follow();
         Ok((self.seams.add(&cut), report))
     }

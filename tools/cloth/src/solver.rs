@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use tearmesh::CutError;
+
 use crate::air::AirRate;
 use crate::blow_up::{BlowUpSite, Digits};
 use crate::guard::Frequency;
@@ -232,6 +234,13 @@ pub enum StepError {
         /// The index of the particle.
         particle: usize,
     },
+    /// A cut of the scene is refused on the cloth as it is then. Nothing was cut.
+    Cut {
+        /// The simulated time of the cut, in seconds.
+        elapsed_s: f64,
+        /// The reason, which is also the [`source`](std::error::Error::source).
+        error: CutError,
+    },
 }
 
 /// What sets the stability limit of a step.
@@ -256,6 +265,7 @@ impl StepError {
             }
             StepError::Implicit { .. } => "E-SIM-UNSOLVED",
             StepError::Setting(_) => "E-SCENE-RANGE",
+            StepError::Cut { .. } => "E-RAY-CROSS",
             _ => "E-SIM-BLOWUP",
         }
     }
@@ -266,6 +276,9 @@ impl fmt::Display for StepError {
         let text = match self {
             StepError::Step { given_s } => format!("dt {given_s} s is not a positive finite step"),
             StepError::Setting(error) => error.to_string(),
+            StepError::Cut { elapsed_s, error } => {
+                format!("the cut at {} s is refused: {error}", Digits(*elapsed_s))
+            }
             StepError::NotSprings { count, what } => {
                 format!("the method supports springs only, and {count} {what}")
             }
@@ -320,6 +333,7 @@ impl std::error::Error for StepError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             StepError::Implicit { error, .. } => Some(error),
+            StepError::Cut { error, .. } => Some(error),
             StepError::Setting(error) => Some(error),
             _ => None,
         }

@@ -13,7 +13,7 @@ mod torn;
 
 use pyo3::prelude::*;
 use tearmesh_core::gap::gapped;
-use tearmesh_core::{Cursor, Cut, CutMethod, Edits, Mesh, Scissor, mend as sewing};
+use tearmesh_core::{Cursor, Cut, CutError, CutMethod, Edits, Mesh, Scissor, mend as sewing};
 
 use arguments::{Triple, mesh_of, parts_of, scissor_of};
 use arrays::{Array, Made, triangles, value_error};
@@ -104,15 +104,15 @@ mod tearmesh {
         let scissor = scissor_of(plane, rays, layers, snap)?;
         let (mut mesh, mut positions) = parts_of(points, faces, roots)?;
         let (log, mut edits) = (Log::new(&mesh, Cursor::START), Edits::new());
-        let (cut, points) = py.detach(|| {
-            let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
-            let cut = cut.expect("positions that follow every edit are in step");
+        let made = py.detach(|| {
+            let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
             let points = match gap > 0.0 {
                 true => gapped(&mesh, &positions, gap).1,
                 false => positions.as_slice().to_vec(),
             };
-            (cut, points)
+            Ok((cut, points))
         });
+        let (cut, points) = made.map_err(|error: CutError| value_error(error))?;
         let uv = log.follow(&edits, uv)?;
         TornMesh::new(py, &mesh, &points, uv, &cut, (log, edits))
     }

@@ -1,6 +1,6 @@
 //! The rays and planes of cuts, from the arguments.
 
-use tearmesh::{Plane, Point, Ray, Scissor, ScissorError};
+use tearmesh::{CutError, Plane, Point, Positions, Ray, Scissor, ScissorError};
 use tearmesh_view::Camera;
 
 use crate::args::{CameraArgs, CutArgs, numbers};
@@ -8,7 +8,7 @@ use crate::exit::Stop;
 use crate::input::Input;
 use crate::picture;
 use crate::rays::{self, Pair};
-use crate::say::{Fault, short};
+use crate::say::{Fault, place, short};
 use crate::streams::Streams;
 
 /// What a cut goes along.
@@ -86,12 +86,41 @@ fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
 
 const POINTS_HELP: &str = "write both in pixels from the top left, as in --points 200,300 600,250";
 
-/// Says that two rays span no plane, and what would.
+/// Says that two rays make no scissor, and what would.
 pub(super) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
+    if error == ScissorError::NoLength {
+        return Fault::error("E-RAY-SHORT", error.to_string()).help(SHORT_HELP);
+    }
     let [x, y, z] = <[f64; 3]>::from(pair[0].origin());
     let aimed = [x - 1.0, x + 1.0].map(|to| format!("{x},{y},{z}@{to},{y},0"));
     let help = format!("move one origin, or aim at two points: {}", aimed.join(" "));
     Fault::error("E-RAY-ONE-LINE", error.to_string()).help(help)
+}
+
+const SHORT_HELP: &str = "leave out one of the points, or cut with a smaller --snap";
+
+/// Says why a mesh is not cut; the number is that of the cut, where there are several.
+pub(super) fn refused(number: Option<usize>, error: CutError, positions: &Positions) -> Fault {
+    let at = |p: Point| place(p.into());
+    let (code, message, help) = match error {
+        CutError::RaysCross { at: crossing } => {
+            let crossing = at(crossing);
+            let message = format!(
+                "the rays cross at {crossing}, and the mesh is before and beyond that point"
+            );
+            let help = "move the rays, so that they cross in front of the mesh or behind it";
+            ("E-RAY-CROSS", message, help)
+        }
+        CutError::TooShort { joint } => {
+            let joint = at(positions.at(joint));
+            let message =
+                format!("the cut would end closer to {joint}, where it begins, than the snap");
+            ("E-RAY-SHORT", message, SHORT_HELP)
+        }
+        _ => panic!("what follows every cut is in step: {error}"),
+    };
+    let of = number.map_or_else(String::new, |number| format!("cut {number}: "));
+    Fault::error(code, of + &message).help(help)
 }
 
 /// The scissor of two rays, with a warning if the second leaves the plane.
@@ -100,8 +129,8 @@ pub(crate) fn of_rays(pair: &Pair, faults: &mut Vec<Fault>) -> Result<Scissor, F
     if scissor.skew() > 0.0 {
         let leaves = short(scissor.skew());
         let message = format!(
-            "the rays are skew: the second leaves the cutting plane by {leaves} for each unit of \
-             its length"
+            "the rays are skew: the second leaves the plane of the first and both origins by {leaves} \
+             for each unit of its length. The cut follows the first ray, and meets the second at the mesh"
         );
         faults.push(Fault::warning("W-RAY-SKEW", message));
     }

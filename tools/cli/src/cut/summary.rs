@@ -1,7 +1,7 @@
 //! The summary of a cut and its gap, and the warnings about them.
 
 use tearmesh::gap::Gapped;
-use tearmesh::{Cut, CutReport};
+use tearmesh::{Cut, CutAim, CutReport};
 
 use super::no_op::NoOpReason;
 use crate::measure::Bounds;
@@ -107,7 +107,17 @@ pub(crate) fn warnings(
         ("W-CUT-MISS", cut.missed, missed),
         ("W-CUT-NONE", !cut.missed && !is_cut, uncut),
     ];
-    let rows = rows.into_iter().chain(necks).chain([
+    let aims = cut.aims.into_iter().flatten().zip(["first", "second"]);
+    let aims = aims.filter_map(|(aim, which)| {
+        let aim = aim.filter(CutAim::is_missed)?;
+        let [at, seam] = [aim.at, aim.seam].map(|p| place(p.into()));
+        let aside = short(aim.aside);
+        let message = format!(
+            "the {which} ray meets the mesh at {at}, but the cut passes {aside} away from there, at {seam}"
+        );
+        Some(("W-CUT-ASIDE", is_cut, message))
+    });
+    let rows = rows.into_iter().chain(necks).chain(aims).chain([
         ("W-CUT-CRUMBS", is_cut && crumbs > 0, loose),
         ("W-CUT-LOST", is_cut && cut.lost > 0, lost),
         ("W-CUT-JOINED", is_cut && !cut.separated, shared),

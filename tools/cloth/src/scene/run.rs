@@ -26,7 +26,7 @@ use crate::energy::{elastic_j, kinetic_j, potential_j};
 use crate::method::Softness;
 use crate::path::Path;
 use crate::sheet::Cloth;
-use crate::simulation::{Simulation, SimulationDef, SimulationError};
+use crate::simulation::{InputError, Simulation, SimulationDef, SimulationError};
 use crate::solver::{Quality, Solver, StepError};
 use crate::system::{SettingError, Unstable};
 use crate::tearing::TearReport;
@@ -318,9 +318,14 @@ impl Run {
             let before = Measured::of(self.cloth());
             let scissor = cut.scissor().expect("the rays of cuts span planes");
             let made = self.sim.cut_measured(&scissor, cut.method);
-            let (_, report) = made.map_err(|error| StepError::BlowUp {
-                elapsed_s: self.elapsed_s(),
-                at: BlowUpSite::Particle(error.unusable()[0].0.index()),
+            let elapsed_s = self.elapsed_s();
+            let (_, report) = made.map_err(|error| match error {
+                InputError::Cut(error) => StepError::Cut { elapsed_s, error },
+                InputError::Positions(error) => StepError::BlowUp {
+                    elapsed_s,
+                    at: BlowUpSite::Particle(error.unusable()[0].0.index()),
+                },
+                _ => unreachable!("a cut is refused for its rays or its positions"),
             })?;
             self.compare(&before);
             self.cuts_made.push(report);

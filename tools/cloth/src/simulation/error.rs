@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use tearmesh::{PositionError, VertexId};
+use tearmesh::{CutError, PositionError, VertexId};
 
 use super::hand::HandId;
 use super::report::CutId;
@@ -75,6 +75,8 @@ pub enum InputError {
     Continued,
     /// The cloth has moved to where it cannot be cut.
     Positions(PositionError),
+    /// The cut is refused: its rays cross, and the cloth is on both sides of the crossing.
+    Cut(CutError),
 }
 
 impl fmt::Display for InputError {
@@ -89,6 +91,7 @@ impl fmt::Display for InputError {
             InputError::Number(name, given) => write!(f, "{name} cannot be {given}"),
             InputError::Continued => f.write_str("the scissor continues another cut"),
             InputError::Positions(error) => error.fmt(f),
+            InputError::Cut(error) => error.fmt(f),
         }
     }
 }

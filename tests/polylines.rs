@@ -1,0 +1,451 @@
+//! Polylines run between their rays, wherever these come from.
+//!
+//! Rays from one eye, from eyes a rounding error to a unit apart, parallel, converging and crossing ones
+//! go through the corners of a polyline on flat, folded and closed meshes. What each cut tore is judged
+//! by picking and by closest points, in plain formulas: it comes near the two points at which its rays
+//! are aimed, and no part of it lies beyond either ray.
+
+use std::f64::consts::TAU;
+
+use tearmesh::{
+    CutEnd, CutError, CutLayers, CutMethod, CutReport, Edit, Edits, HalfEdgeId, Mesh, Positions,
+    Scissor, ScissorError,
+};
+
+use crate::cases::cases;
+use crate::oracle::straight::{Surface, cross, dot, length, minus, on_the_way};
+use crate::random::Random;
+use crate::surfaces::{built, delaunay, jittered, sphere, surface};
+use crate::work::ray;
+
+type Point = [f64; 3];
+type Line = (Point, Point);
+
+/// Where the rays of a polyline come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Eyes {
+    Parallel,
+    /// All from points in a ball with this radius, in units of the mesh.
+    Ball(f64),
+    /// From points as far apart as this many times their targets: they meet beyond the mesh, or, if this
+    /// is negative, have crossed before it.
+    Spread(f64),
+}
+
+const EYES: [Eyes; 12] = [
+    Eyes::Parallel,
+    Eyes::Ball(0.0),
+    Eyes::Ball(1e-15),
+    Eyes::Ball(1e-12),
+    Eyes::Ball(1e-9),
+    Eyes::Ball(1e-6),
+    Eyes::Ball(1e-3),
+    Eyes::Ball(0.1),
+    Eyes::Ball(1.0),
+    Eyes::Spread(1.3),
+    Eyes::Spread(0.4),
+    Eyes::Spread(-0.5),
+];
+
+const SNAPS: [f64; 6] = [Scissor::SNAP, 0.0, 0.01, 0.2, 0.35, 0.49];
+
+/// Flat meshes, folded ones, and closed ones.
+fn meshes() -> Vec<(&'static str, Surface)> {
+    let mut random = Random(41);
+    let folded = |by: fn(f64, f64) -> Point| {
+        let mut sheet = jittered(12, &mut Random(7));
+        for p in &mut sheet.points {
+            *p = by(p[0], p[1]);
+        }
+        sheet
+    };
+    vec![
+        ("grid", surface(&tearmesh::shapes::grid(12, 12))),
+        ("jittered", jittered(11, &mut random)),
+        ("random", delaunay(200, 10, &mut random)),
+        (
+            "waves",
+            folded(|x, y| [x, y, 0.12 * (9.0 * x).sin() * (5.0 * y).cos()]),
+        ),
+        ("roof", folded(|x, y| [x, y, -1.5 * (x - 0.5).abs()])),
+        (
+            "doubled",
+            folded(|x, y| {
+                let angle = TAU * 0.75 * (x - 0.5);
+                [0.3 * angle.sin(), y, 0.3 * angle.cos()]
+            }),
+        ),
+        ("sphere", sphere(3)),
+        ("torus", surface(&tearmesh::shapes::torus(18, 10))),
+        ("tube", surface(&tearmesh::shapes::tube(14, 8))),
+    ]
+}
+
+/// The nearest point at which a ray meets a triangle of a surface (Möller and Trumbore 1997).
+fn aimed((origin, along): Line, points: &[Point], faces: &[[u32; 3]]) -> Option<Point> {
+    let mut nearest = f64::INFINITY;
+    for face in faces {
+        let [a, b, c] = face.map(|v| points[v as usize]);
+        let (ab, ac) = (minus(b, a), minus(c, a));
+        let across = cross(along, ac);
+        let whole = dot(ab, across);
+        let from = minus(origin, a);
+        let u = dot(from, across) / whole;
+        let turned = cross(from, ab);
+        let (v, t) = (dot(along, turned) / whole, dot(ac, turned) / whole);
+        let near = -1e-9;
+        if u >= near && v >= near && 1.0 - u - v >= near && t > 0.0 {
+            nearest = nearest.min(t);
+        }
+    }
+    let at = on_the_way(origin, [0, 1, 2].map(|i| origin[i] + along[i]), nearest);
+    nearest.is_finite().then_some(at)
+}
+
+/// The point of a line that is nearest to another point.
+fn foot((origin, along): Line, p: Point) -> Point {
+    let t = dot(minus(p, origin), along) / dot(along, along);
+    [0, 1, 2].map(|i| origin[i] + t * along[i])
+}
+
+/// How far a point is beyond one of two rays: seen from the other, and along the line through the points
+/// of both that are nearest to it.
+fn beyond([a, b]: [Line; 2], p: Point) -> f64 {
+    let feet = [foot(a, p), foot(b, p)];
+    let way = minus(feet[1], feet[0]);
+    let size = length(way);
+    if size == 0.0 {
+        return length(minus(p, feet[0]));
+    }
+    let along = dot(minus(p, feet[0]), way) / size;
+    (-along).max(along - size).max(0.0)
+}
+
+/// The distance of a point from a segment.
+fn distance([from, to]: [Point; 2], p: Point) -> f64 {
+    let way = minus(to, from);
+    let t = dot(minus(p, from), way) / dot(way, way);
+    length(minus(p, on_the_way(from, to, t.clamp(0.0, 1.0))))
+}
+
+/// A view of a mesh.
+struct View {
+    eyes: Eyes,
+    middle: Point,
+    axes: [Point; 3],
+}
+
+impl View {
+    /// A view from above, tilted by chance.
+    fn of(mesh: &Surface, eyes: Eyes, random: &mut Random) -> View {
+        let count = mesh.points.len() as f64;
+        let sum = |i: usize| mesh.points.iter().map(|p| p[i]).sum::<f64>();
+        let [x, y] = [0.0; 2].map(|_: f64| 0.8 * (random.next() - 0.5));
+        let ahead = [x, y, -1.0];
+        let across = cross(ahead, [0.0, 1.0, 0.0]);
+        View {
+            eyes,
+            middle: [0, 1, 2].map(|i| sum(i) / count),
+            axes: [across, cross(across, ahead), ahead].map(|v| v.map(|x| x / length(v))),
+        }
+    }
+
+    fn place(&self, at: Point) -> Point {
+        let along = |i: usize| {
+            (0..3)
+                .map(|axis| at[axis] * self.axes[axis][i])
+                .sum::<f64>()
+        };
+        [0, 1, 2].map(|i| self.middle[i] + along(i))
+    }
+
+    /// A ray through a point of the picture.
+    fn ray(&self, [x, y]: [f64; 2], random: &mut Random) -> Line {
+        let origin = match self.eyes {
+            Eyes::Parallel => self.place([x, y, -3.0]),
+            Eyes::Ball(radius) => self
+                .place([0.2, -0.1, -3.0])
+                .map(|x| x + radius * (random.next() - 0.5)),
+            Eyes::Spread(times) => self.place([times * x, times * y, -3.0]),
+        };
+        (origin, minus(self.place([x, y, 0.0]), origin))
+    }
+}
+
+/// The rays of a polyline that stays on a mesh: from `count` to twice as many if there is room.
+fn polyline(mesh: &Surface, view: &View, count: usize, random: &mut Random) -> Vec<Line> {
+    let step = mesh.mean_edge() * [0.6, 1.0, 2.0, 4.0][random.below(4)];
+    let (mut lines, mut at, mut heading) = (Vec::new(), [0.0; 2], TAU * random.next());
+    for _ in 0..20 * count {
+        let next = match lines.is_empty() {
+            true => [0.0; 2].map(|_: f64| 0.8 * (random.next() - 0.5)),
+            false => {
+                let size = step * (0.5 + random.next());
+                [at[0] + size * heading.cos(), at[1] + size * heading.sin()]
+            }
+        };
+        heading += 1.6 * (random.next() - 0.5);
+        let line = view.ray(next, random);
+        if aimed(line, &mesh.points, &mesh.faces).is_none() {
+            heading += 1.0;
+            continue;
+        }
+        at = next;
+        lines.push(line);
+        if lines.len() > count {
+            break;
+        }
+    }
+    lines
+}
+
+/// A polyline on a mesh, and how it is cut.
+struct Case {
+    name: &'static str,
+    before: Surface,
+    lines: Vec<Line>,
+    snap: f64,
+    moves: bool,
+    layers: CutLayers,
+}
+
+/// What became of the cuts.
+#[derive(Debug, Default)]
+struct Counts {
+    cuts: usize,
+    uncut: usize,
+    refused: usize,
+    missed: usize,
+    ambiguous: usize,
+    /// The farthest that a seam went beyond a ray, in longest edges.
+    beyond: f64,
+}
+
+impl Case {
+    fn new(meshes: &[(&'static str, Surface)], eyes: Eyes, snap: f64, random: &mut Random) -> Case {
+        let &(name, ref before) = &meshes[random.below(meshes.len())];
+        let view = View::of(before, eyes, random);
+        let count = 3 + random.below(22);
+        Case {
+            name,
+            before: before.clone(),
+            lines: polyline(before, &view, count, random),
+            snap,
+            moves: random.next() < 0.3,
+            layers: [CutLayers::All, CutLayers::First][random.below(2)],
+        }
+    }
+
+    /// Cuts along the polyline as a user would: what is too short to be cut is left out.
+    fn cut(&self, counts: &mut Counts) {
+        let (mut mesh, mut positions): (Mesh, Positions) = built(&self.before);
+        let (mut edits, mut from, mut end) = (Edits::new(), 0, None::<CutEnd>);
+        for to in 1..self.lines.len() {
+            let pair = [self.lines[from], self.lines[to]];
+            let scissor = match &end {
+                Some(end) => Scissor::continued(end, ray(pair[1]), &positions),
+                None => Scissor::new(ray(pair[0]), ray(pair[1])),
+            };
+            let Ok(scissor) = scissor else {
+                assert_eq!(scissor.err(), Some(ScissorError::NoLength));
+                counts.refused += 1;
+                continue;
+            };
+            let scissor = scissor
+                .snap(self.snap)
+                .snap_move(self.moves)
+                .layers(self.layers);
+            let before = surface(&(mesh.clone(), positions.clone()));
+            let made =
+                scissor.cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+            let (made, report) = match made {
+                Ok(made) => made,
+                Err(CutError::TooShort { .. } | CutError::RaysCross { .. }) => {
+                    counts.refused += 1;
+                    continue;
+                }
+                Err(error) => panic!("{error}"),
+            };
+            counts.cuts += 1;
+            counts.uncut += usize::from(report.splits == 0);
+            self.judge(pair, &before, (&mesh, &positions), &edits, &report, counts);
+            end = made.ends().map(|[_, end]| end.clone());
+            from = to;
+            edits.clear();
+        }
+    }
+
+    /// No part of what was torn lies beyond a ray, and what does not come near an aim says so.
+    fn judge(
+        &self,
+        pair: [Line; 2],
+        before: &Surface,
+        (mesh, positions): (&Mesh, &Positions),
+        edits: &Edits,
+        report: &CutReport,
+        counts: &mut Counts,
+    ) {
+        let longest = self.before.longest_edge();
+        let edge = |h: HalfEdgeId| [h, h.next()].map(|h| positions.at(mesh.origin(h)).into());
+        for edit in edits.iter() {
+            let Edit::Split(split) = edit else { continue };
+            for p in split.torn.iter().flat_map(|link| edge(link.stayed)) {
+                counts.beyond = counts.beyond.max(beyond(pair, p) / longest);
+            }
+        }
+        if report.splits == 0 {
+            return;
+        }
+        let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
+        let torn: Vec<[Point; 2]> = torn.map(edge).collect();
+        let aims = report.aims.expect("a cut between rays");
+        for (line, aim) in pair.into_iter().zip(aims) {
+            let Some(at) = aimed(line, &before.points, &before.faces) else {
+                continue;
+            };
+            let aim = aim.expect("the ray meets the mesh");
+            if length(minus(at, aim.at.into())) > 1e-6 {
+                counts.ambiguous += 1; // It passes through a torn vertex or edge.
+                continue;
+            }
+            let aside = torn.iter().map(|&edge| distance(edge, at));
+            let aside = aside.fold(f64::INFINITY, f64::min);
+            let off = (aim.aside - aside).abs();
+            assert!(off < 1e-6, "{}: {aside} aside, not {aim:?}", self.name);
+            counts.missed += usize::from(aim.is_missed());
+            let near = 2.0 * self.snap * longest + 1e-9;
+            assert!(
+                aside <= near || aim.is_missed(),
+                "{}: {aside}, {aim:?}",
+                self.name
+            );
+        }
+    }
+}
+
+#[test]
+fn polylines_run_between_their_rays() {
+    let meshes = meshes();
+    let mut random = Random(3);
+    for snap in SNAPS {
+        for eyes in EYES {
+            let mut counts = Counts::default();
+            for _ in 0..cases().div_ceil(288) {
+                Case::new(&meshes, eyes, snap, &mut random).cut(&mut counts);
+            }
+            println!("{eyes:?}, snap {snap}: {counts:?}");
+            // A seam that goes the wrong way does not end before a boundary.
+            assert!(counts.beyond < 1.0 && counts.ambiguous <= counts.cuts / 50);
+        }
+    }
+}
+
+/// The second slit is cut from the snapped end of the first on, not back from it.
+#[test]
+fn regression_a_slit_from_one_eye_continues_forward() {
+    let sheet = surface(&tearmesh::shapes::grid(24, 24));
+    let eye = |x: f64, y: f64| ([0.5, 0.5, 9.0], [x - 0.5, y - 0.5, -9.0]);
+    for turn in 0..60 {
+        let angle = TAU * f64::from(turn) / 60.0;
+        let far = |r: f64, angle: f64| eye(0.5 + r * angle.cos(), 0.5 + r * angle.sin());
+        let lines = [eye(0.5, 0.5), far(0.04, angle), far(0.079, angle + 0.1)];
+        let (mut mesh, mut positions) = built(&sheet);
+        let mut edits = Edits::new();
+        let mut lengths = Vec::new();
+        let mut scissor = Scissor::new(ray(lines[0]), ray(lines[1])).expect("a plane");
+        for to in [2, 2] {
+            let (cut, report) = scissor
+                .cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
+                .expect("in step");
+            lengths.push(report.seam_length);
+            let [_, end] = cut.ends().expect("rays");
+            if lengths.len() == 2 {
+                break;
+            }
+            scissor = Scissor::continued(end, ray(lines[to]), &positions).expect("a plane");
+        }
+        assert!(lengths.iter().all(|&length| length < 0.06), "{lengths:?}");
+    }
+}
+
+/// Two rays that cross two units above the sheet, and at its height.
+#[test]
+fn rays_that_cross_cut_the_wedge_in_which_the_mesh_is() {
+    let at = |x: f64, z: f64, to: f64| ([x, 0.3, z], [to - x, 0.0, -z]);
+    let cut = |pair: [Line; 2], moved: f64| {
+        let (mut mesh, positions) = tearmesh::shapes::grid(8, 8);
+        let points = positions.as_slice().iter().map(|p| [p.x, p.y, p.z + moved]);
+        let mut positions = Positions::new(points).expect("finite");
+        let scissor = Scissor::new(ray(pair[0]), ray(pair[1]))
+            .expect("a plane")
+            .snap(0.0);
+        let mut edits = Edits::new();
+        let made = scissor.cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+        made.map(|(_, report)| report.seam_length)
+    };
+    // They cross at z = 2: at z = 0 they are .6 apart, at z = 3 they are .3.
+    let pair = [at(0.2, 4.0, 0.8), at(0.8, 4.0, 0.2)];
+    for (z, length) in [(0.0, 0.6), (3.0, 0.3), (1.0, 0.3)] {
+        let seam = cut(pair, z).expect("one wedge");
+        assert!((seam - length).abs() < 1e-12, "{z}: {seam}");
+    }
+    // Upright, the sheet is before the crossing and beyond it.
+    let (mut mesh, positions) = tearmesh::shapes::grid(8, 8);
+    let points = positions.as_slice().iter().map(|p| [0.52, p.x, 4.0 * p.y]);
+    let mut positions = Positions::new(points).expect("finite");
+    let scissor = Scissor::new(ray(pair[0]), ray(pair[1])).expect("a plane");
+    let [far, _] = scissor.sides().expect("rays");
+    assert!(far.distance([0.5, 0.3, 0.0].into()) > 0.0, "the far wedge");
+    let (uncut, mut edits) = (mesh.clone(), Edits::new());
+    let made = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+    let Some(CutError::RaysCross { at }) = made.err() else {
+        panic!("the mesh is on both sides of the crossing");
+    };
+    assert!((at - tearmesh::Point::new(0.5, 0.3, 2.0)).norm() < 1e-12);
+    assert!(mesh == uncut && edits.is_empty());
+    let through =
+        scissor
+            .through(true)
+            .cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+    assert!(through.is_ok(), "a whole plane has no wedges");
+}
+
+/// A cut that would end in a face of its joint, within the snap of it, is refused; a bit farther it is made.
+#[test]
+fn a_cut_shorter_than_the_snap_is_refused() {
+    let (mut mesh, mut positions) = tearmesh::shapes::grid(4, 4);
+    let down = |x: f64, y: f64| ray(([x, y, 5.0], [0.0, 0.0, -1.0]));
+    let mut edits = Edits::new();
+    let first = Scissor::new(down(0.3, 0.35), down(0.5, 0.5)).expect("a plane");
+    let cut = first.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+    let cut = cut.expect("in step");
+    let [_, end] = cut.ends().expect("rays");
+    assert_eq!(end.vertices(), [mesh.vertex(12)], "the vertex at 0.5, 0.5");
+    let on_joint = Scissor::continued(end, down(0.5, 0.5), &positions);
+    assert_eq!(on_joint.err(), Some(ScissorError::NoLength));
+    let uncut = (mesh.clone(), edits.cursor());
+    for (x, snap, is_cut) in [
+        (0.51, 0.05, false),
+        (0.52, 0.05, true),
+        (0.51, 0.0, true),
+        (0.6, 0.49, false),
+    ] {
+        let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
+        let scissor = Scissor::continued(end, down(x, 0.5), &positions).expect("a plane");
+        let scissor = scissor.snap(snap);
+        let mut edits = Edits::starting_at(edits.cursor());
+        let made = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+        match made {
+            Ok(_) => assert!(is_cut && mesh != uncut.0, "{x}, {snap}"),
+            Err(error) => {
+                assert_eq!(
+                    error,
+                    CutError::TooShort {
+                        joint: end.vertices()[0]
+                    }
+                );
+                assert!(!is_cut && (mesh, edits.cursor()) == uncut, "{x}, {snap}");
+            }
+        }
+    }
+}
