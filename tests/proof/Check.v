@@ -1,7 +1,8 @@
-(* A checker of states, in time linear in the mesh, and its proof: what it accepts is well-formed, however it came about.
+(* A checker of states, and its proof: a state that it accepts is well-formed, however it came about.
 
-   It gets the state, and a witness of which corners have the same root, made by anybody in any way: a bad witness can
-   make it refuse, and never accept. *)
+   It gets the state, and a witness of which corners have the same root, made in any way: a bad witness can make it
+   refuse, and never accept. It passes over the half-edges once, and looks at a few others from each; that this takes
+   linear time is not a theorem. *)
 Require Import Arith List Lia Bool Relations.
 Require Import Walk State Split Merge.
 Import ListNotations.

@@ -115,23 +115,33 @@ Proof.
     apply rt_step; unfold step, ahead in *; rewrite ?pair_or_ghost_is_link in *; auto.
 Qed.
 
+(* Without the filter of the walk, the orbit of a corner is all corners of its root. *)
+Lemma orbit_is_root : forall h g, h < size S ->
+  (In g (orbit (ahead S) (behind S) (size S) h) <-> g < size S /\ same_root (link S) h g).
+Proof.
+  intros h g Hh. destruct (orbit_lists_each_once (ahead S) (behind S) (size S) ahead_range ahead_behind (size S) h) as [_ ->]; auto.
+  rewrite joined_is_same_root. split; [|tauto]. intros H. split; auto.
+  apply joined_is_same_root in H. eapply joined_below; eauto using ahead_range.
+Qed.
+
 (* I10: the walk lists exactly the corners of the vertex, each once. *)
 Theorem walk_lists_exactly_the_corners : forall v,
   NoDup (corners_of S v) /\ forall h, In h (corners_of S v) <-> h < size S /\ origin S h = v.
 Proof.
   intros v. unfold corners_of. destruct (half_edge_of S v) as [s|] eqn:Es.
-  - apply find_some in Es. destruct Es as [Hs Hv]. apply in_seq in Hs. apply Nat.eqb_eq in Hv.
-    destruct (orbit_lists_each_once (ahead S) (behind S) (size S) ahead_range ahead_behind (size S) s) as [Hd Hall]; try lia.
-    split. { apply NoDup_filter; auto. }
-    intros h. rewrite filter_In, Nat.eqb_eq, Hall, joined_is_same_root. split.
-    + intros [Hj Ho]. split; auto. apply joined_is_same_root in Hj.
-      eapply joined_below; eauto using ahead_range. lia.
-    + intros [Hh Ho]. split; auto. apply (one_root _ W); try lia.
+  - apply find_some in Es. destruct Es as [Hs Hv]. apply in_seq in Hs. apply Nat.eqb_eq in Hv. split.
+    { apply NoDup_filter. apply (orbit_lists_each_once _ _ _ ahead_range ahead_behind); lia. }
+    intros h. rewrite filter_In, Nat.eqb_eq, orbit_is_root by lia. split; [tauto|].
+    intros [Hh Ho]. repeat split; auto. apply (one_root _ W); try lia.
   - split. constructor. intros h. split; [intros []|]. intros [Hh Ho].
     pose proof (find_none _ _ Es h) as Hn. simpl in Hn.
     rewrite Ho, Nat.eqb_refl in Hn. exfalso. assert (true = false); [|discriminate].
     apply Hn. apply in_seq. lia.
 Qed.
+(* The loop of the walk ends by itself: fuel beyond one for each corner is left over. *)
+Theorem walk_ends : forall fuel h, size S <= fuel -> h < size S ->
+  orbit (ahead S) (behind S) fuel h = orbit (ahead S) (behind S) (size S) h.
+Proof. exact (orbit_ends (ahead S) (behind S) (size S) ahead_range ahead_behind). Qed.
 
 (* I3. *)
 Theorem three_vertices : forall h, h < size S -> origin S h <> origin S (next h).
@@ -161,4 +171,13 @@ Proof.
   apply (root_faces_differ _ _ M h g); auto; apply (one_root _ W); auto; try apply next_below; try apply prev_below; auto.
 Qed.
 End Facts.
-
+(* The marks are a function of the links and the origins. *)
+Lemma marks_follow : forall S S', well_formed S -> well_formed S' -> link S' = link S ->
+  (forall h, h < size S -> origin S' h = origin S h) -> forall h, torn S' h = torn S h.
+Proof.
+  intros S S' W W' El Eo h. destruct (link S h) as [g|] eqn:E.
+  - pose proof (pair_agrees _ W _ _ E) as Ha. destruct (link_in_range _ _ (is_manifold _ W) _ _ E) as [Hh Hg].
+    rewrite <- El in E. pose proof (pair_agrees _ W' _ _ E) as Ha'. rewrite !Eo in Ha' by (auto; apply next_below; auto).
+    destruct (torn S h), (torn S' h); intuition congruence.
+  - rewrite (boundary_not_torn _ W _ E). apply (boundary_not_torn _ W'). congruence.
+Qed.

@@ -2,8 +2,8 @@
 
    `ahead` is the turn to the next corner, ρ of invariants.md, and `behind` its inverse. The corners that are joined by
    turns form a cycle or a path. `orbit` is the loop of src/mesh/walk.rs; `orbit_lists_each_once` says that it lists
-   each of them, once, and nothing else. It holds of any fuel that is at least the number of corners, so the loop in
-   Rust, which has no fuel, ends. *)
+   each of them, once, and nothing else. The loop in Rust has no fuel; `orbit_ends` says that it needs none: any fuel
+   that is at least the number of corners gives the same list. *)
 Require Import Arith List Lia Bool Permutation Relations.
 Import ListNotations.
 
@@ -241,6 +241,39 @@ Proof.
     + destruct (path_before _ _ _ Hp _ Hx) as [->|(l1 & w & l2 & E & Hw)].
       { assert (y = e) by (eapply ahead_injective; eauto). subst; auto. }
       assert (w = y) by (eapply ahead_injective; eauto). subst w. rewrite E. apply in_or_app; right; left; auto.
+Qed.
+
+(* With more fuel a loop does the same, or has used all of it. *)
+Lemma going_ahead_ends : forall fuel first h, go_ahead (S fuel) first h = go_ahead fuel first h \/
+  length (fst (go_ahead (S fuel) first h)) = S fuel.
+Proof.
+  induction fuel; intros first h.
+  - right. simpl. destruct (ahead h) as [g|]; [destruct (g =? first)|]; auto.
+  - assert (E : forall k, go_ahead (S k) first h = match ahead h with
+      | None => ([h], true)
+      | Some g => if g =? first then ([h], false) else let (l, open) := go_ahead k first g in (h :: l, open)
+      end) by auto.
+    rewrite (E (S fuel)), (E fuel). destruct (ahead h) as [g|]; auto. destruct (g =? first); auto.
+    destruct (IHfuel first g) as [->|El]; auto. right. destruct (go_ahead (S fuel) first g). simpl in *. auto.
+Qed.
+Lemma going_behind_ends : forall fuel h, go_behind (S fuel) h = go_behind fuel h \/
+  length (go_behind (S fuel) h) = S fuel.
+Proof.
+  induction fuel; intros [h|]; auto. destruct (IHfuel (behind h)) as [E|E].
+  - left. change (go_behind (S (S fuel)) (Some h)) with (h :: go_behind (S fuel) (behind h)). rewrite E. auto.
+  - right. change (S (length (go_behind (S fuel) (behind h))) = S (S fuel)). auto.
+Qed.
+(* The loop ends by itself: fuel beyond one for each corner is left over. *)
+Theorem orbit_ends : forall fuel first, N <= fuel -> first < N -> orbit fuel first = orbit N first.
+Proof.
+  intros fuel first Hfuel Hlt. induction Hfuel as [|fuel Hfuel IH]; auto. rewrite <- IH. clear IH.
+  assert (Hshort : length (orbit (S fuel) first) <= N).
+  { destruct (orbit_lists_each_once (S fuel) first) as [Hd Hall]; auto.
+    apply nodup_below; auto. intros z Hz. apply Hall in Hz. eapply joined_below; eauto. }
+  unfold orbit in *. destruct (going_ahead_ends fuel first first) as [E|E].
+  - rewrite E in *. destruct (go_ahead fuel first first) as [l [|]]; auto.
+    destruct (going_behind_ends fuel (behind first)) as [->|El]; auto. rewrite app_length in Hshort. lia.
+  - destruct (go_ahead (S fuel) first first) as [l [|]]; simpl in E; rewrite ?app_length in Hshort; lia.
 Qed.
 
 End Walk.
