@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use tearmesh::insert::Point;
 use tearmesh::script::{Step, World};
-use tearmesh::{Edit, Edits, FaceId, HalfEdgeId, MergeRefusal, Mesh, SplitRefusal, VertexId, mend};
+use tearmesh::{Edit, Edits, HalfEdgeId, MergeRefusal, Mesh, mend};
 
 use crate::exhaustive::{for_each_gluing, glued};
 use crate::scripts::script;
@@ -142,7 +142,7 @@ fn write_step(
         writeln!(to)?;
     }
     *seen = world.edits.cursor().number();
-    write_refusal(to, mesh, step)?;
+    write_refusal(to, step)?;
     write_state(to, mesh)
 }
 
@@ -173,18 +173,16 @@ fn place(step: &Step<'_>) -> String {
     }
 }
 
-/// A split that would leave a side empty, and a merge of vertices of two roots, or of one vertex.
-fn write_refusal(to: &mut impl Write, mesh: &Mesh, step: &Step<'_>) -> std::io::Result<()> {
-    let corner = |v: VertexId, f: FaceId| mesh.corners_of(v).find(|h| h.face() == f);
+/// A split that was refused, with the faces that were given; and a merge of vertices of two roots, or of one vertex.
+fn write_refusal(to: &mut impl Write, step: &Step<'_>) -> std::io::Result<()> {
     match *step {
         Step::Split {
             vertex: v,
             faces,
-            outcome: Err(SplitRefusal::Empty { .. } | SplitRefusal::Everything { .. }),
+            outcome: Err(_),
         } => {
             write!(to, "refused split {}", v.index())?;
-            let corners = faces.iter().filter_map(|&f| corner(v, f));
-            write_list(to, corners.map(HalfEdgeId::index))?;
+            write_list(to, faces.iter().map(|f| f.index()))?;
             writeln!(to)
         }
         Step::Merge {

@@ -6,4 +6,4 @@ Extract Inlined Constant Nat.modulo => "(mod)".
 Extract Inlined Constant Nat.min => "Stdlib.min".
 Extract Inlined Constant Nat.max => "Stdlib.max".
 Extract Inlined Constant Nat.ltb => "(<)".
-Extraction "model.ml" check corners_of split merge insert_in_face insert_on_edge build next prev.
+Extraction "model.ml" check corners_of split_vertex merge insert_in_face insert_on_edge build next prev.

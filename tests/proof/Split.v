@@ -1,8 +1,9 @@
 (* The split: a vertex becomes two, and each of its faces goes to one of them.
 
    `split` does what `by_plane` and `commit` of src/split.rs do: it walks round the vertex, and looks across both edges
-   of each corner that moved. It keeps the mesh well-formed, refuses if and only if a side would be empty (I22 needs no
-   proof: there is no other state), and changes nothing but I16 says. *)
+   of each corner that moved. It keeps the mesh well-formed, is refused if and only if a side would be empty (I22 needs
+   no proof: there is no other state), tears the links between the sides alone, and changes nothing but what I16 says.
+   `split_vertex` is `split::vertex`, which takes a list of faces, and so has two more reasons to refuse. *)
 Require Import Arith List Lia Bool Relations.
 Require Import Walk State.
 Import ListNotations.
@@ -30,6 +31,12 @@ Definition split S v (moves : nat -> bool) : option mesh :=
       let o := fun h => if mem h noted then vertices S else origin S h in
       Some (Mesh (faces S) (link S) (fold_left (tear_corner (link S) o (vertices S)) noted (torn S)) o (1 + vertices S))
   end.
+(* The faces of a list get it. Refused if one is listed twice, or has no corner at the vertex. *)
+Fixpoint repeats l := match l with [] => false | f :: l => mem f l || repeats l end.
+Definition at_vertex S v f := (f <? faces S) && existsb (fun h => origin S h =? v) [3 * f; 3 * f + 1; 3 * f + 2].
+Definition split_vertex S v faces : option mesh :=
+  if existsb (fun f => negb (at_vertex S v f)) faces || repeats faces then None
+  else split S v (fun h => mem (face h) faces).
 
 Lemma mem_in : forall h l, mem h l = true <-> In h l.
 Proof.
@@ -161,7 +168,7 @@ Proof.
     + rewrite (Hc _ _ E). eapply (loop_tears moved (torn S) g); eauto.
 Qed.
 
-(* A split labels_are_refined the labels. *)
+(* A split refines the labels. *)
 Lemma labels_are_refined : forall h g, h < size S -> g < size S -> (o h = o g <-> m h = m g /\ origin S h = origin S g).
 Proof.
   intros h g Hh Hg. unfold o.
@@ -217,14 +224,25 @@ Proof.
       * rewrite H in Ha; intuition discriminate.
       * rewrite H in Hb; intuition discriminate.
 Qed.
+Lemma split_leaves_both_sides : forall S v moves S', well_formed S -> split S v moves = Some S' ->
+  exists a b, (a < size S /\ origin S a = v /\ moves a = true) /\ (b < size S /\ origin S b = v /\ moves b = false).
+Proof.
+  intros S v moves S' W. unfold split. destruct (walk_lists_exactly_the_corners S W v) as [_ Hall].
+  destruct (filter moves (corners_of S v)) as [|a l] eqn:E1; [discriminate|].
+  destruct (filter (fun h => negb (moves h)) (corners_of S v)) as [|b k] eqn:E2; [discriminate|]. intros _. exists a, b.
+  assert (Ha : In a (a :: l)) by (left; auto). rewrite <- E1, filter_In, Hall in Ha.
+  assert (Hb : In b (b :: k)) by (left; auto). rewrite <- E2, filter_In, Hall, negb_true_iff in Hb. tauto.
+Qed.
 (* I15, I16: links stay; what moved is at the new vertex, what stayed at the old one, every other corner where it was. *)
 Theorem split_changes_nothing_else : forall S v moves S', well_formed S -> split S v moves = Some S' ->
   faces S' = faces S /\ link S' = link S /\ vertices S' = 1 + vertices S /\
   (forall h, h < size S -> origin S' h = if (origin S h =? v) && moves h then vertices S else origin S h) /\
   (forall h, h < size S -> (In h (corners_of S' (vertices S)) <-> origin S h = v /\ moves h = true)) /\
-  (forall h, h < size S -> v < vertices S -> (In h (corners_of S' v) <-> origin S h = v /\ moves h = false)).
+  (forall h, h < size S -> (In h (corners_of S' v) <-> origin S h = v /\ moves h = false)).
 Proof.
   intros S v moves S' W E. pose proof (split_keeps_well_formed _ _ _ _ W E) as W'.
+  assert (Hv : v < vertices S).
+  { destruct (split_leaves_both_sides _ _ _ _ W E) as (a & _ & (Ha & <- & _) & _). apply (origin_in_range _ W); auto. }
   destruct (walk_lists_exactly_the_corners S W v) as [_ Hall]. unfold split in E.
   destruct (filter moves (corners_of S v)) as [|a l] eqn:E1; [discriminate|].
   destruct (filter (fun h => negb (moves h)) (corners_of S v)); [discriminate|].
@@ -234,16 +252,70 @@ Proof.
     replace (mem h (a :: l)) with ((origin S h =? v) && moves h); auto.
     apply eq_true_iff_eq. rewrite mem_in, <- E1, filter_In, Hall, andb_true_iff, Nat.eqb_eq. tauto. }
   assert (Hs : size S' = size S) by (subst S'; auto).
-  repeat split; try (subst S'; reflexivity); auto.
-  - apply (walk_lists_exactly_the_corners S' W') in H0. destruct H0 as [_ H0]. rewrite Ho in H0 by auto.
-    destruct (origin S h =? v) eqn:Ev; [apply Nat.eqb_eq; auto|]. simpl in H0. pose proof (origin_in_range _ W h H). lia.
-  - apply (walk_lists_exactly_the_corners S' W') in H0. destruct H0 as [_ H0]. rewrite Ho in H0 by auto.
-    destruct (origin S h =? v) eqn:Ev, (moves h); auto; simpl in H0; pose proof (origin_in_range _ W h H); lia.
-  - intros [H1 H2]. apply (walk_lists_exactly_the_corners S' W'). rewrite Hs, Ho, H1, H2, Nat.eqb_refl by auto. auto.
-  - apply (walk_lists_exactly_the_corners S' W') in H1. destruct H1 as [_ H1]. rewrite Ho in H1 by auto.
-    destruct (origin S h =? v) eqn:Ev; [apply Nat.eqb_eq in Ev; auto|auto].
-  - apply (walk_lists_exactly_the_corners S' W') in H1. destruct H1 as [_ H1]. rewrite Ho in H1 by auto.
-    destruct (moves h); auto. destruct (origin S h =? v) eqn:Ev; simpl in H1; [lia|].
-    apply Nat.eqb_neq in Ev. congruence.
-  - intros [H1 H2]. apply (walk_lists_exactly_the_corners S' W'). rewrite Hs, Ho, H1, H2, andb_false_r by auto. auto.
+  assert (Hwalk : forall w h, h < size S -> (In h (corners_of S' w) <-> origin S' h = w)).
+  { intros w h Hh. destruct (walk_lists_exactly_the_corners S' W' w) as [_ ->]. rewrite Hs. tauto. }
+  do 3 (split; [subst S'; auto|]). split; auto. split; intros h Hh; rewrite Hwalk, Ho by auto;
+    pose proof (origin_in_range _ W h Hh); destruct (origin S h =? v) eqn:Ev, (moves h); simpl;
+    apply Nat.eqb_eq in Ev || apply Nat.eqb_neq in Ev; intuition (lia || discriminate).
 Qed.
+(* I16: besides what was torn, a link is torn if at one of its ends one corner moved and the other stayed. *)
+Theorem split_tears_between_the_sides : forall S v moves S' h g, well_formed S -> split S v moves = Some S' ->
+  let moved x := (origin S x =? v) && moves x in link S h = Some g ->
+  torn S' h = torn S h || xorb (moved h) (moved (next g)) || xorb (moved (next h)) (moved g).
+Proof.
+  intros S v moves S' h g W E moved El. pose proof (split_keeps_well_formed _ _ _ _ W E) as W'.
+  destruct (split_changes_nothing_else _ _ _ _ W E) as (_ & El' & _ & Ho & _).
+  destruct (link_in_range _ _ (is_manifold S W) _ _ El) as [Hh Hg].
+  assert (Hn : next h < size S /\ next g < size S) by (split; apply next_below; auto).
+  assert (Hends : forall x y, x < size S -> y < size S ->
+    (origin S' x = origin S' y <-> origin S x = origin S y /\ moved x = moved y)).
+  { intros x y Hx Hy. rewrite !Ho by auto. fold (moved x) (moved y).
+    pose proof (origin_in_range _ W x Hx). pose proof (origin_in_range _ W y Hy).
+    destruct (moved x) eqn:Ex, (moved y) eqn:Ey; try (split; [lia|intros [_ H1]; discriminate]); [|tauto].
+    unfold moved in Ex, Ey. rewrite andb_true_iff, Nat.eqb_eq in Ex, Ey. intuition congruence. }
+  pose proof (pair_agrees _ W _ _ El) as Ha. rewrite <- El' in El. pose proof (pair_agrees _ W' _ _ El) as Ha'.
+  rewrite !Hends in Ha' by tauto.
+  apply eq_iff_eq_true. rewrite <- !not_false_iff_true, !orb_false_iff.
+  destruct (moved h), (moved (next h)), (moved g), (moved (next g)); simpl; intuition discriminate.
+Qed.
+
+Lemma repeats_none : forall l, repeats l = false <-> NoDup l.
+Proof.
+  induction l as [|f l IH]; simpl; [split; auto using NoDup_nil|].
+  rewrite orb_false_iff, IH, <- not_true_iff_false, mem_in, NoDup_cons_iff. tauto.
+Qed.
+Lemma face_is : forall h f, face h = f <-> h = 3 * f \/ h = 3 * f + 1 \/ h = 3 * f + 2.
+Proof.
+  intros h f. unfold face. pose proof (Nat.div_mod h 3 ltac:(lia)). pose proof (Nat.mod_upper_bound h 3 ltac:(lia)).
+  split; [lia|]. intros E. symmetry. apply (Nat.div_unique h 3 f (h - 3 * f)); lia.
+Qed.
+Lemma at_vertex_spec : forall S v f, at_vertex S v f = true <-> exists h, h < size S /\ origin S h = v /\ face h = f.
+Proof.
+  intros S v f. unfold at_vertex, size. rewrite andb_true_iff, Nat.ltb_lt, existsb_exists. split.
+  - intros [Hf (h & Hh & E)]. apply Nat.eqb_eq in E. exists h. rewrite face_is. simpl in Hh. intuition lia.
+  - intros (h & Hh & E & Ef). apply face_is in Ef. split; [lia|]. exists h. rewrite E, Nat.eqb_refl. simpl. intuition lia.
+Qed.
+(* `split::vertex` is refused if a face is not one of the vertex, or is listed twice, or if a side would be empty; and
+   only then. Otherwise it is a split, by which the faces of the list move. *)
+Theorem split_vertex_refuses : forall S v faces, well_formed S ->
+  (split_vertex S v faces = None <->
+   (exists f, In f faces /\ forall h, h < size S -> origin S h = v -> face h <> f) \/ ~ NoDup faces \/
+   faces = [] \/ (forall h, h < size S -> origin S h = v -> In (face h) faces)).
+Proof.
+  intros S v faces W. unfold split_vertex. destruct (existsb _ _) eqn:Ef; simpl.
+  { split; auto. intros _. left. apply existsb_exists in Ef. destruct Ef as (f & Hf & E). exists f. split; auto.
+    intros h Hh Eh Efh. apply negb_true_iff in E. rewrite (proj2 (at_vertex_spec S v f)) in E; [discriminate|eauto]. }
+  assert (Hat : forall f, In f faces -> exists h, h < size S /\ origin S h = v /\ face h = f).
+  { intros f Hf. apply at_vertex_spec. destruct (at_vertex S v f) eqn:E; auto. exfalso.
+    rewrite <- not_true_iff_false, existsb_exists in Ef. apply Ef. exists f. rewrite E. auto. }
+  destruct (repeats faces) eqn:Er.
+  { split; auto. intros _. right. left. intros H. apply repeats_none in H. congruence. }
+  apply repeats_none in Er. rewrite split_refuses_an_empty_side by auto. setoid_rewrite mem_in.
+  split; [intros [H|H]|intros [(f & Hf & H)|[H|[->|H]]]]; auto; try tauto.
+  - right. right. left. destruct faces as [|f l]; auto. destruct (Hat f) as (h & Hh & Eh & Efh); [left; auto|].
+    specialize (H h Hh Eh). rewrite <- not_true_iff_false, mem_in, Efh in H. simpl in H. tauto.
+  - destruct (Hat f Hf) as (h & Hh & Eh & Efh). destruct (H h); auto.
+Qed.
+Lemma split_vertex_is_a_split : forall S v faces S', split_vertex S v faces = Some S' ->
+  split S v (fun h => mem (face h) faces) = Some S'.
+Proof. unfold split_vertex. intros S v faces S'. destruct (_ || _); [discriminate|auto]. Qed.

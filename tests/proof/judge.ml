@@ -7,7 +7,7 @@
      build refused VERTICES FACES …  refused
      split OLD NEW CORNER …          corners went from one vertex to a new one
      merge KEPT GONE                 two vertices became one
-     refused split V CORNER …        a split that was refused, since a side would be empty
+     refused split V FACE …          a split that was refused
      refused merge V W               a merge that was refused, since the roots differ or the vertices are one
      insert face F                   a vertex was put in a face
      insert edge H                   a vertex was put on an edge, or on both sides of a torn one
@@ -90,10 +90,7 @@ let judge_state old words =
 (* What a line makes of the model's state; none where the model has no say. *)
 let judge model words =
   let int i = int_of_string words.(i) in
-  let among first =
-    let corners = Hashtbl.create 8 in
-    for i = first to Array.length words - 1 do Hashtbl.replace corners (int i) () done;
-    Hashtbl.mem corners in
+  let list first = List.init (Array.length words - first) (fun i -> int (first + i)) in
   let edit name result =
     incr edits;
     if model = None then incr unjudged;
@@ -114,14 +111,17 @@ let judge model words =
     Option.map (fun m -> incr accepted; frozen m) built
   | "state", _ -> Some (judge_state model words)
   | "split", _ ->
-    let after = edit "split" (fun m -> split m (int 1) (among 3)) in
+    let old = int 1 and corners = list 3 in
+    let are_its_own m = List.for_all (fun h -> m.origin h = old) corners in
+    let split m = if are_its_own m then split_vertex m old (List.map (fun h -> h / 3) corners) else None in
+    let after = edit "split" split in
     Option.iter (fun m -> if m.vertices <> int 2 + 1 then fault "the new vertex is not the last one") after;
     after
   | "merge", _ -> edit "merge" (fun m -> merge m (int 1) (int 2))
   | "insert", "face" -> edit "insertion in a face" (fun m -> insert_in_face m (int 2))
   | "insert", "edge" -> edit "insertion on an edge" (fun m -> insert_on_edge m (int 2))
   | "insert", _ -> incr edits; incr unjudged; None
-  | "refused", "split" -> refusal "split" (fun m -> split m (int 2) (among 3))
+  | "refused", "split" -> refusal "split" (fun m -> split_vertex m (int 2) (list 3))
   | "refused", "merge" -> refusal "merge" (fun m -> merge m (int 2) (int 3))
   | other, _ -> fault ("no line begins with " ^ other); model
 
