@@ -3,7 +3,7 @@
    `build` is the definition, written down as loops over half-edges: it says what `Mesh::build` must accept and how it
    must link, and not how to do so in linear time. *)
 Require Import Arith List Lia Bool Relations.
-Require Import Walk State Split Cone.
+Require Import Walk State Split Merge Cone.
 Import ListNotations.
 
 Section Build.
@@ -192,4 +192,14 @@ Proof.
   - intros h E. rewrite E. auto.
   - intros h g E. rewrite E, negb_false_iff, andb_true_iff, !Nat.eqb_eq. reflexivity.
   - intros h g Hh Hg E. apply (one_root S W); auto.
+Qed.
+(* Two vertices that are one in the whole can be merged. *)
+Theorem panels_can_be_sewn : forall S V o h g, well_formed S ->
+  (forall h, h < size S -> o h < V) ->
+  (forall h g, h < size S -> g < size S -> o h = o g -> origin S h = origin S g) ->
+  h < size S -> g < size S -> origin S h = origin S g -> o h <> o g ->
+  exists S', merge (panels S V o) (o h) (o g) = Some S'.
+Proof.
+  intros S V o h g W Hr Ho Hh Hg E Hn. apply merge_joins_one_root; [apply panels_are_well_formed; auto|].
+  split; auto. exists h, g. repeat split; auto. apply (one_root S W); auto.
 Qed.

@@ -1,6 +1,7 @@
 (* The merge, the inverse of the split.
 
-   `merge` does what `merge` of src/mend.rs does. It keeps the mesh well-formed, and undoes a split (I21). *)
+   `merge` does what `merge` of src/mend.rs does. It keeps the mesh well-formed, joins any two vertices of one root and
+   no others, changes nothing but what I16 says, and undoes a split (I21). *)
 Require Import Arith List Lia Bool Relations.
 Require Import Walk State Split.
 Import ListNotations.
@@ -57,9 +58,7 @@ Proof.
   assert (Hkg : kept < gone) by lia.
   assert (Hroot : same_root (link S) k g).
   { apply existsb_exists in Ex. destruct Ex as (x & Hx & Ox). apply Nat.eqb_eq in Ox.
-    destruct (orbit_lists_each_once (ahead S) (behind S) (size S) (ahead_range S W) (ahead_behind S W) (size S) g) as [_ Hall]; try lia.
-    apply Hall in Hx. assert (x < size S) by (eapply joined_below; eauto using (ahead_range S W)).
-    apply (joined_is_same_root S) in Hx.
+    apply (orbit_is_root S W g x Hg) in Hx. destruct Hx as [Hx' Hx].
     eapply joined_trans; [|apply joined_sym; exact Hx]. apply (one_root _ W); auto. congruence. }
   pose proof (origin_in_range _ W g Hg) as Hlast. rewrite Og in Hlast.
   set (o := fun h => relabel kept gone (vertices S - 1) (origin S h)).
@@ -87,39 +86,85 @@ Proof.
       apply (joined_trans _ g k x); [apply joined_sym; auto|]. apply (one_root _ W); auto; congruence.
 Qed.
 
-(* I21: a merge of the two halves of the last split gives back what there was. *)
-Theorem merge_undoes_split : forall S v moves S' S'', well_formed S -> v < vertices S ->
-  split S v moves = Some S' -> merge S' v (vertices S) = Some S'' ->
-  link S'' = link S /\ vertices S'' = vertices S /\
-  (forall h, h < size S -> origin S'' h = origin S h /\ torn S'' h = torn S h).
+(* A merge is refused if the vertices are one, or have no corners of one root; and only then. *)
+Lemma merge_is_symmetric : forall S one other, merge S one other = merge S other one.
 Proof.
-  intros S v moves S' S'' W Hv Hs Hm. pose proof (split_keeps_well_formed _ _ _ _ W Hs) as W'.
-  destruct (split_changes_nothing_else _ _ _ _ W Hs) as (Hf & Hl & Hc & Ho & _).
-  unfold merge in Hm. replace (Nat.min v (vertices S)) with v in Hm by lia.
-  replace (Nat.max v (vertices S)) with (vertices S) in Hm by lia.
-  destruct (half_edge_of S' v); [|discriminate]. destruct (half_edge_of S' (vertices S)); [|discriminate].
-  destruct (negb _ && _); [|discriminate]. injection Hm as <-. simpl. rewrite Hl, Hc.
-  replace (1 + vertices S - 1) with (vertices S) by lia.
-  assert (Hback : forall h, h < size S -> relabel v (vertices S) (vertices S) (origin S' h) = origin S h).
-  { intros h Hh. rewrite Ho by auto. pose proof (origin_in_range _ W h Hh). unfold relabel.
-    assert (Hn : origin S h =? vertices S = false) by (apply Nat.eqb_neq; lia).
-    assert (Hn' : v =? vertices S = false) by (apply Nat.eqb_neq; lia).
-    destruct ((origin S h =? v) && moves h) eqn:E.
-    - rewrite Nat.eqb_refl, Hn'. apply andb_true_iff in E. destruct E as [E _]. apply Nat.eqb_eq in E. auto.
-    - rewrite Hn, Hn. auto. }
-  repeat split; auto. unfold agree. destruct (link S h) as [g|] eqn:E.
-  - destruct (link_in_range _ _ (is_manifold _ W) _ _ E) as [_ Hg].
-    assert (next h < size S) by (apply next_below; auto). assert (next g < size S) by (apply next_below; auto).
-    rewrite !Hback by auto. pose proof (pair_agrees _ W _ _ E) as Ha.
-    assert (E' : link S' h = Some g) by congruence. pose proof (pair_agrees _ W' _ _ E') as Ha'.
-    destruct ((origin S h =? origin S (next g)) && (origin S (next h) =? origin S g)) eqn:Eb.
-    + rewrite andb_true_iff, !Nat.eqb_eq in Eb. destruct Ha as [_ Ha]. rewrite (Ha Eb). apply andb_false_r.
-    + rewrite andb_false_iff, !Nat.eqb_neq in Eb. simpl. rewrite andb_true_r.
-      destruct (torn S h) eqn:Et; [|destruct Ha as [Ha _]; destruct (Ha eq_refl); tauto].
-      destruct (torn S' h) eqn:Et'; auto. exfalso.
-      destruct Ha' as [Ha' _]. destruct (Ha' eq_refl) as [Ea Eb2].
-      rewrite <- (Hback h), <- (Hback (next g)), <- (Hback (next h)), <- (Hback g) in Eb by auto.
-      rewrite Ea, Eb2 in Eb. tauto.
-  - rewrite (boundary_not_torn _ W _ E), andb_false_r. auto.
+  intros S one other. unfold merge. rewrite (Nat.min_comm other), (Nat.max_comm other), (Nat.eqb_sym other). auto.
+Qed.
+Lemma half_edge_is_found : forall S v h, h < size S -> origin S h = v -> exists k, half_edge_of S v = Some k.
+Proof.
+  intros S v h Hh E. unfold half_edge_of. destruct (find _ _) eqn:F; eauto.
+  assert (Hs : In h (seq 0 (size S))) by (apply in_seq; lia).
+  pose proof (find_none _ _ F h Hs) as H. simpl in H. apply Nat.eqb_neq in H. contradiction.
+Qed.
+Theorem merge_joins_one_root : forall S one other, well_formed S ->
+  ((exists S', merge S one other = Some S') <->
+   one <> other /\
+   exists h g, h < size S /\ g < size S /\ origin S h = one /\ origin S g = other /\ same_root (link S) h g).
+Proof.
+  intros S one other W.
+  assert (Hlower : forall a b, a < b -> ((exists S', merge S a b = Some S') <->
+    exists h g, h < size S /\ g < size S /\ origin S h = a /\ origin S g = b /\ same_root (link S) h g)).
+  { intros a b Hab. unfold merge. replace (Nat.min a b) with a by lia. replace (Nat.max a b) with b by lia.
+    replace (a =? b) with false by (symmetry; apply Nat.eqb_neq; lia). simpl. split.
+    - intros [S' E]. destruct (half_edge_of S a) as [k|] eqn:Ek; [|discriminate].
+      destruct (half_edge_of S b) as [g|] eqn:Eg; [|discriminate]. destruct (existsb _ _) eqn:Ex; [|discriminate].
+      apply half_edge_of_starts_there in Eg. apply existsb_exists in Ex. destruct Ex as (h & Hh & Oh).
+      apply Nat.eqb_eq in Oh. apply (orbit_is_root S W g h) in Hh; [|tauto]. exists h, g.
+      repeat split; try tauto. apply joined_sym. tauto.
+    - intros (h & g & Hh & Hg & Oh & Og & R). destruct (half_edge_is_found S a h) as [x ->]; auto.
+      destruct (half_edge_is_found S b g) as [y Ey]; auto. rewrite Ey.
+      apply half_edge_of_starts_there in Ey. destruct Ey as [Hy Oy].
+      replace (existsb _ _) with true; eauto. symmetry. apply existsb_exists. exists h.
+      rewrite Oh, Nat.eqb_refl. split; auto. apply (orbit_is_root S W); auto. split; auto.
+      eapply joined_trans; [|apply joined_sym; exact R]. apply (one_root _ W); auto. congruence. }
+  destruct (Nat.lt_total one other) as [H|[->|H]].
+  - rewrite Hlower by auto. intuition lia.
+  - unfold merge. rewrite Nat.eqb_refl. simpl. split; [|tauto]. intros [S' E].
+    destruct (half_edge_of _ _); [destruct (half_edge_of _ _)|]; discriminate.
+  - rewrite merge_is_symmetric, Hlower by auto. split.
+    + intros (h & g & H1). split; [lia|]. exists g, h. repeat split; try tauto. apply joined_sym. tauto.
+    + intros (_ & h & g & H1). exists g, h. repeat split; try tauto. apply joined_sym. tauto.
 Qed.
 
+(* I15, I16: links stay; the corners of the higher vertex are at the lower one, those of the last vertex have the id that
+   is free, every other corner is where it was; of the torn links those are sewn whose ends agree. *)
+Theorem merge_changes_nothing_else : forall S one other S', well_formed S -> merge S one other = Some S' ->
+  let kept := Nat.min one other in let gone := Nat.max one other in
+  faces S' = faces S /\ link S' = link S /\ vertices S = 1 + vertices S' /\
+  (forall h, origin S' h = if origin S h =? gone then kept else if origin S h =? vertices S' then gone else origin S h) /\
+  (forall h, torn S' h = torn S h && negb (agree (link S) (origin S') h)).
+Proof.
+  intros S one other S' W Em kept gone. unfold merge in Em. fold kept gone in Em.
+  destruct (half_edge_of S kept); [|discriminate]. destruct (half_edge_of S gone) as [g|] eqn:Eg; [|discriminate].
+  destruct (negb (one =? other)) eqn:En; [|discriminate]. destruct (existsb _ _); [|discriminate]. injection Em as <-.
+  apply negb_true_iff, Nat.eqb_neq in En. apply half_edge_of_starts_there in Eg. destruct Eg as [Hg Og].
+  pose proof (origin_in_range _ W g Hg). simpl. repeat split; auto; [lia|]. intros h. unfold relabel.
+  destruct (origin S h =? gone); auto. destruct (Nat.eqb_spec kept (vertices S - 1)); auto. lia.
+Qed.
+
+(* I21: a merge of the two halves of the last split succeeds, and gives back what there was. *)
+Theorem merge_undoes_split : forall S v moves S', well_formed S -> split S v moves = Some S' ->
+  exists S'', merge S' v (vertices S) = Some S'' /\
+    faces S'' = faces S /\ vertices S'' = vertices S /\ link S'' = link S /\
+    (forall h, h < size S -> origin S'' h = origin S h) /\ (forall h, torn S'' h = torn S h).
+Proof.
+  intros S v moves S' W Hs. pose proof (split_keeps_well_formed _ _ _ _ W Hs) as W'.
+  destruct (split_changes_nothing_else _ _ _ _ W Hs) as (Hf & Hl & Hc & Ho & _).
+  destruct (split_leaves_both_sides _ _ _ _ W Hs) as (a & b & (Ha & Oa & Ma) & (Hb & Ob & Mb)).
+  assert (Hv : v < vertices S) by (rewrite <- Oa; apply (origin_in_range _ W); auto).
+  assert (Hm : exists S'', merge S' v (vertices S) = Some S'').
+  { apply (merge_joins_one_root S' v (vertices S) W'). split; [lia|]. exists b, a.
+    unfold size. rewrite Hf, Hl, !Ho by auto. rewrite Oa, Ob, Ma, Mb, Nat.eqb_refl. repeat split; auto.
+    apply (one_root _ W); auto. congruence. }
+  destruct Hm as [S'' Hm]. exists S''. split; auto. pose proof (merge_keeps_well_formed _ _ _ _ W' Hm) as W''.
+  destruct (merge_changes_nothing_else _ _ _ _ W' Hm) as (Ef & El & Ev & Eo & _). rewrite Hc in Ev. injection Ev as Ev.
+  assert (Hback : forall h, h < size S -> origin S'' h = origin S h).
+  { intros h Hh. rewrite Eo, Ho, <- Ev by auto. replace (Nat.min v (vertices S)) with v by lia.
+    replace (Nat.max v (vertices S)) with (vertices S) by lia. pose proof (origin_in_range _ W h Hh).
+    assert (Hn : origin S h =? vertices S = false) by (apply Nat.eqb_neq; lia).
+    destruct ((origin S h =? v) && moves h) eqn:E; [|rewrite Hn; auto].
+    apply andb_true_iff in E. destruct E as [E _]. apply Nat.eqb_eq in E. rewrite Nat.eqb_refl. auto. }
+  assert (Hlink : link S'' = link S) by congruence.
+  repeat split; auto using marks_follow; congruence.
+Qed.
