@@ -66,17 +66,20 @@ Record outlined : Prop := {
   starts_differ : forall w u, On w -> On u -> same_root lk w u -> w = u;
   ends_differ : forall w u, On w -> On u -> same_root lk (next w) (next u) -> w = u;
   no_two_follow_each_other : forall w u, succ c w = Some u -> succ c u = Some w -> False;
-  (* The other half-edge of the edge that is taken out is so too, and the outline goes on across it. *)
-  gap : forall p q, divided p -> ~ On p -> lk p = Some q -> divided q /\ ~ On q /\ succ c (prev q) = Some (next p);
+  (* The other half-edge of the edge that is taken out is so too; the outline goes on across it, cut if it was torn. *)
+  gap : forall p q, divided p -> ~ On p -> lk p = Some q ->
+    divided q /\ ~ On q /\ succ c (prev q) = Some (next p) /\ cut c (prev q) = torn S q;
+  gap_on_boundary : forall p, divided p -> ~ On p -> lk p = None -> succ c (prev p) = None /\ pred c (next p) = None;
   in_one_piece : On first /\ forall w, On w -> joined (succ c) first w;
-  (* The new triangles have numbers of divided faces, or new ones, and all of these. *)
+  (* The new triangles have new numbers, or that of the face that they are in, and all of these. *)
   triangles_differ : forall w u, On w -> On u -> face (forth c w) = face (forth c u) -> w = u;
   triangle_in_place : forall w, On w ->
-    forth c w < 3 * faces_then c /\ (forth c w < size S -> divided (forth c w));
+    forth c w < 3 * faces_then c /\ (forth c w < size S -> face (forth c w) = face w);
   faces_stay : forall x, x < 3 * faces_then c ->
     (exists w, On w /\ face (forth c w) = face x) \/ (x < size S /\ ~ divided x);
   no_face_goes : faces S <= faces_then c;
   (* A link round the new vertex is cut if its ends differ, and only then. *)
+  one_point_in_a_face : forall w u, On w -> On u -> face w = face u -> second c w = second c u;
   cut_follows : forall w, succ c w = None -> cut c w = false;
   cut_if_apart : forall w u, succ c w = Some u ->
     (cut c w = false <-> origin S (next w) = origin S u /\ new_vertex S c w = new_vertex S c u)
@@ -145,10 +148,9 @@ Proof. intros w H. apply not_true_is_false. rewrite mem_spec. auto. Qed.
 (* ---- the numbering ---- *)
 Lemma rest_is_nowhere_else : forall p w, p < size S -> ~ divided p -> On w -> face (forth c w) <> face p.
 Proof.
-  intros p w Hp Hd Hw E. apply Hd. destruct (triangle_in_place O w Hw) as [_ Ht].
-  assert (forth c w < size S).
-  { destruct (of_one_face _ _ (eq_sym E)) as [ ->|[ ->| ->]]; auto; [apply next_below|apply prev_below]; auto. }
-  destruct (Ht H) as (u & Hu & Eu). exists u. split; auto. congruence.
+  intros p w Hp Hd Hw E. apply Hd. destruct (triangle_in_place O w Hw) as [_ Ht]. exists w. split; auto.
+  rewrite <- E, Ht; auto.
+  destruct (of_one_face _ _ (eq_sym E)) as [ ->|[ ->| ->]]; auto; [apply next_below|apply prev_below]; auto.
 Qed.
 Lemma found : forall w x, On w -> face (forth c w) = face x ->
   find (fun w => face (forth c w) =? face x) (outline c) = Some w.
@@ -309,7 +311,7 @@ Proof.
       rewrite keep_rest; [apply rt_refl|]. intros Hd. pose proof (link_is_involution _ _ M _ _ E) as E'.
       destruct (gap O _ _ Hd Hn E') as (_ & H & _). auto.
   - destruct (classic_divided (prev p)) as [Hd|Hd].
-    + destruct (gap O _ _ Hd Hu E) as (Hdq & Hnq & Es). rewrite next_prev in Es.
+    + destruct (gap O _ _ Hd Hu E) as (Hdq & Hnq & Es & _). rewrite next_prev in Es.
       destruct (off_outline O _ Hdq Hnq) as [Hq' _]. destruct (follows O _ _ Es) as (_ & Hop & _).
       rewrite keep_on, keep_gap by auto. apply turn; [constructor; auto|]. simpl.
       apply (precedes O) in Es. rewrite Es. auto.
@@ -535,14 +537,5 @@ Proof.
     pose proof (old_or_new k Hk) as H1. pose proof (old_or_new j Hj) as H2.
     destruct (label k) as [p|], (label j) as [q|]; simpl; auto; try lia.
     apply (one_root _ W); try tauto. destruct H1 as (_ & H1 & _), H2 as (_ & H2 & _). congruence.
-Qed.
-(* I15, I16: a face that is not divided stays as it was, and its links lead to where they led. *)
-Theorem cone_keeps_the_rest : forall p, p < size S -> ~ divided p ->
-  origin S' p = origin S p /\ torn S' p = torn S p /\
-  link S' p = option_map (fun q => number c (kept c q)) (link S p).
-Proof.
-  intros p Hp Hd. assert (Hk : valid (Rest p)) by (constructor; auto).
-  pose proof (origin_number _ Hk) as H1. pose proof (torn_number _ Hk) as H2. pose proof (link_number _ Hk) as H3.
-  simpl in H1, H2, H3. repeat split; auto. unfold lk' in H3. rewrite H3. destruct (link S p); auto.
 Qed.
 End Proof.

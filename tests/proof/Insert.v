@@ -116,6 +116,7 @@ Proof.
   - intros w u E1 E2. simpl in *. destruct (face w =? f); [|discriminate]. destruct (face u =? f); [|discriminate].
     assert (E : next (next w) = w) by congruence. rewrite next_next in E. apply (prev_differs w); auto.
   - intros p q Hd Hn. exfalso. apply Hn, on_face, divided_face; auto.
+  - intros p Hd Hn. exfalso. apply Hn, on_face, divided_face; auto.
   - split; [apply on_face, face_0|]. intros w H. apply on_face in H.
     assert (Hs : forall x, face x = f -> joined (succ c) x (next x)).
     { intros x Hx. apply rt_step. left. simpl. rewrite Hx, Nat.eqb_refl. auto. }
@@ -125,8 +126,7 @@ Proof.
   - intros w u H Hu. apply on_face in H, Hu. rewrite !face_forth_face.
     destruct (of_face w) as [E1|[E1|E1]], (of_face u) as [E2|[E2|E2]]; rewrite E1, E2, H, Hu;
       rewrite ?mod_form0, ?mod_form by lia; intros E; lia.
-  - rewrite divided_face. unfold size. rewrite !face_below, face_forth_face. simpl faces_then.
-    destruct (w mod 3) as [|[|]]; split; auto; lia.
+  - unfold size. rewrite !face_below, face_forth_face. simpl faces_then. destruct (w mod 3) as [|[|]]; split; auto; lia.
   - intros x Hx. rewrite face_below in Hx. simpl faces_then in Hx.
     destruct (Nat.eq_dec (face x) f) as [E|E].
     { left. exists (3 * f). rewrite on_face, face_forth_face, face_0, mod_form0. auto. }
@@ -136,6 +136,7 @@ Proof.
       * exists (3 * f + 2). rewrite on_face, face_forth_face, face_of, mod_form by lia. split; auto. lia.
     + right. rewrite divided_face. split; auto. unfold size. rewrite face_below. auto.
   - simpl. lia.
+  - auto.
   - auto.
   - intros w u E. simpl in E. destruct (face w =? f); [|discriminate]. injection E as <-. simpl. tauto.
 Qed.
@@ -189,11 +190,14 @@ Proof.
     rewrite Hn in E2. discriminate.
   - intros p q Hd H E. apply divided_boundary in Hd. destruct (of_one_face h p) as [->|[->| ->]]; simpl in *; auto;
       [congruence|tauto|tauto].
+  - intros p Hd H E. apply divided_boundary in Hd.
+    destruct (of_one_face h p) as [->|[->| ->]]; simpl in *; auto; [|tauto|tauto]. rewrite Hn, Nat.eqb_sym, Hn. auto.
   - split; [simpl; auto|]. intros w [<-|[<-|[]]]; [apply rt_refl|]. apply rt_step. left. simpl.
     rewrite Nat.eqb_refl. auto.
   - intros w u Hw Hu E. simpl in *. rewrite !face_forth_at in E.
     destruct Hw as [<-|[<-|[]]], Hu as [<-|[<-|[]]]; auto; rewrite ?Nat.eqb_refl, ?Hn in E; destruct (h mod 3 =? 0); lia.
-  - intros w Hw. rewrite divided_boundary, !face_below. simpl faces_then. simpl forth. unfold size.
+  - intros w Hw. assert (E : face w = face h) by (apply divided_boundary; exists w; auto).
+    rewrite E, !face_below. simpl faces_then. simpl forth. unfold size.
     rewrite face_below, face_forth_at. destruct (w =? next h), (h mod 3 =? 0); split; auto; lia.
   - intros x Hx. rewrite face_below in Hx. simpl faces_then in Hx. rewrite divided_boundary.
     assert (Htwo : exists w, In w (outline c) /\ face (forth c w) = face h).
@@ -206,6 +210,7 @@ Proof.
     destruct (Nat.eq_dec (face x) (faces S)) as [E'|E']; [left; rewrite E'; auto|].
     right. split; auto. unfold size. rewrite face_below. lia.
   - simpl. lia.
+  - auto.
   - auto.
   - intros w u E. simpl in E. destruct (w =? next h) eqn:Ew; [|discriminate]. injection E as <-.
     apply Nat.eqb_eq in Ew. subst w. simpl. rewrite next_next. tauto.
@@ -326,8 +331,12 @@ Proof.
     destruct E1 as [[-> ->]|[[-> ->]|[[-> ->]|[-> ->]]]], E2 as [[X Y]|[[X Y]|[[X Y]|[X Y]]]]; congruence.
   - intros p q Hd Hn E. apply divided_two in Hd. destruct Hd as [E'|E']; symmetry in E'; apply of_one_face in E';
       destruct E' as [->|[->| ->]]; try (exfalso; apply Hn; simpl; auto 6; fail).
-    + assert (q = g) by congruence. subst q. rewrite divided_two. split; auto. split; auto. apply off.
-    + assert (q = h) by congruence. subst q. rewrite divided_two. split; auto. split; auto. apply off.
+    + assert (q = g) by congruence. subst q. rewrite divided_two, (torn_both_sides S W g h Eg). simpl cut.
+      rewrite Nat.eqb_refl, orb_true_r, andb_true_r. repeat split; auto. apply off.
+    + assert (q = h) by congruence. subst q. rewrite divided_two. simpl cut.
+      rewrite Nat.eqb_refl, andb_true_r. repeat split; auto. apply off.
+  - intros p Hd Hn E. apply divided_two in Hd. destruct Hd as [E'|E']; symmetry in E'; apply of_one_face in E';
+      destruct E' as [->|[->| ->]]; try (exfalso; apply Hn; simpl; auto 6; fail); congruence.
   - split; [simpl; auto|]. intros w Hw. simpl in Hw.
     assert (J : forall x y, succ c x = Some y -> joined (succ c) x y) by (intros; apply rt_step; left; auto).
     pose proof (joined_trans _ _ _ _ (J _ _ S1) (J _ _ S2)) as J2. pose proof (joined_trans _ _ _ _ J2 (J _ _ S3)) as J3.
@@ -335,9 +344,9 @@ Proof.
   - intros w u Hw Hu E. simpl in Hw, Hu.
     destruct Hw as [<-|[<-|[<-|[<-|[]]]]], Hu as [<-|[<-|[<-|[<-|[]]]]]; auto; exfalso;
       rewrite ?T1, ?T2, ?T3, ?T4 in E; destruct (h mod 3 =? 0), (g mod 3 =? 0); lia.
-  - intros w Hw. rewrite divided_two. unfold size. rewrite !face_below. simpl faces_then. simpl in Hw.
-    destruct Hw as [<-|[<-|[<-|[<-|[]]]]]; rewrite ?T1, ?T2, ?T3, ?T4; destruct (h mod 3 =? 0), (g mod 3 =? 0);
-      split; auto; lia.
+  - intros w Hw. unfold size. rewrite !face_below. simpl faces_then. simpl in Hw.
+    destruct Hw as [<-|[<-|[<-|[<-|[]]]]]; rewrite ?T1, ?T2, ?T3, ?T4, ?face_next, ?face_prev;
+      destruct (h mod 3 =? 0), (g mod 3 =? 0); split; auto; lia.
   - intros x Hx. rewrite face_below in Hx. simpl faces_then in Hx. rewrite divided_two.
     assert (Hof : (exists w, In w (outline c) /\ face (forth c w) = face h) /\
                   (exists w, In w (outline c) /\ face (forth c w) = face g)).
@@ -355,6 +364,7 @@ Proof.
       replace (face x) with new_g by lia. auto.
     + right. split; [unfold size; rewrite face_below; auto|tauto].
   - simpl. lia.
+  - intros w u _ _ E. simpl. rewrite E. auto.
   - intros w E. unfold c, edge_cone. cbn [cut]. destruct (Nat.eqb_spec w (prev h)) as [->|]; [congruence|].
     destruct (Nat.eqb_spec w (prev g)) as [->|]; [congruence|]. apply andb_false_r.
   - clear T1 T2 T3 T4 Hnn. destruct (torn S h) eqn:Et.

@@ -1,9 +1,10 @@
-(* Six readings of the paper that fail: the table at the end of src/mesh/invariants.md, computed.
+(* Six readings of the paper that fail: the table at the end of src/mesh/invariants.md, computed. After them, three
+   wrong ways to insert a vertex.
 
    Souza et al. 2014 §IV-B leaves open how the faces of a vertex are found through ghost pairs. Each reading is written
    down, and an example says what it gives on its shortest counter-example, beside what there is. *)
 Require Import Arith List Lia Bool.
-Require Import Walk State Split Merge Check.
+Require Import Walk State Split Merge Cone Insert Outline Check.
 Import ListNotations.
 
 (* The open fan of n triangles round v0: (0,1,2), (0,2,3), … Face f has the corner 3 f at v0. *)
@@ -81,4 +82,51 @@ Proof.
   intros W. pose proof (pair_agrees _ W 1 11 eq_refl) as [_ H].
   assert (torn (tear_round_face (give tetrahedron 0 0) 0) 1 = false) by (apply H; vm_compute; auto).
   vm_compute in *. discriminate.
+Qed.
+
+(* The theorems about operations are about something too: v0 of the fan gives f0 away and is sewn again, and the torn
+   edge gets a point on both sides. *)
+Definition triangles S := map (fun f => (origin S (3 * f), origin S (3 * f + 1), origin S (3 * f + 2))) (seq 0 (faces S)).
+Definition torn_fan := give (fan 2) 0 0.
+Example a_split_and_its_merge : triangles (fan 2) = [(0, 1, 2); (0, 2, 3)] /\
+  triangles torn_fan = [(4, 1, 2); (0, 2, 3)] /\
+  option_map triangles (merge torn_fan 4 0) = Some [(0, 1, 2); (0, 2, 3)] /\ merge torn_fan 4 1 = None.
+Proof. vm_compute. auto. Qed.
+Example a_point_on_a_tear :
+  option_map triangles (insert_on_edge torn_fan 3) = Some [(1, 2, 6); (5, 2, 3); (6, 4, 1); (3, 0, 5)] /\
+  option_map (fun S => corners_of S 2) (insert_on_edge torn_fan 3) = Some [1; 4].
+Proof. vm_compute. auto. Qed.
+
+(* A point on one side of a torn edge: what is whole on the other side can be linked to neither part. The walk finds one
+   of the two faces of v2. *)
+Definition on_one_side S h := insert
+  (Mesh (faces S) (fun x => if (x =? h) || is h (link S x) then None else link S x) (torn S) (origin S) (vertices S))
+  (boundary_cone S h).
+Example a_point_on_one_side_misses_a_face : let S := on_one_side torn_fan 3 in
+  triangles S = [(4, 1, 2); (5, 2, 3); (3, 0, 5)] /\ corners_of S 2 = [2].
+Proof. vm_compute. auto. Qed.
+(* One vertex for both sides: v5 is an end that agrees, and with the other end that does, the link is no tear (I7). *)
+Definition one_for_both S h g := let c := edge_cone S h g in
+  insert S (Cone (outline c) (succ c) (pred c) (forth c) (faces_then c) (cut c) (fun _ => false)).
+Example one_vertex_for_both_sides_is_too_few : ~ well_formed (one_for_both torn_fan 3 2).
+Proof.
+  intros W. pose proof (pair_agrees _ W 1 3 eq_refl) as [_ H].
+  assert (torn (one_for_both torn_fan 3 2) 1 = false) by (apply H; vm_compute; auto). vm_compute in *. discriminate.
+Qed.
+(* Children that are turned over: the mesh is well-formed, and not what the face was. *)
+Definition turned_over : mesh :=
+  Mesh 3 (fun h => nth h [Some 5; None; Some 6; Some 8; None; Some 0; Some 2; None; Some 3] None) (fun _ => false)
+       (fun h => nth h [3; 1; 0; 3; 2; 1; 3; 0; 2] 0) 4.
+Example turning_children_over_loses_the_outline :
+  option_map triangles (insert_in_face (fan 1) 0) = Some [(3, 0, 1); (3, 1, 2); (3, 2, 0)] /\
+  triangles turned_over = [(3, 1, 0); (3, 2, 1); (3, 0, 2)] /\
+  well_formed (within turned_over) /\
+  forall pieces parent, ~ keeps_outlines (fan 1) turned_over (fun _ => False) (eq 0) pieces parent.
+Proof.
+  do 2 (split; [vm_compute; auto|]). split.
+  - apply (what_the_checker_accepts_is_well_formed _ (witness_of turned_over)). vm_compute. auto.
+  - intros pieces parent K. assert (H0 : 0 < size (fan 1)) by (vm_compute; auto).
+    destruct (is_one _ _ _ _ _ _ K 0) as (x & E & Hx & Hy); auto.
+    destruct (is_of_parent _ _ _ _ _ _ K 0 x) as [Hs _]; [auto|rewrite E; left; auto|].
+    change (x < 9) in Hs. do 9 (destruct x as [|x]; [discriminate|]). lia.
 Qed.
