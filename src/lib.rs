@@ -63,7 +63,7 @@
 //! |---|---|
 //! | kernel, 0 | `id` (ids), [`geometry`] (planes, rays, the tie rule), `exact` (sums without rounding), `sets` (disjoint ones) |
 //! | kernel, 1 | `mesh` (topology alone: build, walk, check, pieces), `edit` (the log, and who follows it) |
-//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (which of these can be taken back), [`slide`], [`classify`], `place` (positions), `attribute`, [`engine`] (an engine's buffers, picking, normals), [`gap`], [`unshare`], `mass`, [`shapes`] |
+//! | kernel, 2 | [`split`], [`mend`] (merges), [`insert`] (insertions), `undo` (which of these can be taken back), [`slide`], [`classify`], `place` (positions), `attribute`, [`engine`] (an engine's buffers, picking, normals), [`gap`], [`unshare`], [`unsewn`] (seams that coincide), `mass`, [`shapes`] |
 //! | kernel, 3 | [`tear`] (the rule for an overstretched edge) |
 //! | scissor | `scissor` (two rays or a plane to a cut; `exact`, `partition` and the paper's two methods) |
 //! | sheet | `sheet` (mesh, positions, masses, log and what else follows, held together) |
@@ -115,6 +115,7 @@ pub mod slide;
 pub mod split;
 pub mod tear;
 mod undo;
+pub mod unsewn;
 pub mod unshare;
 
 pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};

@@ -94,7 +94,7 @@ fn planted_circles_are_seen_and_no_others() {
 const FLOORS: [&str; 5] = [
     "id geometry exact sets",
     "mesh edit",
-    "split mend insert slide classify place attribute undo unshare engine gap mass shapes",
+    "split mend insert slide classify place attribute undo unsewn unshare engine gap mass shapes",
     "scissor tear",
     "sheet script",
 ];
@@ -176,7 +176,9 @@ fn one_file_tears_links_and_one_sews_them() {
     let writers = [
         ("tear", "split"),
         ("sew swap_remove_vertex", "mend"),
-        ("link unlink push_face", "insert"),
+        ("link unlink", "insert mesh/torn"),
+        ("close_seams open_seams", "unsewn"),
+        ("push_face", "insert"),
         ("push_vertex", "split insert"),
         ("set_origin set_half_edge_of", "split mend insert"),
     ];

@@ -28,6 +28,8 @@ struct Oracle {
     pieces: BTreeMap<usize, [End; 2]>,
     /// The number of each piece's chain.
     chain: BTreeMap<usize, usize>,
+    /// By vertex, the one that it was before any cut.
+    roots: Vec<u32>,
 }
 
 /// Whether a cut comes too near to a special case.
@@ -43,18 +45,28 @@ impl Oracle {
             near: NEAR * surface.mean_edge(),
             pieces: segments(&surface, cut),
             chain: BTreeMap::new(),
+            roots: work.mesh.roots(),
             surface,
         };
         oracle.join();
         Ok(oracle)
     }
 
-    /// Numbers the chains: pieces that share an edge have one number.
+    /// Numbers the chains: pieces that share an edge have one number. The two sides of a tear that has
+    /// not opened are one edge.
     fn join(&mut self) {
         let mut first = BTreeMap::new();
         let mut joined = Vec::new();
         for (&f, ends) in &self.pieces {
-            let edges = ends.iter().filter_map(|end| end.1);
+            let place = |v: u32| {
+                let at = self.surface.points[v as usize];
+                (self.roots[v as usize], at.map(f64::to_bits))
+            };
+            let edge = |ends: [u32; 2]| {
+                let [a, b] = ends.map(place);
+                [a.min(b), a.max(b)]
+            };
+            let edges = ends.iter().filter_map(|end| end.1.map(edge));
             joined.extend(edges.map(|edge| [f, *first.entry(edge).or_insert(f)]));
         }
         let chain = joined_sets(self.surface.faces.len(), &joined);

@@ -45,6 +45,7 @@ mod surfaces;
 mod tear;
 mod tips;
 mod undo;
+mod unsewn;
 mod work;
 
 use support::{cases, delaunay, digest, inputs, plain, random};

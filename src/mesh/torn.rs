@@ -10,7 +10,7 @@ use std::fmt;
 
 use super::build::first_half_edges;
 use super::{BuildError, Link, Mesh, NO_HALF_EDGE};
-use crate::id::VertexId;
+use crate::id::{HalfEdgeId, VertexId};
 
 impl Mesh {
     /// Builds a torn mesh from its triangles and the root of each vertex. `roots[v]` is the
@@ -70,6 +70,32 @@ impl Mesh {
         };
         let lost = roots.iter().enumerate().find(lost).map(refusal);
         lost.map_or(Ok(mesh), Err)
+    }
+
+    /// Links boundary half-edges as ghost pairs: the two sides of a seam that is not sewn. The caller
+    /// answers for the invariants. For `unsewn.rs` alone.
+    ///
+    /// # Panics
+    ///
+    /// If a half-edge is not on the boundary.
+    pub(crate) fn close_seams(&mut self, seams: &[[HalfEdgeId; 2]]) {
+        for &[h, g] in seams {
+            let links = [h, g].map(|h| self.pair_or_ghost(h));
+            assert_eq!(links, [None, None], "I4: a seam is on the boundary");
+            self.link(h, g, true);
+        }
+    }
+
+    /// Removes the ghost pairs that are seams. For `unsewn.rs` alone.
+    pub(crate) fn open_seams(&mut self, is_seam: impl Fn(&Mesh, HalfEdgeId, HalfEdgeId) -> bool) {
+        for h in self.half_edges() {
+            if let Some(g) = self.ghost_pair(h)
+                && is_seam(self, h, g)
+            {
+                self.unlink(h);
+                self.unlink(g);
+            }
+        }
     }
 
     /// Returns the root of every vertex, indexed by vertex, in the form that [`Mesh::build_torn`]

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use tearmesh::mend;
-use tearmesh_obj::CoincidentError;
+use tearmesh::unsewn::UnsewnSeams;
+use tearmesh::{Mesh, Positions, mend};
+use tearmesh_obj::Document;
 
 use super::plain::Plain;
 use super::random::Random;
@@ -15,6 +16,14 @@ fn without_comments(bytes: &[u8]) -> String {
     let lines = text(bytes);
     let lines = lines.lines().filter(|line| !line.starts_with('#'));
     lines.map(|line| format!("{line}\n")).collect()
+}
+
+/// The mesh of a document, and its seams that coincide.
+fn seams(document: &Document) -> (Mesh, UnsewnSeams) {
+    let mesh = document.mesh().expect("each fan has its own vertices");
+    let positions = Positions::new(document.positions().iter().copied()).expect("finite");
+    let seams = UnsewnSeams::find(&mesh, &positions);
+    (mesh, seams)
 }
 
 /// How many edges two faces have at one place.
@@ -44,54 +53,57 @@ fn torn_edges_are_sewn_without_a_record() {
             let dropped = without_comments(&work.written());
             let document = read(dropped.as_bytes());
             assert!(!document.has_record());
-            let mesh = document.mesh().expect("each fan has its own vertices");
-            let pairs = document.coincident(&mesh);
+            let (mesh, seams) = seams(&document);
             let all = work.mesh.half_edges();
             let torn = all.filter(|&h| work.mesh.ghost_pair(h).is_some()).count();
-            assert_eq!(2 * pairs.edges(), torn, "{name} {seed}");
-            let (document, mesh) = document.torn_at(&pairs).expect("it was a surface");
+            assert_eq!(2 * seams.edges().len(), torn, "{name} {seed}");
+            let torn = document.torn_from(&seams.lowest(&mesh));
+            let (document, mesh) = torn.expect("it was a surface");
             let mut work = Work::on(&document);
             assert_eq!(work.mesh, mesh);
             let all = mend::stitches(&work.mesh, |_| true);
-            assert_eq!(all.len(), pairs.vertices());
+            assert_eq!(all, seams.stitches(&mesh));
             work.sew(&all);
             let written = text(&work.written());
             assert!(!written.contains('#'), "nothing is left to record");
             let whole = read(written.as_bytes()).mesh().expect("a mesh");
             let inside = whole.edges().filter(|&h| whole.pair(h).is_some()).count();
             assert_eq!(inside, edges_shared_by_place(&dropped), "{name} {seed}");
-            sewn += pairs.edges();
+            sewn += seams.edges().len();
         }
     }
     assert!(sewn > 500, "{sewn}");
 }
 
 #[test]
-fn coincident_edges_of_no_surface_are_refused() {
-    let lens = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n";
-    let document = read(lens.as_bytes());
-    let pairs = document.coincident(&document.mesh().expect("two faces"));
-    assert_eq!((pairs.edges(), pairs.vertices()), (3, 3));
-    assert!(matches!(
-        document.torn_at(&pairs),
-        Err(CoincidentError::Mesh(_))
-    ));
-    // Three edges at one place, two that run the same way, and one without a length.
-    let book = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 -1 0\n\
-                f 1 2 3\nf 5 4 6\nf 8 7 9\n";
+fn edges_of_no_surface_stay_apart() {
+    // A lens of two faces, three edges at one place, two that run the same way, and one without a length.
     for file in [
-        book,
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 6 5 4\n",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 0 0\nv 1 0 0\nv 0 -1 0\n\
+         f 1 2 3\nf 5 4 6\nf 8 7 9\n",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\nf 4 5 6\n",
         "v 0 0 0\nv 0 0 0\nv 0 1 0\nv 0 0 0\nv 0 0 0\nv 0 0 1\nf 1 2 3\nf 5 4 6\n",
     ] {
-        let document = read(file.as_bytes());
-        let pairs = document.coincident(&document.mesh().expect("faces"));
-        assert_eq!(pairs.edges(), 0, "{file}");
+        let (_, seams) = seams(&read(file.as_bytes()));
+        assert!(seams.is_empty(), "{file}");
     }
+}
+
+/// The kernel compares numbers, in which −0 is 0.
+#[test]
+fn regression_minus_zero_is_the_place_of_zero() {
+    let file = "v 0 0 0\nv 1 0 -0\nv 0 1 0\nv 1 -0 0\nv -0 1 0\nv 1 1 0\nf 1 2 3\nf 5 4 6\n";
+    let (mesh, seams) = seams(&read(file.as_bytes()));
+    assert_eq!(seams.lowest(&mesh), [0, 1, 2, 1, 2, 5]);
+}
+
+#[test]
+fn numbers_that_other_statements_name_are_not_changed() {
     let file = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 5 4 6\nl 1 6\n";
     let document = read(file.as_bytes());
-    let pairs = document.coincident(&document.mesh().expect("two faces"));
-    let refused = document.torn_at(&pairs).expect_err("6 would be 4");
+    let (mesh, seams) = seams(&document);
+    let refused = document.torn_from(&seams.lowest(&mesh));
     let said = "`l` may name a vertex by its number, which sewing would change";
-    assert_eq!(refused.to_string(), said);
+    assert_eq!(refused.expect_err("6 would be 4").to_string(), said);
 }

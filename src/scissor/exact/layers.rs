@@ -22,8 +22,9 @@ pub enum CutLayers {
     All,
     /// The layers that the rays meet first. These are the chain of crossed faces that the first ray
     /// hits first, and the chain that the second ray hits first. If the two differ, both are cut. A
-    /// ray that misses the mesh is moved and turned toward the other until it hits. A cut by a
-    /// plane has no rays and passes through all layers.
+    /// chain continues across an earlier cut or tear whose two sides coincide. A ray that misses the
+    /// mesh is moved and turned toward the other until it hits. A cut by a plane has no rays and passes
+    /// through all layers.
     ///
     /// Methods that tear along edges tear along the faces of these chains and, at the ends of a
     /// chain, along the faces in which the plane continues beyond the rays. A layer is cut as if
@@ -61,7 +62,7 @@ pub(in crate::scissor) fn first(
     positions: &Positions,
 ) -> Choice {
     let trace = tracer::trace(way, 0.0, &[], mesh, positions);
-    let chains = chains(&trace);
+    let chains = chains(&trace, mesh, positions);
     let pieces = || trace.pieces.iter().zip(chains.iter().copied());
     let runs =
         pieces().map(|(piece, chain)| (Run::new(way, &trace, piece, mesh, positions), chain));
@@ -134,19 +135,37 @@ impl Choice {
     }
 }
 
-/// The number of each piece's chain.
-fn chains(trace: &Trace) -> Vec<u32> {
+/// The number of each piece's chain. A chain continues across a tear whose sides coincide.
+fn chains(trace: &Trace, mesh: &Mesh, positions: &Positions) -> Vec<u32> {
     let mut sets = DisjointSets::new(trace.pieces.len() as u32);
     let mut ends: Vec<(Site, u32)> = Vec::new();
     for (piece, i) in trace.pieces.iter().zip(0..) {
         let nodes = piece.end_nodes().into_iter().flatten();
-        ends.extend(nodes.map(|site| (site, i)));
+        ends.extend(nodes.map(|site| (of_both_sides(site, mesh, positions), i)));
     }
     ends.sort_unstable();
     for two in ends.windows(2).filter(|two| two[0].0 == two[1].0) {
         sets.join(two[0].1, two[1].1);
     }
     sets.leaders().to_vec()
+}
+
+/// A node, or where it lies on a tear that has not opened, the same one of two for both sides.
+fn of_both_sides(site: Site, mesh: &Mesh, positions: &Positions) -> Site {
+    let are_one = |a: VertexId, b: VertexId| positions.at(a) == positions.at(b);
+    match site {
+        Site::Edge(h) => {
+            let coincides = |g: &HalfEdgeId| {
+                are_one(mesh.origin(h), mesh.target(*g)) && are_one(mesh.target(h), mesh.origin(*g))
+            };
+            let across = mesh.ghost_pair(h).filter(coincides);
+            Site::Edge(across.map_or(h, |g| g.min(h)))
+        }
+        Site::Vertex(v) => {
+            let copies = mesh.copies(v).filter(|&copy| are_one(copy, v));
+            Site::Vertex(copies.min().unwrap_or(v))
+        }
+    }
 }
 
 /// The faces of a piece: the one that it crosses, or the two between which it runs.

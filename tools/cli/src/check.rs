@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use tearmesh::Masses;
+use tearmesh::unsewn::UnsewnSeams;
 use tearmesh_obj::Level;
 
 use crate::args::{CheckArgs, Format};
@@ -17,6 +18,7 @@ use crate::report::{Entry, File};
 use crate::say::{Fault, count, place, short};
 use crate::session;
 use crate::streams::Streams;
+use crate::weld;
 
 /// The code of an invariant that does not hold.
 const BROKEN: &str = "E-BUG-INVARIANT";
@@ -194,6 +196,7 @@ fn measure(
     let input = Input::find(path, streams.input)?;
     let opened = session::open(&input, None, "or cut with", faults)?;
     let (mesh, positions) = (&opened.mesh, &opened.positions);
+    faults.extend(weld::warning(&UnsewnSeams::find(mesh, positions)));
     // What no verb could weigh, none can cut.
     let masses = Masses::area(mesh, positions, 1.0);
     faults.extend(masses.err().map(Fault::from));

@@ -31,7 +31,7 @@ use crate::rays;
 use crate::say::Fault;
 use crate::session::{self, Session, milliseconds};
 use crate::streams::Streams;
-use crate::{output, report};
+use crate::{output, report, weld};
 
 /// Cuts, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &CutArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -59,7 +59,13 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         scissors::of_rays(pair, &mut session.faults)?;
     }
     let pieces = Pieces::of(args, &names(args))?;
-    let opened = session.open(session::repair(args.repair, args.separate_fans))?;
+    let mut opened = session.open(session::repair(args.repair, args.separate_fans))?;
+    let seams = weld::seams(
+        &mut opened,
+        args.weld,
+        &mut session.words,
+        &mut session.faults,
+    )?;
     let (document, mut mesh, mut positions) = (opened.document, opened.mesh, opened.positions);
     let vertices_before = mesh.vertex_count();
     let masses = match args.mass {
@@ -69,6 +75,8 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let mut masses = masses.map_err(Fault::from)?;
 
     let start = Instant::now();
+    // Seams that coincide are closed while cuts are made, so that none of them opens one.
+    let mut closed = seams.close(&mut mesh);
     let mut edits = Edits::new();
     let (mut torn, mut texture) = (TornDocument::new(&document), Texture::of(&document));
     let gap = args.gap.map(|gap| match gap {
@@ -80,7 +88,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let mut line = Polyline::default();
     let through = args.through || !args.plane.is_empty();
     let how = (args.method, through);
-    let mut seams = Vec::new();
+    let mut lines = Vec::new();
     for (i, along) in cuts.iter().enumerate() {
         let number = (cuts.len() > 1).then_some(i + 1);
         let scissor = scissor(args, along, &line, &positions)?;
@@ -93,7 +101,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         let refused = |error| scissors::refused(number, error, &positions);
         let (scissor, (cut, done)) = made.map_err(refused)?;
         slid |= edits.iter().any(|edit| matches!(edit, Edit::Slide(_)));
-        edits.replay(&mut (&mut masses, &mut torn));
+        edits.replay(&mut (&mut masses, &mut torn, &mut closed));
         texture.follow(&edits);
         if let Some(map) = &mut map {
             edits.replay(map);
@@ -119,8 +127,9 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         session.faults.extend(warnings);
         session.report.cuts.push(entry);
         session.faults.extend(summary::of_layers(number, &cut));
-        seams.push(seam::lines(&cut, &mesh, &positions));
+        lines.push(seam::lines(&cut, &mesh, &positions));
     }
+    closed.reopen(&mut mesh);
     session.timing.cut = milliseconds(start);
 
     let ledger = masses.ledger();
@@ -146,7 +155,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     session.show_mesh(&document, &mesh, shown, args.camera.up.coords, &texture)?;
     session.show_page(&mesh, shown, args.camera.up.coords)?;
     if let Some(path) = args.files.wanted(&args.seam) {
-        output::write(path, |out| seam::write(&seams, out))?;
+        output::write(path, |out| seam::write(&lines, out))?;
     }
     if let Some((path, map)) = args.files.wanted(&args.map).zip(map) {
         let files = [&session.report.input, &session.report.output];

@@ -8,7 +8,7 @@
 //! Map: `args` defines the arguments, `choice` the words in them, `rays` reads rays, and `scene` reads scenes. `cut`,
 //! `tear`, `mend`, `check`, `render`, `view`, `play` and `chart` carry out the verbs, and `shell` prints completions and manual
 //! pages. `session` is shared by the verbs that change a mesh, `report` is their JSON report, and `picture`
-//! and `page` show their results. `defects` describes the defects of a mesh, `measure` measures it, and
+//! and `page` show their results. `weld` warns of seams that are not sewn, and sews them. `defects` describes the defects of a mesh, `measure` measures it, and
 //! `say` prints diagnostics. `output` writes files atomically, and `files` checks their paths. `bug` writes
 //! a reproducer if an invariant is violated. `streams` holds the streams of a run, and `exit` its status.
 
@@ -40,6 +40,7 @@ mod shell;
 mod streams;
 mod tear;
 mod view;
+mod weld;
 
 use std::ffi::OsString;
 

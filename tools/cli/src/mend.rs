@@ -5,8 +5,9 @@ use std::io::Write;
 use std::time::Instant;
 
 use tearmesh::mend::{self, SewError, Stitch, StitchError};
+use tearmesh::unsewn::UnsewnSeams;
 use tearmesh::{Edit, Edits, Masses, Mesh, Positions, Vector, VertexId};
-use tearmesh_obj::{Coincident, Document, Simplified, TornDocument};
+use tearmesh_obj::{Document, Simplified, TornDocument};
 
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
@@ -17,6 +18,7 @@ use crate::report;
 use crate::say::{Fault, count, short};
 use crate::session::{self, Session, milliseconds};
 use crate::streams::Streams;
+use crate::weld;
 
 /// Mends, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &MendArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -30,7 +32,7 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let opened = session.open(None)?;
     let (mut document, mut mesh, mut positions) = (opened.document, opened.mesh, opened.positions);
     if args.coincident {
-        (document, mesh) = torn_at(document, &mesh)?;
+        (document, mesh) = torn_at_seams(document, &mesh, &positions)?;
     }
     let (vertices_before, pieces_before) = (mesh.vertex_count(), mesh.components().count());
     let masses = Masses::area(&mesh, &positions, 1.0);
@@ -67,13 +69,13 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         let place = if args.near.is_some() { " there" } else { "" };
         let message = format!("nothing is torn{place}");
         let mut fault = Fault::warning("W-MEND-NONE", message);
-        let pairs = match args.coincident || document.has_record() {
-            true => Coincident::default(),
-            false => document.coincident(&mesh),
+        let seams = match args.coincident || document.has_record() {
+            true => UnsewnSeams::default(),
+            false => UnsewnSeams::find(&mesh, &positions),
         };
-        if pairs.edges() > 0 {
+        if !seams.is_empty() {
             let (one, many) = ("pair of boundary edges lies", "pairs of boundary edges lie");
-            let edges = count(pairs.edges(), one, many);
+            let edges = count(seams.edges().len(), one, many);
             fault.message = format!("the file has no record of cuts; {edges} on each other");
             let help = "if another program dropped the record, --coincident sews them";
             fault = fault.help(help);
@@ -166,20 +168,19 @@ fn close_gaps(torn: &mut TornDocument<'_>, mesh: &Mesh, edits: &Edits, vertices_
 }
 
 /// The document and its mesh, torn where its boundary lies on itself.
-fn torn_at(document: Document, mesh: &Mesh) -> Result<(Document, Mesh), Stop> {
+fn torn_at_seams(
+    document: Document,
+    mesh: &Mesh,
+    positions: &Positions,
+) -> Result<(Document, Mesh), Stop> {
     if document.has_record() {
         let message =
             "`--coincident` is for a file without a record of its cuts, and this one has one";
         let help = "leave it out: the record is more exact";
         return Err(Stop::usage(message, help));
     }
-    let pairs = document.coincident(mesh);
-    document.torn_at(&pairs).map_err(|error| {
-        let (one, many) = ("pair of boundary edges", "pairs of boundary edges");
-        let edges = count(pairs.edges(), one, many);
-        let message = format!("{edges} cannot be sewn: {error}");
-        Fault::error("E-MEND-COINCIDENT", message).into()
-    })
+    let seams = UnsewnSeams::find(mesh, positions);
+    Ok(weld::torn_at(document, mesh, &seams)?)
 }
 
 /// What is to be sewn.

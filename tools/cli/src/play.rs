@@ -14,7 +14,7 @@ use crate::say::{Fault, count};
 use crate::scene::SceneFile;
 use crate::session::{self, Opened};
 use crate::streams::Streams;
-use crate::{output, page, tear};
+use crate::{output, page, tear, weld};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -41,6 +41,7 @@ pub(crate) fn run(
     let mut cloth = "a sheet of 1 m".to_owned();
     if let Some(input) = &args.input {
         let (input, mut opened) = session::look(input, &args.look, faults, streams)?;
+        weld::seams(&mut opened, args.weld, &mut Vec::new(), faults)?;
         if is_file {
             let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
             let scene = source.scene(&frame, None)?;

@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use tearmesh::{MassError, MassLedger, Mesh, Place, Point, Positions, Vector};
+use tearmesh::{MassError, MassLedger, Mesh, Place, Point, Positions, Vector, VertexId};
 use tearmesh_obj::{Document, Repair, WriteSummary};
 use tearmesh_view::{ANGLE_OF_VIEW, Moment, Page, PictureSize, RenderOptions, fit, render};
 
@@ -45,6 +45,8 @@ pub(crate) struct Opened {
     pub(crate) document: Document,
     pub(crate) mesh: Mesh,
     pub(crate) positions: Positions,
+    /// By vertex of the file, the one that it became when seams were sewn.
+    pub(crate) welded: Option<Vec<VertexId>>,
     /// How long it took to read the document, and to build its mesh.
     timing_ms: [f64; 2],
 }
@@ -406,6 +408,7 @@ pub(crate) fn open(
         document,
         mesh,
         positions,
+        welded: None,
         timing_ms,
     })
 }

@@ -17,7 +17,7 @@ use tearmesh::{Cursor, CutReport, Scissor, VertexId};
 use tearmesh_cloth::scene::ensemble::Subject;
 use tearmesh_cloth::scene::{Frame, Region, Run, Scene, TearLog, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
-use tearmesh_obj::{Document, TornDocument};
+use tearmesh_obj::TornDocument;
 
 use self::frames::{Frames, places};
 use self::recorder::Recorder;
@@ -32,7 +32,7 @@ use crate::say::Fault;
 use crate::scene::SceneFile;
 use crate::session::{Opened, Session, milliseconds};
 use crate::streams::Streams;
-use crate::{files, output, report};
+use crate::{files, output, report, weld};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -49,6 +49,12 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let source = SceneFile::find(&args.scene, session.streams)?;
     let cuts = check::cuts(args, &mut session.faults)?;
     let mut opened = session.open(None)?;
+    weld::seams(
+        &mut opened,
+        args.weld,
+        &mut session.words,
+        &mut session.faults,
+    )?;
     let up = args.up.unwrap_or_else(|| source.up());
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
     let mut scene = source.scene(&frame, args.solver.as_ref())?;
@@ -80,7 +86,7 @@ pub(crate) fn begin(
     frame: &Frame,
     source: &SceneFile,
 ) -> Result<Run, Stop> {
-    name_vertices(&mut scene, &opened.document);
+    name_vertices(&mut scene, opened);
     scene.rest = check::rest(opened, source)?;
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, frame);
     run.map_err(|error| check::refused(&error, opened, source))
@@ -122,7 +128,7 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
 
 /// A scene names vertices by their numbers in the file, among which copies for fans may be. A number
 /// that no `v` has stays one that no vertex has.
-fn name_vertices(scene: &mut Scene, document: &Document) {
+fn name_vertices(scene: &mut Scene, opened: &Opened) {
     let holds = scene.holds.iter_mut().map(|hold| &mut hold.region);
     let strengths = scene.strengths.iter_mut().map(|(region, _)| region);
     let named = holds.chain(strengths).filter_map(|region| match region {
@@ -132,8 +138,14 @@ fn name_vertices(scene: &mut Scene, document: &Document) {
     let sides = scene.seams.iter_mut();
     let sides = sides.flat_map(|seam| [&mut seam.one, &mut seam.other]);
     for vertex in named.chain(sides).flatten() {
-        let known = document.vertex_of_number(vertex.index() + 1);
-        *vertex = known.and_then(VertexId::new).unwrap_or(*vertex);
+        let known = match &opened.welded {
+            Some(welded) => welded.get(vertex.index()).copied(),
+            None => {
+                let known = opened.document.vertex_of_number(vertex.index() + 1);
+                known.and_then(VertexId::new)
+            }
+        };
+        *vertex = known.unwrap_or(*vertex);
     }
 }
 

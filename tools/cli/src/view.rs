@@ -28,6 +28,7 @@ pub(crate) fn run(
             return Err(Stop::usage(message, "name one file, or leave out --play"));
         };
         let args = PlayArgs {
+            weld: None,
             input: Some(input.clone()),
             scene: "rip".to_owned(),
             up: None,

@@ -146,7 +146,7 @@
 //! | `mesh.rs` | triangles to mesh, or defects in the terms of the file |
 //! | `raw.rs` | a document from obj-rs (feature `obj-rs`), by way of a text |
 //! | `repair.rs` | repair of defects, on request |
-//! | `coincident.rs` | coincident boundary edges that no record explains |
+//! | `torn_from.rs` | vertices that are parts of others, without a record |
 //! | `torn.rs`, `torn/` | edits of a document: corners, splits, order |
 //! | `record.rs`, `families.rs` | the contents of the record, and its checksum; divided faces |
 //! | `sections.rs`, `order.rs` | the ends of objects, and the order and numbers of written statements |
@@ -157,7 +157,6 @@
 //! This crate reads and writes streams of bytes. Opening files, replacing them as a whole, and
 //! rendering diagnostics are left to the caller.
 
-mod coincident;
 mod diagnostic;
 mod document;
 mod families;
@@ -175,10 +174,10 @@ mod sections;
 mod simplify;
 mod store;
 mod torn;
+mod torn_from;
 mod triangulate;
 mod write;
 
-pub use coincident::{Coincident, CoincidentError};
 pub use diagnostic::{Diagnostic, Excerpt, Level, Location, ReadError};
 pub use document::Document;
 pub use mesh::MeshError;
@@ -186,4 +185,5 @@ pub use polygons::Corner;
 pub use repair::Repair;
 pub use simplify::Simplified;
 pub use torn::TornDocument;
+pub use torn_from::TornFromError;
 pub use write::{PieceNames, PieceWriter, WriteSummary};

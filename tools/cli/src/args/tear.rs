@@ -56,6 +56,15 @@ pub(crate) struct TearArgs {
     )]
     pub(crate) toughness: Option<f64>,
 
+    /// Sew seams that coincide before the simulation: edges of the boundary that lie on each other.
+    ///
+    /// Programs that write a vertex for each texture coordinate or normal leave such seams: to the
+    /// simulation or the cut, the parts are loose. With --weld=D, sides that are up to D apart are sewn too,
+    /// in their middle. Edges at which more than two sides meet stay apart. The output has the seams sewn.
+    #[arg(long, value_name = "D", num_args = 0..=1, require_equals = true, default_missing_value = "0",
+        value_parser = super::read::distance)]
+    pub(crate) weld: Option<f64>,
+
     /// Tear edges that pull with more than this force, in newtons.
     #[arg(long, value_name = "F", allow_negative_numbers = true, value_parser = super::read::positive)]
     pub(crate) threshold_newton: Option<f64>,

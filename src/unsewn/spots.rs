@@ -1,0 +1,140 @@
+//! The places of the vertices along a boundary, as numbers: equal for vertices at one place.
+
+use std::cmp::Ordering;
+
+use crate::geometry::{Point, length};
+use crate::id::{HalfEdgeId, VertexId};
+use crate::mesh::Mesh;
+use crate::place::Place;
+use crate::sets::DisjointSets;
+
+/// A vertex that is not at an end of the boundary half-edges.
+const NONE: u32 = u32::MAX;
+
+/// How many points in one cell of the grid are compared. Where there are more, they are as dense as the
+/// distance is long, and none is one with another.
+const DENSE: usize = 64;
+
+/// The places of the vertices of boundary half-edges.
+pub(super) struct Spots<'p, P: ?Sized> {
+    place: &'p P,
+    distance: f64,
+    /// By vertex.
+    of: Vec<u32>,
+}
+
+impl<'p, P: Place + ?Sized> Spots<'p, P> {
+    /// Looks at both ends of each half-edge. Places are one if they are equal, or with a distance, if they
+    /// are connected by steps of at most that and no two of them are farther apart.
+    pub(super) fn new(
+        mesh: &Mesh,
+        place: &'p P,
+        boundary: &[HalfEdgeId],
+        distance: f64,
+    ) -> Spots<'p, P> {
+        let mut of = vec![NONE; mesh.vertex_count()];
+        let mut order: Vec<VertexId> = Vec::new();
+        for v in boundary
+            .iter()
+            .flat_map(|&h| [mesh.origin(h), mesh.target(h)])
+        {
+            if std::mem::replace(&mut of[v.index()], 0) == NONE {
+                order.push(v);
+            }
+        }
+        let at = |v: VertexId| coordinates(place.at(v));
+        order.sort_unstable_by(|&a, &b| compare(at(a), at(b)).then(a.cmp(&b)));
+        let mut count = 0;
+        let mut before = None;
+        order.retain(|&v| {
+            let is_first = before != Some(at(v));
+            before = Some(at(v));
+            count += u32::from(is_first);
+            of[v.index()] = count - 1;
+            is_first
+        });
+        if distance > 0.0 {
+            let merged = merged(&order, at, distance);
+            for spot in of.iter_mut().filter(|spot| **spot != NONE) {
+                *spot = merged[*spot as usize];
+            }
+        }
+        Spots {
+            place,
+            distance,
+            of,
+        }
+    }
+
+    /// The number of the place of a vertex of the boundary.
+    pub(super) fn of_vertex(&self, v: VertexId) -> u32 {
+        self.of[v.index()]
+    }
+
+    /// The same for the vertex opposite to a half-edge. It need not be on the boundary.
+    pub(super) fn of_opposite(&self, mesh: &Mesh, h: HalfEdgeId) -> u32 {
+        self.of_vertex(mesh.origin(h.prev()))
+    }
+
+    /// Whether the faces of two half-edges have their third vertices at one place.
+    pub(super) fn have_same_opposite(&self, mesh: &Mesh, h: HalfEdgeId, g: HalfEdgeId) -> bool {
+        let [p, q] = [h, g].map(|h| self.place.at(mesh.origin(h.prev())));
+        p == q || length(q - p) <= self.distance
+    }
+}
+
+/// The coordinates of a point, with 0 for −0.
+fn coordinates(p: Point) -> [f64; 3] {
+    [p.x, p.y, p.z].map(|x| x + 0.0)
+}
+
+fn compare(p: [f64; 3], q: [f64; 3]) -> Ordering {
+    let axes = p.iter().zip(&q).map(|(x, y)| x.total_cmp(y));
+    axes.fold(Ordering::Equal, Ordering::then)
+}
+
+/// For each of these vertices a number that it has in common with those that are connected with it by steps
+/// of at most `distance`, if no two of them are farther apart.
+fn merged(vertices: &[VertexId], at: impl Fn(VertexId) -> [f64; 3], distance: f64) -> Vec<u32> {
+    let count = vertices.len() as u32;
+    let at = |i: u32| at(vertices[i as usize]);
+    let cell = |i: u32| at(i).map(|x| (x / distance).floor());
+    let far = |i: u32, j: u32| length(Point::from(at(j)) - Point::from(at(i)));
+    let mut cells: Vec<u32> = (0..count).collect();
+    cells.sort_unstable_by(|&i, &j| compare(cell(i), cell(j)).then(i.cmp(&j)));
+    let inside = |of: [f64; 3]| {
+        let from = cells.partition_point(|&i| compare(cell(i), of).is_lt());
+        let count = cells[from..].iter().take(DENSE + 1);
+        let count = count.take_while(|&&i| compare(cell(i), of).is_eq()).count();
+        &cells[from..from + count]
+    };
+    let mut sets = DisjointSets::new(count);
+    let mut is_dense = vec![false; vertices.len()];
+    for &i in &cells {
+        for step in 0..27 {
+            let steps = [step / 9, step / 3 % 3, step % 3];
+            let of = cell(i);
+            let near = inside([0, 1, 2].map(|axis| of[axis] + f64::from(steps[axis] - 1)));
+            if near.len() > DENSE {
+                is_dense[i as usize] = true;
+                continue;
+            }
+            let near = near.iter().copied();
+            for j in near.filter(|&j| j < i && far(i, j) <= distance) {
+                sets.join(i, j);
+            }
+        }
+    }
+    let leaders = sets.leaders();
+    let leader = |i: u32| leaders[i as usize];
+    cells.sort_unstable_by_key(|&i| (leader(i), i));
+    let mut merged: Vec<u32> = (0..count).collect();
+    for set in cells.chunk_by(|&i, &j| leader(i) == leader(j)) {
+        let is_apart = |n: usize| set[..n].iter().any(|&j| far(set[n], j) > distance);
+        let is_wide = || (0..set.len()).any(is_apart);
+        if set.len() <= DENSE && !set.iter().any(|&i| is_dense[i as usize]) && !is_wide() {
+            set.iter().for_each(|&i| merged[i as usize] = set[0]);
+        }
+    }
+    merged
+}

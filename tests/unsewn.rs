@@ -1,0 +1,440 @@
+//! Seams that coincide and are not sewn: found by place, closed while a cut is made, and reopened.
+//!
+//! The oracle compares all pairs of boundary edges of plain triangles, and judges what is closed by
+//! building the mesh anew from triangles and roots.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use tearmesh::unsewn::UnsewnSeams;
+use tearmesh::{
+    CutError, CutLayers, CutMethod, Edits, Mesh, Plane, Positions, Scissor, Vector, shapes,
+};
+
+use crate::cases::cases;
+use crate::oracle::joined_sets;
+use crate::oracle::straight::{Surface, cross, dot, length, minus};
+use crate::random::Random;
+use crate::surfaces::{built, delaunay, jittered, sphere, surface};
+use crate::work::ray;
+
+type Point = [f64; 3];
+
+/// A place as numbers: −0 is 0.
+fn place(p: Point) -> [u64; 3] {
+    p.map(|x| (x + 0.0).to_bits())
+}
+
+/// Gives some corners vertices of their own, so that seams come apart.
+fn unsewn(whole: &Surface, part: f64, random: &mut Random) -> Surface {
+    // Faces of one patch share vertices.
+    let patches = 1 + random.below(6);
+    let mut patch: Vec<usize> = whole.faces.iter().map(|_| random.below(patches)).collect();
+    if random.next() < 0.7 {
+        // Patches that hang together: by the place of the first corner.
+        let cell = |f: &[u32; 3]| {
+            let p = whole.points[f[0] as usize];
+            (p[0] * 2.3).floor() as i64 + 3 * (p[1] * 1.7).floor() as i64
+        };
+        patch = whole
+            .faces
+            .iter()
+            .map(|f| cell(f).rem_euclid(97) as usize)
+            .collect();
+    }
+    if random.next() < part {
+        patch = (0..whole.faces.len()).collect(); // A soup.
+    }
+    let mut known = BTreeMap::new();
+    let mut parts = Surface::default();
+    for (face, patch) in whole.faces.iter().zip(patch) {
+        parts.faces.push(face.map(|v| {
+            *known.entry((v, patch)).or_insert_with(|| {
+                let mut p = whole.points[v as usize];
+                for x in &mut p {
+                    if *x == 0.0 && random.next() < 0.5 {
+                        *x = -*x;
+                    }
+                }
+                parts.points.push(p);
+                parts.points.len() as u32 - 1
+            })
+        }));
+    }
+    separate_fans(&mut parts);
+    parts
+}
+
+/// Gives each fan of a vertex a vertex of its own, so that the kernel accepts the surface.
+fn separate_fans(surface: &mut Surface) {
+    let mut edges: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    for (f, &[a, b, c]) in surface.faces.iter().enumerate() {
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            edges.entry([a.min(b), a.max(b)]).or_default().push(f);
+        }
+    }
+    let mut corners: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (f, face) in surface.faces.iter().enumerate() {
+        face.iter()
+            .for_each(|&v| corners.entry(v).or_default().push(f));
+    }
+    for (v, faces) in corners {
+        let mut joined = Vec::new();
+        for (edge, of_edge) in edges.iter().filter(|(edge, _)| edge.contains(&v)) {
+            let at = |f: &usize| faces.iter().position(|g| g == f);
+            let ends: Vec<usize> = of_edge.iter().filter_map(at).collect();
+            joined.extend(ends.windows(2).map(|two| [two[0], two[1]]));
+            let _ = edge;
+        }
+        let fans = joined_sets(faces.len(), &joined);
+        let mut vertices = BTreeMap::from([(fans[0], v)]);
+        for (&f, fan) in faces.iter().zip(&fans) {
+            let vertex = *vertices.entry(*fan).or_insert_with(|| {
+                let p = surface.points[v as usize];
+                surface.points.push(p);
+                surface.points.len() as u32 - 1
+            });
+            let corner = surface.faces[f].iter_mut().find(|corner| **corner == v);
+            *corner.expect("a face of the vertex") = vertex;
+        }
+    }
+}
+
+/// The boundary edges of a surface that are each other's only partner, by all pairs of edges.
+fn partners(surface: &Surface) -> BTreeSet<[[u32; 2]; 2]> {
+    let directed = surface.directed_edges();
+    let mut boundary: Vec<([u32; 2], u32)> = Vec::new();
+    for &[a, b, c] in &surface.faces {
+        for [a, b, c] in [[a, b, c], [b, c, a], [c, a, b]] {
+            if !directed.contains_key(&(b, a)) {
+                boundary.push(([a, b], c));
+            }
+        }
+    }
+    let at = |v: u32| place(surface.points[v as usize]);
+    let is_thin =
+        |&([a, b], c): &([u32; 2], u32)| at(a) == at(b) || [at(a), at(b)].contains(&at(c));
+    let are_partners = |one: &([u32; 2], u32), other: &([u32; 2], u32)| {
+        let ([a, b], [c, d]) = (one.0, other.0);
+        at(a) == at(d)
+            && at(b) == at(c)
+            && at(one.1) != at(other.1)
+            && !is_thin(one)
+            && !is_thin(other)
+    };
+    let all = |one: &([u32; 2], u32)| {
+        let partners = boundary.iter().filter(|other| are_partners(one, other));
+        partners.map(|other| other.0).collect::<Vec<_>>()
+    };
+    let mut found = BTreeSet::new();
+    for one in &boundary {
+        if let [other] = all(one)[..] {
+            let back = boundary
+                .iter()
+                .find(|back| back.0 == other)
+                .expect("it is there");
+            if all(back) == [one.0] {
+                found.insert([one.0.min(other), one.0.max(other)]);
+            }
+        }
+    }
+    found
+}
+
+fn wholes(random: &mut Random) -> Vec<Surface> {
+    let half = 1 + random.below(2) as u32;
+    vec![
+        folded(half, random),
+        surface(&shapes::grid(5, 4)),
+        jittered(6, random),
+        delaunay(50, 6, random),
+        sphere(1),
+        surface(&shapes::tube(7, 3)),
+        surface(&shapes::torus(7, 5)),
+        doubled(&surface(&shapes::grid(3, 3))),
+        with_copies(&sphere(1), random),
+        surface(&shapes::fan(9, true)),
+    ]
+}
+
+/// Triangles on a few places, with vertices of their own but for some edges: whatever sides can meet in.
+fn triangles(random: &mut Random) -> Surface {
+    let places = 4 + random.below(3);
+    let part = 0.1 + 0.5 * random.next();
+    let mut loose = Surface::default();
+    let mut add = |corners: [usize; 3]| {
+        let first = loose.points.len() as u32;
+        let point = |i: usize| [(i * i) as f64, i as f64, (i % 3) as f64];
+        loose.points.extend(corners.map(point));
+        loose.faces.push([first, first + 1, first + 2]);
+    };
+    for a in 0..places {
+        for b in a..places {
+            for c in b + 1..places {
+                for corners in [[a, b, c], [b, a, c]] {
+                    let part = if a == b { 0.1 * part } else { part };
+                    if random.next() < part {
+                        add(corners);
+                    }
+                }
+            }
+        }
+    }
+    if loose.faces.is_empty() {
+        loose.points.extend([[0.0; 3], [1.0; 3], [2.0, 1.0, 0.0]]);
+        loose.faces.push([0, 1, 2]);
+    }
+    loose
+}
+
+/// A sheet that is folded in the middle, so that two sides of it coincide. Sewn, it is a flat tube, with
+/// twice the same edges round it if it is a cell wide.
+fn folded(half: u32, random: &mut Random) -> Surface {
+    let turns: Vec<bool> = (0..64).map(|_| random.next() < 0.5).collect();
+    let diagonal = |x: u32, y: u32| turns[(8 * y + x) as usize % 64];
+    let mut sheet = surface(&shapes::grid_with_diagonals(2 * half, 3, diagonal));
+    for [x, ..] in &mut sheet.points {
+        *x = 0.5 - (*x - 0.5).abs();
+    }
+    sheet
+}
+
+/// A surface, and loose copies of a few of its faces, so that three sides meet at their edges.
+fn with_copies(whole: &Surface, random: &mut Random) -> Surface {
+    let mut more = whole.clone();
+    for _ in 0..1 + random.below(2) {
+        let first = more.points.len() as u32;
+        let corners = whole.faces[random.below(whole.faces.len())];
+        let corners = corners.map(|v| whole.points[v as usize]);
+        more.points.extend(corners);
+        more.faces.push([first, first + 1, first + 2]);
+    }
+    more
+}
+
+/// A sheet and its back, at one place.
+fn doubled(sheet: &Surface) -> Surface {
+    let mut both = sheet.clone();
+    let first = both.points.len() as u32;
+    both.points.extend(sheet.points.clone());
+    both.faces.extend(
+        sheet
+            .faces
+            .iter()
+            .map(|&[a, b, c]| [c, b, a].map(|v| v + first)),
+    );
+    both
+}
+
+fn edges(mesh: &Mesh, seams: &UnsewnSeams) -> BTreeSet<[[u32; 2]; 2]> {
+    let ends = |h| [mesh.origin(h), mesh.target(h)].map(u32::from);
+    let pairs = seams.edges().iter();
+    let pairs = pairs.map(|pair| pair.map(ends));
+    pairs
+        .map(|[one, other]| [one.min(other), one.max(other)])
+        .collect()
+}
+
+#[test]
+fn seams_are_those_of_all_pairs_of_edges() {
+    let mut random = Random(5);
+    let (mut found, mut left, mut enclosed) = (0, 0, 0);
+    for i in 0..cases() {
+        let wholes = wholes(&mut random);
+        let parts = match i % 2 {
+            0 if random.next() < 0.2 => wholes[i as usize / 2 % wholes.len()].clone(),
+            0 => unsewn(&wholes[i as usize / 2 % wholes.len()], 0.3, &mut random),
+            _ => triangles(&mut random),
+        };
+        let (mut mesh, positions) = built(&parts);
+        let seams = UnsewnSeams::find(&mesh, &positions);
+        let [oracle, ours] = [partners(&parts), edges(&mesh, &seams)];
+        // More than two sides may meet at an edge both ends of which seams join.
+        let extra = ours.difference(&oracle).count();
+        enclosed += extra;
+        let apart = seams.left_apart().not_manifold;
+        assert_eq!(2 * (oracle.len() + extra - ours.len()), apart, "{parts:?}");
+        found += ours.len();
+        left += apart;
+
+        // What is closed is what triangles and roots say.
+        let closed = seams.close(&mut mesh);
+        assert_eq!(mesh.check(), []);
+        let triangles = mesh.indices().as_chunks().0;
+        assert_eq!(
+            Mesh::build_torn(triangles, &mesh.roots()).as_ref(),
+            Ok(&mesh)
+        );
+        // And what was left apart would not be a manifold.
+        if apart > 0 {
+            let joined = oracle.iter().flat_map(|&[[a, b], [c, d]]| [[a, d], [b, c]]);
+            let joined: Vec<_> = joined.map(|pair| pair.map(|v| v as usize)).collect();
+            let roots = joined_sets(parts.points.len(), &joined);
+            let roots: Vec<u32> = roots.into_iter().map(|root| root as u32).collect();
+            assert!(Mesh::build_torn(triangles, &roots).is_err());
+        }
+        closed.reopen(&mut mesh);
+        assert_eq!(mesh, built(&parts).0);
+
+        let welded = seams.welded(&mesh, &positions);
+        assert_eq!(welded.mesh.check(), []);
+        assert_eq!(welded.mesh.face_count(), mesh.face_count());
+        let at = |v: tearmesh::VertexId| welded.positions.at(welded.vertices[v.index()]);
+        assert!(mesh.vertices().all(|v| at(v) == positions.at(v)));
+        // Of more than two sides, two may be left that belong together.
+        let again = UnsewnSeams::find(&welded.mesh, &welded.positions);
+        assert!(again.is_empty() || seams.left_apart().crowded > 0);
+    }
+    println!("{found} seam edges, {enclosed} enclosed, {left} left apart");
+    assert!(found > 1000 && enclosed > 0 && left > 0);
+}
+
+/// A scissor that meets a surface: a plane, which may hold vertices, or rays from one eye or parallel.
+fn scissor(of: &Surface, random: &mut Random) -> Scissor {
+    let pick = |random: &mut Random| of.points[random.below(of.points.len())];
+    let edge = of.mean_edge();
+    let near = |random: &mut Random| {
+        let by = edge * [0.0, 0.01, 0.3, 1.0][random.below(4)];
+        pick(random).map(|x| x + by * (random.next() - 0.5))
+    };
+    let (p, q) = (near(random), near(random));
+    let view = [random.next() - 0.5, random.next() - 0.5, -1.0];
+    let eye = [0, 1, 2].map(|i| p[i] - 3.0 * view[i]);
+    let kind = random.below(3);
+    if kind < 2 && length(minus(p, q)) > 1e-9 {
+        let far = |p: Point| [0, 1, 2].map(|i| p[i] - 3.0 * view[i]);
+        let rays = match kind {
+            0 => [p, q].map(|p| ray((eye, minus(p, eye)))),
+            _ => [p, q].map(|p| ray((far(p), view))),
+        };
+        if let Ok(scissor) = Scissor::new(rays[0], rays[1]) {
+            return scissor;
+        }
+    }
+    let normal = match random.below(4) {
+        axis if axis < 3 => [0, 1, 2].map(|i| f64::from(u8::from(i == axis))),
+        _ => [
+            random.next() - 0.5,
+            random.next() - 0.5,
+            random.next() - 0.5,
+        ],
+    };
+    Scissor::by_plane(Plane::new(p.into(), Vector::from(normal)).expect("a normal"))
+}
+
+/// The triangles of a surface by place, each from its lowest corner on.
+fn by_place(surface: &Surface) -> Vec<[[u64; 3]; 3]> {
+    let turned = |face: &[u32; 3]| {
+        let mut corners = face.map(|v| place(surface.points[v as usize]));
+        let lowest = (0..3).min_by_key(|&i| corners[i]).expect("three");
+        corners.rotate_left(lowest);
+        corners
+    };
+    let mut faces: Vec<_> = surface.faces.iter().map(turned).collect();
+    faces.sort_unstable();
+    faces
+}
+
+/// The directed edges, by place, that have no opposite there.
+fn open_edges(surface: &Surface) -> Vec<[Point; 2]> {
+    let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
+    for &[a, b, c] in &surface.faces {
+        for ends in [[a, b], [b, c], [c, a]] {
+            let [p, q] = ends.map(|v| place(surface.points[v as usize]));
+            *edges.entry([p.min(q), p.max(q)]).or_default() += if p < q { 1 } else { -1 };
+        }
+    }
+    let open = edges.into_iter().filter(|&(_, count)| count != 0);
+    open.map(|(ends, _)| ends.map(|p| p.map(f64::from_bits)))
+        .collect()
+}
+
+/// Whether a segment lies on another, but for rounding.
+fn lies_on([p, q]: [Point; 2], [from, to]: [Point; 2]) -> bool {
+    let way = minus(to, from);
+    let is_on = |p: Point| {
+        let off = minus(p, from);
+        let along = dot(off, way) / dot(way, way);
+        length(cross(off, way)) <= 1e-9 * dot(way, way) && (-1e-9..=1.0 + 1e-9).contains(&along)
+    };
+    is_on(p) && is_on(q)
+}
+
+/// Whether two faces have the same places.
+fn has_layers(surface: &Surface) -> bool {
+    let places = |face: &[u32; 3]| {
+        let mut places = face.map(|v| place(surface.points[v as usize]));
+        places.sort_unstable();
+        places
+    };
+    let edge = |face: [[u64; 3]; 3]| [[face[0], face[1]], [face[1], face[2]], [face[0], face[2]]];
+    let mut edges: BTreeMap<_, usize> = BTreeMap::new();
+    for face in &surface.faces {
+        edge(places(face))
+            .into_iter()
+            .for_each(|edge| *edges.entry(edge).or_default() += 1);
+    }
+    edges.into_values().any(|count| count > 2)
+}
+
+/// Cuts a mesh whose seams are closed meanwhile.
+fn cut_closed(
+    (mut mesh, mut positions): (Mesh, Positions),
+    scissor: &Scissor,
+    method: CutMethod,
+) -> Result<Surface, CutError> {
+    let mut edits = Edits::new();
+    let mut closed = UnsewnSeams::find(&mesh, &positions).close(&mut mesh);
+    scissor.cut(method, &mut mesh, &mut positions, &mut edits)?;
+    edits.replay(&mut closed);
+    closed.reopen(&mut mesh);
+    assert_eq!(mesh.check(), []);
+    let triangles = mesh.indices().as_chunks().0;
+    assert_eq!(
+        Mesh::build_torn(triangles, &mesh.roots()).as_ref(),
+        Ok(&mesh)
+    );
+    Ok(surface(&(mesh, positions)))
+}
+
+/// A cut of parts is that of the whole, face by face; and where vertices slide on one of them alone, it
+/// opens no edge.
+#[test]
+fn cuts_across_unsewn_seams_are_those_of_the_whole() {
+    let mut random = Random(17);
+    let (mut cuts, mut seams, mut slid) = (0, 0, 0);
+    for i in 0..cases() {
+        let wholes = wholes(&mut random);
+        let whole = &wholes[i as usize % wholes.len()];
+        let parts = unsewn(whole, 0.3, &mut random);
+        let snap = [0.0, 0.01, Scissor::SNAP, 0.2, 0.49][random.below(5)];
+        let moves = random.next() < 0.0;
+        let layers = [CutLayers::All, CutLayers::First][random.below(2)];
+        let method = [CutMethod::Exact, CutMethod::Exact, CutMethod::Partition][random.below(3)];
+        let scissor = scissor(whole, &mut random);
+        let scissor = scissor.snap(snap).snap_move(moves).layers(layers);
+        let (mesh, positions) = built(&parts);
+        let found = UnsewnSeams::find(&mesh, &positions);
+        let welded = found.welded(&mesh, &positions);
+        let before = surface(&(welded.mesh.clone(), welded.positions.clone()));
+        let Ok(of_parts) = cut_closed((mesh, positions), &scissor, method) else {
+            continue;
+        };
+        let of_whole = cut_closed((welded.mesh, welded.positions), &scissor, method);
+        let of_whole = of_whole.expect("parts were cut");
+        seams += found.edges().len();
+        cuts += usize::from(of_parts.faces.len() > before.faces.len());
+        slid += usize::from(moves);
+        // A tip is never moved onto a boundary, and to a tip, a seam is one.
+        if !moves && scissor.sides().is_none() {
+            let is_same = by_place(&of_parts) == by_place(&of_whole);
+            assert!(is_same, "case {i}, snap {snap}");
+        }
+        // Layers at one place hide each other's edges, until one of them is cut alone.
+        let open = open_edges(&before);
+        for edge in open_edges(&of_parts) {
+            let is_old = open.iter().any(|&old| lies_on(edge, old));
+            assert!(is_old || has_layers(&before), "case {i}: {edge:?} opened");
+        }
+    }
+    println!("{cuts} cuts that inserted, {slid} with slides, across {seams} seam edges");
+}
