@@ -7,6 +7,7 @@ mod allocation;
 mod balance;
 mod bending;
 mod bodies;
+mod clamps;
 mod damping;
 #[cfg(feature = "serde")]
 mod data;

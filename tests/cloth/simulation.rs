@@ -317,6 +317,60 @@ fn a_cut_that_fell_apart_heals_by_every_method() {
     }
 }
 
+/// The halves of what a cut inserts in the held edge are held where they are, and once they are one again, no
+/// longer; unless somebody holds them for their own sake.
+#[test]
+fn what_a_cut_inserts_within_a_hold_is_held_until_it_heals() {
+    for is_held_anew in [false, true] {
+        let mut sim = hanging(12, 1000.0, 1.0, Method::Verlet);
+        pass(&mut sim, 0.1);
+        let cut = sim.cut(&down(0.53)).expect("cut");
+        assert_eq!(held(&sim), 13 + 2);
+        let system = sim.cloth().system();
+        let halves: Vec<usize> = (169..)
+            .take_while(|&v| v < sim.mesh().vertex_count())
+            .collect();
+        let halves = halves.into_iter().filter(|&v| system.is_held(v)).map(v);
+        let halves: Vec<VertexId> = halves.collect();
+        let places = [at(&sim, halves[0]), at(&sim, halves[1])];
+        pass(&mut sim, 0.3);
+        assert_eq!(places, [at(&sim, halves[0]), at(&sim, halves[1])]);
+        if is_held_anew {
+            sim.hold([halves[1]]).expect("held");
+        }
+        let before = sim.mesh().vertex_count();
+        let (sewn, left) = heal(&mut sim, Wounds::Cut(cut));
+        assert_eq!((left, sim.mesh().vertex_count()), (0, before - sewn));
+        assert_eq!(held(&sim), 13 + usize::from(is_held_anew));
+        assert_eq!(
+            sim.cloth().system().is_held(halves[0].index()),
+            is_held_anew
+        );
+        check(&mut sim);
+    }
+}
+
+/// Of two calls each holds for itself, and a vertex that was let go holds nothing.
+#[test]
+fn what_a_cut_inserts_between_two_holds_is_free() {
+    for (holds, freed, inserted) in [
+        (&[[20, 22], [23, 24]][..], None, 0),
+        (&[[20, 24]], None, 2),
+        (&[[20, 22], [22, 24]], None, 2),
+        (&[[20, 24]], Some(22), 0),
+        (&[[20, 22], [23, 24], [20, 24]], None, 2),
+    ] {
+        let mut sim = sheet(4, SimulationDef::default());
+        for &[first, last] in holds {
+            sim.hold((first..=last).map(v)).expect("held");
+        }
+        sim.free(freed.map(v)).expect("a vertex");
+        let before = held(&sim);
+        sim.cut(&down(0.6)).expect("cut");
+        assert_eq!(held(&sim), before + inserted, "{holds:?}");
+    }
+}
+
 #[test]
 fn only_the_cut_that_is_meant_heals_where_two_cross() {
     let mut sim = hanging(8, 1000.0, 1.0, Method::Verlet);

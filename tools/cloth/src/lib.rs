@@ -53,6 +53,7 @@ mod follow;
 pub mod force;
 mod guard;
 pub mod guide;
+mod held_set;
 pub mod implicit;
 mod incidence;
 mod load;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use tearmesh::geometry::{Point, Vector, check_point, cross, length};
 use tearmesh::nalgebra::Matrix3x4;
+use tearmesh::{Blend as _, Mix};
 
 use crate::bend::sinc_of_root;
 
@@ -45,6 +46,27 @@ impl Path {
         }
         let ((s, p), (t, q)) = (self.points[after - 1], self.points[after]);
         p + (q - p) * ((elapsed_s - s) / (t - s))
+    }
+
+    /// The path of what stays at one place forever.
+    pub(crate) fn still(at: Point) -> Path {
+        let points = Arc::new([(0.0, at)]);
+        Path { points }
+    }
+
+    /// The path of what stays between others, which go along these paths.
+    pub(crate) fn mixed(mix: Mix<usize>, paths: &[Path]) -> Path {
+        let times = paths.iter().flat_map(|path| path.points.iter());
+        let mut times: Vec<f64> = times.map(|&(s, _)| s).collect();
+        times.sort_unstable_by(f64::total_cmp);
+        times.dedup();
+        let points = times.into_iter().map(|s| {
+            let places: Vec<Point> = paths.iter().map(|path| path.at(s)).collect();
+            (s, Point::blend(mix.map(|end| &places[end])))
+        });
+        Path {
+            points: points.collect(),
+        }
     }
 }
 

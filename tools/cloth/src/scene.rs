@@ -131,6 +131,8 @@ impl SwayingWind {
 /// If several holds contain the same vertex, the hold that took it last leads it. When that hold
 /// releases it, the previous one takes over: it holds the vertex where it then is, or leads it
 /// along its own path from there.
+///
+/// What a cut inserts on an edge with both ends in a hold is held too, and stays between them until the hold ends.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HeldVertices {

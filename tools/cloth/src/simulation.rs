@@ -21,7 +21,6 @@ pub use buffers::{BufferChanges, ClothBuffers};
 pub use definition::SimulationDef;
 pub use error::{InputError, ReplayError, SimulationError};
 pub use hand::HandId;
-pub(crate) use hand::follow;
 pub use heal::Wounds;
 pub use log::{InputLog, LogError};
 pub use report::{CutId, Event, Picked, Reached};
@@ -37,6 +36,7 @@ use self::heal::Healing;
 use self::log::Record;
 use self::seams::Seams;
 use crate::balance::Balance;
+use crate::held_set::HeldSet;
 use crate::load::{Loads, Wind};
 use crate::method::speed_m_per_s;
 use crate::sheet::{Cloth, ClothError};
@@ -81,10 +81,12 @@ pub struct Simulation {
     owed_s: f64,
     /// The strengths of vertices without grips and guards.
     strengths: PerVertex<f64>,
+    /// What each call of [`Simulation::hold`] holds.
+    holds: Vec<HeldSet>,
     hands: Hands,
     seams: Seams,
     healing: Healing,
-    /// The edits that hands, seams and healing have followed.
+    /// The edits that holds, hands, seams and healing have followed.
     seen: Cursor,
     buffers: ClothBuffers,
     pub(crate) events: Vec<Event>,
@@ -169,6 +171,7 @@ impl Simulation {
             step_s,
             owed_s: 0.0,
             strengths,
+            holds: Vec::new(),
             hands: Hands::default(),
             seams,
             healing: Healing::default(),
@@ -367,6 +370,7 @@ impl Simulation {
             has_changed = true;
         }
         if has_changed {
+            self.release_healed();
             self.strengthen();
         }
         if self.healing.open.is_empty() {
@@ -379,6 +383,8 @@ impl Simulation {
     /// Has everything follow the mesh.
     fn follow(&mut self) {
         for edit in self.edits.since(self.seen) {
+            let holds = self.holds.iter_mut();
+            holds.for_each(|hold| hold.follow(&edit, true));
             self.hands.follow(&edit);
             self.healing.follow(&edit);
             self.seams.follow(&edit);
@@ -388,6 +394,17 @@ impl Simulation {
         self.edits.replay(&mut (&mut self.cloth, others));
         if let Some(tear) = &mut self.tear {
             self.edits.replay(tear);
+        }
+    }
+
+    /// Releases what cuts inserted within holds, where they are healed.
+    fn release_healed(&mut self) {
+        for number in 0..self.holds.len() {
+            for &v in self.holds[number].take_healed(&self.mesh).vertices() {
+                if !self.holds.iter().any(|hold| hold.contains(v)) {
+                    self.cloth.system_mut().release(v.index());
+                }
+            }
         }
     }
 
@@ -408,7 +425,8 @@ impl Simulation {
     }
 
     /// Holds vertices where they are, for good or until they are [freed](Simulation::free). Copies
-    /// that a cut makes of them are held as well.
+    /// that a cut makes of them are held as well, and so are vertices that a cut inserts between vertices of one
+    /// call, as on an edge with both ends in it. What was inserted is free again once the cut is healed there.
     ///
     /// # Errors
     ///
@@ -417,7 +435,11 @@ impl Simulation {
         let vertices = self.not_in_hands(vertices)?;
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.hold(v.index()));
-        self.note("hold", vertices.into_iter().map(word));
+        self.note("hold", vertices.iter().copied().map(word));
+        let hold = HeldSet::new(vertices);
+        // A hold of some of them says nothing that this one does not.
+        self.holds.retain(|other| !other.is_within(&hold));
+        self.holds.push(hold);
         Ok(())
     }
 
@@ -430,7 +452,10 @@ impl Simulation {
         let vertices = self.not_in_hands(vertices)?;
         let system = self.cloth.system_mut();
         vertices.iter().for_each(|v| system.release(v.index()));
-        self.note("free", vertices.into_iter().map(word));
+        self.note("free", vertices.iter().copied().map(word));
+        let free = HeldSet::new(vertices);
+        self.holds.iter_mut().for_each(|hold| hold.remove(&free));
+        self.holds.retain(|hold| !hold.vertices().is_empty());
         Ok(())
     }
 
@@ -478,7 +503,7 @@ impl Simulation {
         let held = self.hands.get(hand).ok_or(InputError::NoHand(hand))?;
         check_point(to).map_err(|given| InputError::Number("to", given))?;
         let system = self.cloth.system_mut();
-        for v in held.vertices.iter().map(|v| v.index()) {
+        for v in held.set.vertices().iter().map(|v| v.index()) {
             let path = hand::path(system.positions()[v], to, system.elapsed_s());
             system.grab(v, path);
         }
@@ -495,14 +520,16 @@ impl Simulation {
     pub fn release(&mut self, hand: HandId) -> Result<(), InputError> {
         let gone = self.hands.remove(hand).ok_or(InputError::NoHand(hand))?;
         let system = self.cloth.system_mut();
-        gone.vertices.iter().for_each(|v| system.release(v.index()));
+        let vertices = gone.set.vertices().iter();
+        vertices.for_each(|v| system.release(v.index()));
         self.strengthen();
         self.note("release", [hand.0.into()]);
         Ok(())
     }
 
     /// Cuts the cloth where it is now, by [`CutMethod::Exact`](tearmesh::CutMethod). Both halves of
-    /// a vertex that is held or in a hand are so afterwards. An [`Event::Cut`] tells how much was
+    /// a vertex that is held or in a hand are so afterwards, and vertices that are inserted within a
+    /// [hold](Simulation::hold) are held. An [`Event::Cut`] tells how much was
     /// cut.
     ///
     /// # Errors
@@ -535,6 +562,9 @@ impl Simulation {
         let made = scissor.cut_measured(method, mesh, &mut positions, edits);
         let (cut, report) = made.map_err(InputError::Cut)?;
         self.follow();
+        let inserted = self.holds.iter().flat_map(HeldSet::inserted);
+        let system = self.cloth.system_mut();
+        inserted.for_each(|(v, _)| system.hold(v.index()));
         Ok((self.seams.add(&cut), report))
     }
 
@@ -662,7 +692,7 @@ impl Simulation {
     /// [`InputError::NoHand`] if there is no such hand.
     pub fn in_hand(&self, hand: HandId) -> Result<&[VertexId], InputError> {
         let held = self.hands.get(hand).ok_or(InputError::NoHand(hand))?;
-        Ok(&held.vertices)
+        Ok(held.set.vertices())
     }
 
     /// Returns the number of pairs of copies that are still drawn together.

@@ -13,6 +13,7 @@ pub use counters::{Counters, FeatureVisits, Visits};
 pub use error::{SettingError, SystemError};
 pub(crate) use model::{Model, Recorded};
 
+use tearmesh::Mix;
 use tearmesh::geometry::{Point, Vector, check_point};
 
 use crate::bend::Buckling;
@@ -423,6 +424,29 @@ impl System {
         self.positions[particle] = from;
         self.model.grabbed.push((particle as u32, path));
         room_for(&mut self.scratch.led, self.model.grabbed.capacity());
+    }
+
+    /// Holds a particle between others, wherever these are led from now on. If one of them is not held, nothing
+    /// changes.
+    pub(crate) fn hold_between(&mut self, particle: usize, between: Mix<usize>) {
+        let (mut paths, mut are_held, mut are_led) = (Vec::new(), true, false);
+        let mix = between.map(|end| {
+            let mut led = self.model.grabbed.iter();
+            let path = led.find(|(led, _)| *led as usize == end);
+            are_led |= path.is_some();
+            are_held &= self.model.held[end];
+            let still = || Path::still(self.positions[end]);
+            paths.push(path.map_or_else(still, |(_, path)| path.clone()));
+            paths.len() - 1
+        });
+        match (are_held, are_led) {
+            (false, _) => {}
+            (true, true) => self.grab(particle, Path::mixed(mix, &paths)),
+            (true, false) => {
+                self.release(particle); // Of its path.
+                self.hold(particle);
+            }
+        }
     }
 
     /// Brings the inverse mass up to date with the mass and with who is held.

@@ -15,7 +15,7 @@ pub use self::gain::EnergyGain;
 use std::num::NonZero;
 
 use tearmesh::geometry::{Point, Vector, dot, length};
-use tearmesh::{CutReport, Edits, Mesh, PositionError, Positions, VertexId};
+use tearmesh::{Cursor, CutReport, Edits, Mesh, PositionError, Positions, VertexId};
 
 use self::gain::Watch;
 use self::held::Held;
@@ -52,6 +52,8 @@ pub struct Run {
     scene: Scene,
     pub(super) sim: Simulation,
     pub(super) held: Vec<Held>,
+    /// The edits that holds have followed.
+    seen: Cursor,
     next_cut: usize,
     cuts_made: Vec<CutReport>,
     steps_planned: u64,
@@ -144,6 +146,7 @@ impl Run {
         Ok(Run {
             watch: Watch::new(sim.cloth.system(), step_s),
             balance: Balance::new(sim.cloth.system_mut()),
+            seen: sim.edits.cursor(),
             sim,
             held,
             next_cut: 0,
@@ -255,9 +258,16 @@ impl Run {
         self.cuts_made.clear();
         let done = self.advance(self.tally.steps);
         // A step that fails has been cut as well.
-        let edits = self.sim.edits();
-        self.held.iter_mut().for_each(|held| held.follow(edits));
+        self.follow();
         done
+    }
+
+    /// Has the holds follow the mesh.
+    fn follow(&mut self) {
+        for edit in self.sim.edits.since(self.seen) {
+            self.held.iter_mut().for_each(|held| held.follow(&edit));
+        }
+        self.seen = self.sim.edits.cursor();
     }
 
     fn advance(&mut self, now: u64) -> Result<TearReport, StepError> {
@@ -328,6 +338,9 @@ impl Run {
                 _ => unreachable!("a cut is refused for its rays or its positions"),
             })?;
             self.compare(&before);
+            self.follow();
+            let (system, balance) = (self.sim.cloth.system_mut(), &mut self.balance);
+            held::bind(&self.held, system, balance);
             self.cuts_made.push(report);
             self.next_cut += 1;
         }
@@ -485,15 +498,16 @@ impl Run {
         &self.cuts_made
     }
 
-    /// Returns the vertices that a hold of the scene holds or leads now, copies included. Holds are
-    /// numbered from 0. The slice is empty before the hold begins and after it ends.
+    /// Returns the vertices that a hold of the scene holds or leads now, in ascending order: with copies, and with
+    /// what cuts inserted between them. Holds are numbered from 0. The slice is empty before the hold begins and
+    /// after it ends.
     ///
     /// # Panics
     ///
     /// If the scene has no hold of this number.
     #[must_use]
     pub fn held(&self, hold: usize) -> &[VertexId] {
-        self.held[hold].now()
+        self.held[hold].now().vertices()
     }
 
     /// Returns the length at rest of all torn edges, each counted once, in metres.

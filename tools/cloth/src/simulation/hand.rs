@@ -7,8 +7,9 @@
 //! stretches edges in no time, and tears them falsely; so it has a largest speed.
 
 use tearmesh::geometry::{Point, length};
-use tearmesh::{Edit, Merge, VertexId};
+use tearmesh::{Edit, VertexId};
 
+use crate::held_set::HeldSet;
 use crate::method::FRAME_S;
 use crate::path::Path;
 
@@ -26,11 +27,12 @@ const GRIP_CORE: f64 = 1.0 / 16.0;
 /// The largest speed of a hand, in m/s.
 const SPEED_MAX_M_PER_S: f64 = 3.0;
 
-/// A hand, the vertex that it grabbed, and the copies of that.
+/// A hand, the vertex that it grabbed, and the copies of that. No edge joins two of these, so nothing is inserted
+/// between them.
 #[derive(Clone, Debug)]
 pub(super) struct Hand {
     pub(super) id: HandId,
-    pub(super) vertices: Vec<VertexId>,
+    pub(super) set: HeldSet,
     /// The place of the vertex at rest when it was grabbed: the middle of the grip.
     centre: Point,
     radius_m: f64,
@@ -50,7 +52,7 @@ impl Hands {
         self.next += 1;
         self.hands.push(Hand {
             id,
-            vertices: vec![v],
+            set: HeldSet::new(vec![v]),
             centre,
             radius_m,
         });
@@ -68,7 +70,7 @@ impl Hands {
 
     /// The hand that has a vertex.
     pub(super) fn of(&self, v: VertexId) -> Option<HandId> {
-        let has = |hand: &&Hand| hand.vertices.contains(&v);
+        let has = |hand: &&Hand| hand.set.contains(v);
         self.hands.iter().find(has).map(|hand| hand.id)
     }
 
@@ -83,31 +85,8 @@ impl Hands {
     }
 
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
-        for Hand { vertices, .. } in &mut self.hands {
-            follow(vertices, edit);
-        }
-    }
-}
-
-/// Adds the copies that a split makes of vertices, and gives them the ids that they have after a merge.
-pub(crate) fn follow(vertices: &mut Vec<VertexId>, edit: &Edit<'_>) {
-    match edit {
-        Edit::Split(split) if vertices.contains(&split.old) => vertices.push(split.new),
-        Edit::Merge(merge) => {
-            vertices.iter_mut().for_each(|v| *v = now(*v, merge));
-            vertices.sort_unstable();
-            vertices.dedup();
-        }
-        Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
-    }
-}
-
-/// The id that a vertex has after a merge.
-pub(super) fn now(v: VertexId, merge: &Merge<'_>) -> VertexId {
-    match merge.renumbered {
-        _ if v == merge.gone => merge.kept,
-        Some(renumbered) if v == renumbered.from => renumbered.to,
-        _ => v,
+        let sets = self.hands.iter_mut().map(|hand| &mut hand.set);
+        sets.for_each(|set| set.follow(edit, true));
     }
 }
 

@@ -11,8 +11,9 @@ use std::collections::BTreeSet;
 use tearmesh::geometry::length;
 use tearmesh::{Edit, HalfEdgeId, Mesh, VertexId};
 
-use super::hand::{Hands, now};
+use super::hand::Hands;
 use super::report::CutId;
+use crate::held_set::now;
 use crate::sheet::Cloth;
 use crate::system::System;
 use crate::tearing::Threshold;

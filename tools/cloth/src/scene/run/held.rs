@@ -1,23 +1,24 @@
 //! The holds of a scene while it runs: who is held now, and by which step that ends.
 //!
 //! Where several hold one vertex the one that took it last leads it, and the last in the scene of
-//! those that took it at one time. When that ends, the one before it holds on to the vertex.
+//! those that took it at one time. When that ends, the one before it holds on to the vertex. What a cut
+//! inserts between vertices of a hold stays between them, whichever hold leads these.
 
 use tearmesh::geometry::Point;
-use tearmesh::{Edits, Mesh, VertexId};
+use tearmesh::{Edit, Mesh, VertexId};
 
 use super::error::RunError;
 use crate::balance::Balance;
+use crate::held_set::HeldSet;
 use crate::path::Path;
 use crate::scene::{Frame, HeldVertices, Region};
-use crate::simulation::follow;
 use crate::system::System;
 
 /// A hold, and its vertices.
 #[derive(Clone, Debug)]
 pub(in crate::scene) struct Held {
     hold: HeldVertices,
-    vertices: Vec<VertexId>,
+    set: HeldSet,
     /// The step at whose beginning it took its vertices; `None` before that, and after it let go.
     since: Option<u64>,
 }
@@ -62,10 +63,11 @@ pub(super) fn take_and_release(
     system: &mut System,
     balance: &mut Balance,
 ) {
+    let mut has_changed = false;
     for held in all.iter_mut() {
         if held.since.is_none() && step_at(held.hold.from_s, step_s) == now {
-            held.since = Some(now);
-            for &v in &held.vertices {
+            (held.since, has_changed) = (Some(now), true);
+            for &v in held.set.vertices() {
                 held.take(v, system.positions()[v.index()], system, balance);
             }
         }
@@ -77,16 +79,30 @@ pub(super) fn take_and_release(
         }
         // Its vertices are free, or those of others that hold them as well.
         let since = all[number].since.take();
-        for &v in all[number].vertices.iter().filter(|_| since.is_some()) {
+        has_changed |= since.is_some();
+        let vertices = all[number].set.vertices().iter();
+        for &v in vertices.filter(|_| since.is_some()) {
             let others = (0..).zip(all.iter());
-            let others =
-                others.filter(|(_, held)| held.since.is_some() && held.vertices.contains(&v));
+            let others = others.filter(|(_, held)| held.now().contains(v));
             match others.max_by_key(|&(other, held)| (held.since, other)) {
                 Some((other, held)) if (held.since, other) > (since, number) => {} // It leads it already.
                 Some((_, held)) => held.take_back(v, system, balance),
                 None => balance.handle(system, v.index(), |system| system.release(v.index())),
             }
         }
+    }
+    if has_changed {
+        bind(all, system, balance);
+    }
+}
+
+/// Has what cuts inserted within holds stay between the vertices that it was inserted between.
+pub(super) fn bind(all: &[Held], system: &mut System, balance: &mut Balance) {
+    for (v, between) in all.iter().flat_map(|held| held.now().inserted()) {
+        let between = between.map(VertexId::index);
+        balance.handle(system, v.index(), |system| {
+            system.hold_between(v.index(), between);
+        });
     }
 }
 
@@ -101,7 +117,7 @@ impl Held {
         let name = ("hold", number);
         Ok(Held {
             hold: hold.clone(),
-            vertices: vertices_in(&hold.region, name, mesh, points, frame)?,
+            set: HeldSet::new(vertices_in(&hold.region, name, mesh, points, frame)?),
             since: None,
         })
     }
@@ -134,22 +150,22 @@ impl Held {
         })
     }
 
-    /// The copies of held vertices are held as well, and what is sewn to one of them.
-    pub(super) fn follow(&mut self, edits: &Edits) {
-        for edit in edits.iter() {
-            follow(&mut self.vertices, &edit);
-        }
+    pub(super) fn follow(&mut self, edit: &Edit<'_>) {
+        self.set.follow(edit, self.since.is_some());
     }
 
-    pub(super) fn now(&self) -> &[VertexId] {
-        self.since.map_or(&[], |_| &self.vertices)
+    /// What it holds now.
+    pub(super) fn now(&self) -> &HeldSet {
+        const NOTHING: &HeldSet = &HeldSet::EMPTY;
+        self.since.map_or(NOTHING, |_| &self.set)
     }
 
     /// How many of its vertices are joined to no other of them. The strain around such a pin grows as
     /// 1/h with the edge length h of the mesh; the strain around a clamp does not.
     pub(in crate::scene) fn pins(&self, mesh: &Mesh) -> usize {
         let mut held = vec![false; mesh.vertex_count()];
-        self.vertices.iter().for_each(|v| held[v.index()] = true);
+        let vertices = self.set.vertices().iter();
+        vertices.for_each(|v| held[v.index()] = true);
         let is_alone = |v: &VertexId| {
             let corners = mesh.corners_of(*v);
             let mut others = corners.flat_map(|h| [mesh.target(h), mesh.origin(h.prev())]);
