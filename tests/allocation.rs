@@ -1,7 +1,8 @@
 //! What promises not to allocate does not.
 
 use allocation_counter::measure;
-use tearmesh::{Edits, Masses, Mesh, Plane, Positions, Vector, shapes, split};
+use tearmesh::engine::DrawBuffers;
+use tearmesh::{Edits, HalfEdgeId, Masses, Mesh, Plane, Positions, Vector, shapes, split};
 
 /// The number of allocations that something takes.
 fn allocations(of: impl FnOnce()) -> u64 {
@@ -73,6 +74,33 @@ fn splits_and_replay_do_not_allocate_in_reserved_room() {
     let mut splits = 0;
     assert_eq!(allocations(|| splits = torn.tear()), 0);
     assert!(splits > 500, "only {splits} splits");
+}
+
+/// Whatever the values are: one for the whole mesh, or one for each face, so that there are as many slots as corners.
+#[test]
+fn buffers_that_follow_splits_do_not_allocate_in_reserved_room() {
+    for corners_with_a_value in [usize::MAX, 3] {
+        let (mut mesh, _) = shapes::grid(8, 8);
+        let value = |h: HalfEdgeId| (h.index() / corners_with_a_value) as f64;
+        let values = mesh.half_edges().map(value);
+        let made = DrawBuffers::new(&mesh, values.collect());
+        let mut buffers = made.clone(); // That has no room to spare.
+        assert_eq!(
+            buffers.len() == mesh.half_edge_count(),
+            corners_with_a_value == 3
+        );
+        let mut edits = Edits::new();
+        // The second time changes wait, of which there may be more than slots.
+        for _ in 0..2 {
+            buffers.reserve(mesh.vertex_count());
+            for v in mesh.vertices() {
+                let moving: Vec<_> = mesh.faces_of(v).skip(1).collect();
+                let _refused_for_the_last_face = split::vertex(&mut mesh, v, &moving, &mut edits);
+            }
+            assert_eq!(allocations(|| edits.replay(&mut buffers)), 0);
+            edits.clear();
+        }
+    }
 }
 
 #[test]

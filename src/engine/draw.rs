@@ -127,13 +127,20 @@ impl<T: Blend> DrawBuffers<T> {
     }
 
     /// Reserves memory for `vertices` more vertices, so that replaying this many splits allocates
-    /// nothing.
+    /// nothing. Linear.
     pub fn reserve(&mut self, vertices: usize) {
         let corners = self.indices.len();
         self.slots_of.reserve(vertices);
-        self.slots.reserve(corners - self.slots.len()); // Each has a corner.
+        // Each slot has a corner, but for those that a split has left and not yet taken out: up to one for each
+        // corner of a vertex.
+        let mut corners_of = vec![0; self.slots_of.len()];
+        for &slot in &self.indices {
+            corners_of[self.slots[slot as usize].vertex.index()] += 1;
+        }
+        let slots = corners + corners_of.into_iter().max().unwrap_or(0);
+        self.slots.reserve(slots - self.slots.len());
         self.empty.reserve(corners);
-        self.changed_slots.reserve(corners);
+        self.changed_slots.reserve(slots);
         self.changed_corners.reserve(corners);
     }
 
@@ -406,8 +413,8 @@ struct Marks {
 impl Marks {
     /// Makes room for the numbers below `count`.
     fn reserve(&mut self, count: usize) {
-        self.is_marked
-            .resize(count.max(self.is_marked.len()), false);
+        let count = count.max(self.is_marked.len());
+        self.is_marked.resize(count, false);
         self.list.reserve(count - self.list.len());
     }
 
