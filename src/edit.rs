@@ -278,7 +278,8 @@ impl Edits {
         let expected = self.records.get(first).map(|next| expected(next.size));
         assert!(
             expected.is_none_or(|expected| length == expected as usize),
-            "values are in step with the mesh: there are {length}, not {expected:?}"
+            "{}: there are {length}, not {expected:?}",
+            form::IN_STEP
         );
         *seen = Cursor::HALF_WAY;
         edits

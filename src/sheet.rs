@@ -80,8 +80,28 @@ impl<V: Followers> Sheet<V> {
         Ok(Sheet { masses, ..self })
     }
 
-    /// Sets the values that follow the edits of this sheet. They must be values of the mesh as it is
-    /// now, and have seen what the positions have seen: nothing, for those that were just made.
+    /// Sets the values that follow the edits of this sheet.
+    ///
+    /// New values are those of the mesh as it was when its positions were made, or before the first
+    /// operation. Values of the mesh as it is now, after some operations, begin at the end of its log:
+    ///
+    /// ```
+    /// use tearmesh::{shapes, Follower, PerVertex, Sheet};
+    ///
+    /// let (mesh, positions) = shapes::grid(2, 2);
+    /// let (v, face) = (mesh.vertex(4), mesh.face(0));
+    /// let mut sheet = Sheet::new(mesh, positions);
+    /// sheet.split(v, &[face])?;
+    /// let ids = PerVertex::new((0..sheet.mesh().vertex_count()).collect());
+    /// let now = sheet.edits().cursor();
+    /// let sheet = sheet.with(ids.starting_at(now));
+    /// assert_eq!(sheet.values().as_slice().len(), 10);
+    /// # Ok::<(), tearmesh::SplitRefusal>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If a follower is not at a place in the log of the sheet: see [`Edits::replay`].
     #[must_use]
     pub fn with<W: Followers>(self, mut values: W) -> Sheet<W> {
         self.edits.replay(&mut values);

@@ -1,8 +1,11 @@
 //! A sheet does what its parts do when they are held alone, and keeps them in step.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use tearmesh::engine::DrawBuffers;
 use tearmesh::{
-    CutMethod, Edits, Masses, PerCorner, Plane, Point, Positions, Scissor, Sheet, Vector, VertexId,
-    mend, shapes, split, tear,
+    CutMethod, Edits, Follower as _, Followers, Masses, PerCorner, PerVertex, Plane, Point,
+    Positions, Scissor, Sheet, Vector, VertexId, mend, shapes, split, tear,
 };
 
 use crate::random::Random;
@@ -77,4 +80,61 @@ fn a_sheet_does_what_its_parts_do() {
         }
     }
     assert!(done.iter().all(|&done| done >= 20), "{done:?}");
+}
+
+/// What a sheet says to values that it does not take.
+fn refusal<W: Followers>(sheet: &Sheet, values: W) -> String {
+    let taken = catch_unwind(AssertUnwindSafe(|| sheet.clone().with(values)));
+    let Err(said) = taken else {
+        panic!("the values were taken");
+    };
+    *said.downcast().expect("a text")
+}
+
+/// New values of the mesh after an operation would follow that once more; what they lack is in the message.
+#[test]
+fn values_for_an_edited_sheet_are_refused_with_their_beginning() {
+    let (mesh, positions) = shapes::grid(6, 5);
+    let mut sheet = Sheet::new(mesh, positions);
+    for operations in 1..=2 {
+        let plane = Plane::new(
+            Point::new(0.43 / f64::from(operations), 0.0, 0.0),
+            Vector::x(),
+        );
+        let scissor = Scissor::by_plane(plane.expect("a plane"));
+        sheet.cut(CutMethod::Exact, &scissor).expect("a cut");
+        let (mesh, at) = (sheet.mesh(), sheet.positions());
+        let of_corners = texture(mesh, at);
+        let of_vertices = || PerVertex::new(vec![0.5; mesh.vertex_count()]);
+        let buffers = || DrawBuffers::new(mesh, of_corners.as_slice().to_vec());
+        let now = sheet.edits().cursor();
+        for said in [
+            refusal(&sheet, of_corners.clone()),
+            refusal(&sheet, of_vertices()),
+            refusal(&sheet, buffers()),
+            refusal(&sheet, (of_vertices().starting_at(now), buffers())),
+        ] {
+            assert!(
+                said.contains("begin with `starting_at(edits.cursor())`")
+                    || said.contains("begins with `starting_at(edits.cursor())`"),
+                "{said}"
+            );
+        }
+        let all = (
+            of_corners.clone().starting_at(now),
+            buffers().starting_at(now),
+        );
+        let all = (all, of_vertices().starting_at(now));
+        let mut taken = sheet.clone().with(all);
+        let down = Plane::new(Point::new(0.0, 0.55, 0.0), Vector::y()).expect("a plane");
+        let scissor = Scissor::by_plane(down);
+        taken.cut(CutMethod::Exact, &scissor).expect("a cut");
+        let ((corners, buffers), vertices) = taken.values();
+        assert_eq!(
+            *corners,
+            texture(taken.mesh(), taken.positions()).starting_at(taken.edits().cursor())
+        );
+        assert_eq!(buffers.indices().len(), taken.mesh().half_edge_count());
+        assert_eq!(vertices.as_slice().len(), taken.mesh().vertex_count());
+    }
 }

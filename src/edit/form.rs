@@ -57,11 +57,7 @@ impl VertexOp {
     pub fn apply<T>(self, values: &mut Vec<T>, mut mix: impl FnMut(Mix<&T>) -> T) {
         match self {
             VertexOp::Push { new, from } => {
-                assert_eq!(
-                    new.index(),
-                    values.len(),
-                    "values are in step with the mesh"
-                );
+                assert_eq!(new.index(), values.len(), "{IN_STEP}");
                 let value = mix(from.map(|v| v.of(values)));
                 values.push(value);
             }
@@ -216,8 +212,12 @@ pub(crate) fn divide_corners<T>(
     }
 }
 
+/// What values have to be that follow an edit.
+pub(super) const IN_STEP: &str = "values are in step with the mesh from before the edit. Those of the mesh as it is \
+                                  now begin with `starting_at(edits.cursor())`, where `edits` is its log";
+
 fn push_at<T>(place: usize, values: &mut Vec<T>, value: T) {
-    assert_eq!(place, values.len(), "values are in step with the mesh");
+    assert_eq!(place, values.len(), "{IN_STEP}");
     values.push(value);
 }
 
