@@ -21,6 +21,7 @@ mod killed;
 mod map;
 #[cfg(target_os = "linux")]
 mod memory;
+mod names;
 mod pages;
 mod pieces;
 mod play;

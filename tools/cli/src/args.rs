@@ -15,9 +15,12 @@ mod view;
 
 use std::ffi::OsString;
 
+use clap::builder::StyledStr;
+use clap::error::ContextValue;
 use clap::{Parser, Subcommand};
 
 use crate::rays;
+use crate::say::printable;
 
 pub(crate) use self::chart::{ChartArgs, DrawArgs, ParetoArgs, TearChartArgs, What};
 pub(crate) use self::check::CheckArgs;
@@ -43,7 +46,8 @@ pub(crate) struct Args {
 impl Args {
     /// Reads arguments, the first of which is the program's name.
     pub(crate) fn read(args: &[OsString]) -> Result<Args, clap::Error> {
-        let mut args = Args::try_parse_from(join_rays(args))?;
+        let parsed = Args::try_parse_from(join_rays(args));
+        let mut args = parsed.map_err(|error| cleaned(error, args))?;
         let files = match &mut args.verb {
             Verb::Cut(cut) => Some(&mut cut.files),
             Verb::Tear(tear) => Some(&mut tear.files),
@@ -55,6 +59,30 @@ impl Args {
         }
         Ok(args)
     }
+}
+
+/// An error about arguments, some of which a terminal may not get as they are.
+fn cleaned(mut error: clap::Error, args: &[OsString]) -> clap::Error {
+    let is_clean = |arg: &OsString| printable(&arg.to_string_lossy()) == arg.to_string_lossy();
+    if args.iter().all(is_clean) {
+        return error;
+    }
+    let plain = |text: &StyledStr| StyledStr::from(printable(&text.to_string()));
+    let clean = |value: &ContextValue| match value {
+        ContextValue::String(text) => ContextValue::String(printable(text)),
+        ContextValue::Strings(all) => {
+            ContextValue::Strings(all.iter().map(|text| printable(text)).collect())
+        }
+        ContextValue::StyledStrs(all) => ContextValue::StyledStrs(all.iter().map(plain).collect()),
+        // What else there is holds no argument.
+        other => other.clone(),
+    };
+    let context = error.context();
+    let context: Vec<_> = context.map(|(kind, value)| (kind, clean(value))).collect();
+    for (kind, value) in context {
+        error.insert(kind, value);
+    }
+    error
 }
 
 #[derive(Debug, Subcommand)]

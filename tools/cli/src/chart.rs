@@ -23,7 +23,7 @@ use crate::files::is_same;
 use crate::input::cannot_read;
 use crate::interrupt::Guard;
 use crate::output;
-use crate::say::Fault;
+use crate::say::{Fault, shown};
 use crate::streams::Streams;
 
 /// Runs an experiment, writes what is wanted of it, and returns the exit status.
@@ -182,7 +182,7 @@ fn work<E: Chart>(
     }
     let is_streamed = files.first().is_some_and(|path| *path == Path::new("-"));
     if !draw.quiet && !is_streamed {
-        let names = files.iter().map(|path| path.display().to_string());
+        let names = files.iter().map(|path| shown(path));
         let names: Vec<_> = names.collect();
         let names = format!("wrote {}", names.join(", "));
         let summary = experiment.summary(&rows);

@@ -15,7 +15,7 @@ use crate::input::named::named;
 use crate::measure::{Bounds, Edges, Piece};
 use crate::output;
 use crate::report::{Entry, File};
-use crate::say::{Fault, count, place, short};
+use crate::say::{Fault, count, place, printable, short, shown};
 use crate::session;
 use crate::streams::Streams;
 use crate::weld;
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &CheckArgs, streams: &mut Streams<'_>) -> Exit {
     }
     let files = named(&args.inputs, args.recursive);
     let names = files.iter().map(|file| match file {
-        Ok(path) | Err((path, _)) => path.display().to_string().chars().count(),
+        Ok(path) | Err((path, _)) => shown(path).chars().count(),
     });
     let width = names.max().unwrap_or(0);
     let mut exit = Exit::Done;
@@ -132,7 +132,7 @@ impl Found {
     }
 
     fn line(&self, width: usize) -> String {
-        let path = &self.path;
+        let path = printable(&self.path);
         match (self.errors().next(), &self.mesh) {
             (None, Some(mesh)) => {
                 format!("{path:width$}  ok    {}", summary(&mesh.file, &self.faults))

@@ -10,7 +10,7 @@ use tearmesh_view::PlayPage;
 use crate::args::PlayArgs;
 use crate::choice::Choice as _;
 use crate::exit::Stop;
-use crate::say::{Fault, count};
+use crate::say::{Fault, count, printable, shown};
 use crate::scene::SceneFile;
 use crate::session::{self, Opened};
 use crate::streams::Streams;
@@ -61,7 +61,7 @@ pub(crate) fn run(
     if path == Path::new("-") {
         return Ok(String::new());
     }
-    let (scene, path) = (&made.scene, path.display());
+    let (scene, path) = (printable(&made.scene), shown(&path));
     let words = format!("play: {cloth}, scene {scene} · wrote {path}: open it in a browser");
     Ok(words)
 }

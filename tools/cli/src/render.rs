@@ -11,7 +11,7 @@ use crate::args::RenderArgs;
 use crate::cut::scissors::of_rays;
 use crate::exit::Stop;
 use crate::picture::Texture;
-use crate::say::{Fault, count};
+use crate::say::{Fault, count, shown};
 use crate::session;
 use crate::streams::Streams;
 use crate::{files, output, picture, rays};
@@ -58,7 +58,7 @@ pub(crate) fn run(
     output::write_or_print(&args.output, streams.output, |out| drawn.write_png(out))?;
     let obj = args.obj.as_ref().map(|path| {
         output::write(path, |out| write_drawn(mesh, positions, &options, out))?;
-        Ok::<_, Fault>(format!(", {}", path.display()))
+        Ok::<_, Fault>(format!(", {}", shown(path)))
     });
     let obj = obj.transpose()?.unwrap_or_default();
     if args.output == Path::new("-") {
@@ -71,7 +71,7 @@ pub(crate) fn run(
         count(mesh.components().count(), "piece", "pieces"),
         drawn.width(),
         drawn.height(),
-        args.output.display(),
+        shown(&args.output),
     ))
 }
 

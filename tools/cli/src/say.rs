@@ -1,6 +1,7 @@
 //! Diagnostics, on a screen and in the report.
 
 use std::ops::{Deref, DerefMut, Range};
+use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Group, Level as Title, Origin, Renderer, Snippet};
 use clap::ValueEnum;
@@ -89,12 +90,12 @@ impl Fault {
     /// All in one line, without the name of the file.
     pub(crate) fn line(&self) -> String {
         let (message, code) = (&self.message, self.code);
-        match self.location {
+        printable(&match self.location {
             Some(at) if !self.related.is_empty() => {
                 format!("line {}: {message}  [{code}]", at.line)
             }
             _ => format!("{}  [{code}]", **self),
-        }
+        })
     }
 
     pub(crate) fn render(&self, colored: bool) -> String {
@@ -103,7 +104,8 @@ impl Fault {
             Level::Warning => Title::WARNING,
             Level::Note => Title::NOTE,
         };
-        let mut group = Group::with_title(level.primary_title(&*self.message).id(self.code));
+        let (message, path) = (printable(&self.message), printable(&self.path));
+        let mut group = Group::with_title(level.primary_title(&*message).id(self.code));
         if let Some((at, excerpt)) = self.location.zip(self.excerpt.as_ref()) {
             let label = Some(&*excerpt.label).filter(|label| !label.is_empty());
             let span = bytes(at, excerpt);
@@ -111,23 +113,23 @@ impl Fault {
             let snippet = Snippet::source(&*excerpt.text).line_start(at.line);
             let mut snippet = snippet.annotation(annotation);
             if excerpt.first_column == 1 {
-                snippet = snippet.path(&*self.path);
+                snippet = snippet.path(&*path);
             } else {
                 // The column counts from the beginning of the line, not of the excerpt.
-                let origin = Origin::path(&*self.path);
+                let origin = Origin::path(&*path);
                 group = group.element(origin.line(at.line).char_column(at.column));
             }
             group = group.element(snippet);
             for (at, excerpt) in &self.related {
                 let annotation = AnnotationKind::Context.span(bytes(*at, excerpt));
                 let snippet = Snippet::source(&*excerpt.text).line_start(at.line);
-                group = group.element(snippet.path(&*self.path).annotation(annotation));
+                group = group.element(snippet.path(&*path).annotation(annotation));
             }
         } else if let Some(at) = self.location {
-            group = group.element(Origin::path(&*self.path).line(at.line));
+            group = group.element(Origin::path(&*path).line(at.line));
         }
         if let Some(help) = &self.help {
-            group = group.element(Title::HELP.message(&**help));
+            group = group.element(Title::HELP.message(printable(help)));
         }
         let renderer = match colored {
             true => Renderer::styled(),
@@ -192,6 +194,23 @@ pub(crate) fn pieces(all: usize, crumbs: usize) -> String {
         0 => pieces,
         _ => format!("{pieces} and {}", count(crumbs, "crumb", "crumbs")),
     }
+}
+
+/// The name of a file for people.
+pub(crate) fn shown(path: &Path) -> String {
+    printable(&path.display().to_string())
+}
+
+/// A text in one line that leaves a terminal as it is: symbols stand for control characters, and U+FFFD for those
+/// that turn the direction of writing.
+pub(crate) fn printable(text: &str) -> String {
+    let printed = |c: char| match c {
+        '\0'..='\x1f' => char::from_u32(0x2400 + u32::from(c)).unwrap_or('\u{fffd}'),
+        '\x7f' => '\u{2421}',
+        '\u{80}'..='\u{9f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => '\u{fffd}',
+        c => c,
+    };
+    text.chars().map(printed).collect()
 }
 
 /// The name of a file as a shell reads it, and no option.

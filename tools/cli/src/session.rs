@@ -18,7 +18,7 @@ use crate::input::Input;
 use crate::measure::area;
 use crate::picture::Texture;
 use crate::report::{self, Entry, Report, Timing};
-use crate::say::{Fault, count, short};
+use crate::say::{Fault, count, short, shown};
 use crate::streams::Streams;
 use crate::{bug, defects, files, output, page, picture};
 
@@ -172,7 +172,7 @@ impl<'a, 's> Session<'a, 's> {
         let ending = match (&self.destination, self.file()) {
             (Err(why), _) => (*why).to_owned(),
             (_, None) => "wrote standard output".to_owned(),
-            (_, Some(path)) => format!("wrote {}", path.display()),
+            (_, Some(path)) => format!("wrote {}", shown(path)),
         };
         self.words.push(format!(
             "{summed} · vertices {vertices_before} -> {vertices} · faces {faces} · invariants hold · {ending}"

@@ -9,7 +9,7 @@ use crate::args::{PlayArgs, ViewArgs};
 use crate::exit::Stop;
 use crate::input::named::named;
 use crate::picture::no_camera;
-use crate::say::{Fault, count};
+use crate::say::{Fault, count, shown};
 use crate::session;
 use crate::streams::Streams;
 use crate::{files, output, page, play};
@@ -45,7 +45,7 @@ pub(crate) fn run(
         None => "",
     };
     let first = &args.inputs[0].display().to_string();
-    let mut shown = Page::new(page::title(Some(first)), args.up.coords);
+    let mut made = Page::new(page::title(Some(first)), args.up.coords);
     let (mut vertices, mut faces, mut pieces) = (Vec::new(), Vec::new(), 0);
     for path in &inputs {
         let (input, opened) = session::look(path, &args.look, faults, streams)?;
@@ -55,13 +55,13 @@ pub(crate) fn run(
             cut: Some(page::cut_line(&input.name, options)),
             ..Moment::default()
         };
-        let added = shown.add(mesh, &opened.positions, moment);
+        let added = made.add(mesh, &opened.positions, moment);
         added.map_err(no_camera)?;
         vertices.push(mesh.vertex_count());
         faces.push(mesh.face_count());
         pieces = mesh.components().count();
     }
-    output::write_or_print(&output, streams.output, |out| shown.write(out))?;
+    output::write_or_print(&output, streams.output, |out| made.write(out))?;
     if output == Path::new("-") {
         return Ok(String::new());
     }
@@ -73,7 +73,7 @@ pub(crate) fn run(
         span(&vertices, "vertex", "vertices"),
         span(&faces, "face", "faces"),
     );
-    let (pieces, output) = (count(pieces, "piece", "pieces"), output.display());
+    let (pieces, output) = (count(pieces, "piece", "pieces"), shown(&output));
     let words = format!("view: {moments}{vertices}, {faces}, {pieces} · wrote {output}");
     Ok(words)
 }

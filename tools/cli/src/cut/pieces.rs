@@ -12,7 +12,7 @@ use crate::args::CutArgs;
 use crate::exit::Stop;
 use crate::files::Names;
 use crate::measure::area;
-use crate::say::{Fault, count};
+use crate::say::{Fault, count, printable};
 use crate::{output, report};
 
 /// Where pieces go.
@@ -137,7 +137,7 @@ fn listed(folder: &Path) -> Vec<String> {
 /// The line of the summary.
 pub(super) fn words(written: &report::Pieces) -> String {
     let pieces = count(written.count, "piece", "pieces");
-    format!("{pieces} written into {}", written.folder)
+    format!("{pieces} written into {}", printable(&written.folder))
 }
 
 /// The area of a piece, rounded once for each face and once as a whole.
