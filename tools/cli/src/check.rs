@@ -221,7 +221,12 @@ fn summary(mesh: &File, faults: &[Fault]) -> String {
     if mesh.components != 1 {
         parts.push(count(mesh.components, "component", "components"));
     }
-    let codes: Vec<&str> = faults.iter().map(|fault| fault.code).collect();
+    let mut codes: Vec<&str> = Vec::new();
+    for fault in faults {
+        if !codes.contains(&fault.code) {
+            codes.push(fault.code);
+        }
+    }
     if !codes.is_empty() {
         parts.push(format!("[{}]", codes.join(" ")));
     }
