@@ -26,13 +26,32 @@ fn seams(document: &Document) -> (Mesh, UnsewnSeams) {
     (mesh, seams)
 }
 
+/// The same file with minus zero for every other zero of its places.
+fn with_minus_zeros(file: &str) -> String {
+    let mut is_next = false;
+    let mut signed = |word: &str| {
+        is_next ^= word == "0";
+        let sign = if word == "0" && is_next { "-" } else { "" };
+        format!("{sign}{word}")
+    };
+    let lines = file.lines().map(|line| match line.strip_prefix("v ") {
+        Some(places) => {
+            let words: Vec<_> = places.split(' ').map(&mut signed).collect();
+            format!("v {}\n", words.join(" "))
+        }
+        None => format!("{line}\n"),
+    });
+    lines.collect()
+}
+
 /// How many edges two faces have at one place.
 fn edges_shared_by_place(file: &str) -> usize {
     let file = Plain::read(file);
     let mut faces: BTreeMap<[[u64; 3]; 2], usize> = BTreeMap::new();
     for face in &file.faces {
         for i in 0..3 {
-            let mut ends = [face[i], face[(i + 1) % 3]].map(|v| file.bits(v));
+            let ends = [face[i], face[(i + 1) % 3]].map(|v| file.at(v));
+            let mut ends = ends.map(|at| at.map(|x| (x + 0.0).to_bits()));
             ends.sort_unstable();
             *faces.entry(ends).or_default() += 1;
         }
@@ -40,17 +59,22 @@ fn edges_shared_by_place(file: &str) -> usize {
     faces.values().filter(|&&faces| faces == 2).count()
 }
 
-/// Straight cuts whose record is dropped: sewn by places, every edge is whole that two faces have.
+/// Straight cuts whose record is dropped, and some of whose zeros have lost their sign or got one: sewn by
+/// places, every edge is whole that two faces have.
 #[test]
 fn torn_edges_are_sewn_without_a_record() {
-    let mut sewn = 0;
+    let (mut sewn, mut signed) = (0, 0);
     for (name, bytes) in files().into_iter().filter(|(name, _)| name != "late") {
         for seed in 0..8 {
             let document = read(&bytes);
             let mut work = Work::on(&document);
             let mut random = Random(seed);
             work.cut_sliding(&mut random);
-            let dropped = without_comments(&work.written());
+            let mut dropped = without_comments(&work.written());
+            if seed % 2 == 1 {
+                dropped = with_minus_zeros(&dropped);
+                signed += dropped.matches(" -0 ").count();
+            }
             let document = read(dropped.as_bytes());
             assert!(!document.has_record());
             let (mesh, seams) = seams(&document);
@@ -72,7 +96,7 @@ fn torn_edges_are_sewn_without_a_record() {
             sewn += seams.edges().len();
         }
     }
-    assert!(sewn > 500, "{sewn}");
+    assert!(sewn > 500 && signed > 300, "{sewn}, {signed}");
 }
 
 #[test]

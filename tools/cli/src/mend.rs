@@ -41,7 +41,9 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
 
     let start = Instant::now();
     let stitches = stitches(args, &mesh, &positions, &torn);
-    let apart = |stitch: &Stitch| positions.at(stitch.kept()) != positions.at(stitch.gone());
+    // To the bit: where one is at −0 and the other at 0, corners of one of them move.
+    let bits = |v| <[f64; 3]>::from(positions.at(v)).map(f64::to_bits);
+    let apart = |stitch: &Stitch| bits(stitch.kept()) != bits(stitch.gone());
     let moves = stitches.iter().any(apart);
     let far = moves.then(|| far_apart(&stitches, &mesh, &positions));
     let mut edits = Edits::new();

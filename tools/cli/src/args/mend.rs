@@ -29,7 +29,7 @@ pub(crate) struct MendArgs {
     /// Sew boundary edges that coincide, in a file without a record.
     ///
     /// Use this if another program dropped the record of cuts. Two edges are sewn if their ends are
-    /// bit-equal and no third edge is at the same place. Inserted vertices stay.
+    /// at equal places and no third edge is at the same place. Inserted vertices stay.
     #[arg(long, conflicts_with = "last")]
     pub(crate) coincident: bool,
 
