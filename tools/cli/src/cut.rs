@@ -12,8 +12,8 @@ use std::io::Write;
 use std::time::Instant;
 
 use tearmesh::{
-    Cursor, Cut, CutEnd, CutLayers, CutMethod, CutTips, Edit, Edits, Masses, Positions, Scissor,
-    gap,
+    COORDINATE_MAX, Cursor, Cut, CutEnd, CutLayers, CutMethod, CutTips, Edit, Edits, Masses,
+    Positions, Scissor, gap,
 };
 use tearmesh_obj::TornDocument;
 
@@ -28,7 +28,7 @@ use crate::files::Names;
 use crate::measure::{Bounds, Edges};
 use crate::picture::Texture;
 use crate::rays;
-use crate::say::Fault;
+use crate::say::{Fault, short};
 use crate::session::{self, Session, milliseconds};
 use crate::streams::Streams;
 use crate::{output, report, weld};
@@ -143,6 +143,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let mut shown = None;
     if let Some(gap) = gap {
         let (gapped, points) = gap::gapped(&mesh, &positions, gap);
+        Positions::new(points.iter().copied()).map_err(|_| too_wide(gap))?;
         session.words.push(summary::gap(&gapped));
         session.faults.extend(summary::of_gap(&gapped));
         session.report.gap = Some(gapped);
@@ -218,6 +219,13 @@ fn scissor(
     let scissor = scissor.through(args.through).tips(args.tips);
     let scissor = scissor.layers(args.layers).snap(args.snap);
     Ok(scissor.snap_move(args.snap_move))
+}
+
+/// That a gap moves vertices to where no verb could read them.
+fn too_wide(gap: f64) -> Stop {
+    let (gap, limit) = (short(gap), short(COORDINATE_MAX));
+    let message = format!("a gap of {gap} moves vertices beyond {limit}, the largest coordinate");
+    Stop::usage(message, "give a smaller --gap")
 }
 
 /// Refuses options that do not go together: when, what is said, and what helps.
