@@ -45,7 +45,7 @@ impl Exit {
             ) => Exit::NoPlane,
             ("E-IO-WRITE", _) => Exit::Output,
             ("E-SIM-MESH" | "E-MASS", _) => Exit::Input,
-            (_, "CHART" | "IO" | "MESH" | "OBJ" | "PLAY" | "VIEW") => Exit::Input,
+            (_, "CHART" | "IO" | "MESH" | "OBJ" | "PLAY") => Exit::Input,
             (_, "MEND") => Exit::NothingCut,
             (_, "SIM") => Exit::Simulation,
             (_, "BUG") => Exit::Bug,

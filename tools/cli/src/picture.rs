@@ -11,7 +11,8 @@ use crate::say::Fault;
 pub(crate) fn no_camera(error: CameraError) -> Fault {
     let fault = Fault::error("E-CAMERA", error.to_string());
     fault.help(match error {
-        CameraError::Empty => return Fault::error("E-VIEW-EMPTY", error.to_string()),
+        // No file without a face is read.
+        CameraError::Empty => return Fault::error("E-BUG-INVARIANT", error.to_string()),
         CameraError::At => "aim it at another point",
         CameraError::Up => "name another direction with --up, as in --up 0,0,1",
         CameraError::Angle => {

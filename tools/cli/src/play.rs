@@ -89,9 +89,6 @@ fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
             format!("the mesh has {vertices} vertices, and a page plays with at most {most}");
         return Err(Fault::error("E-PLAY-VERTICES", message).into());
     }
-    if opened.mesh.face_count() == 0 {
-        return Err(Fault::error("E-VIEW-EMPTY", "there is no cloth to play with").into());
-    }
     let mut bytes = Vec::new();
     let torn = TornDocument::new(&opened.document);
     let written = torn.write(&opened.mesh, &opened.positions, &mut bytes);
