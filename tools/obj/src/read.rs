@@ -181,7 +181,7 @@ impl Reader {
             Some(b"solid") => "this looks like an STL file; convert it to OBJ first",
             Some(b"OFF") => "this looks like an OFF file; convert it to OBJ first",
             Some(b"newmtl") => "this is a material library; read the OBJ file that names it",
-            _ => "a cut needs faces (`f`); lines, points and curves have none",
+            _ => "a mesh needs faces (`f`); lines, points and curves have none",
         };
         let message = match self.document.positions.len() {
             0 => "this file has no face".to_owned(),
