@@ -139,3 +139,43 @@ fn pieces_of_what_was_torn_before_and_of_crumbs_are_meshes() {
     }
     assert!(fans > 0, "a vertex of several fans");
 }
+
+/// A run into the same folder that failed, at whatever piece, blocks none after it: with more pieces than before, or
+/// fewer.
+#[test]
+fn regression_pieces_that_failed_can_be_written_again() {
+    let folder = Folder::new();
+    let cut = |planes: &str| format!("cut flag.obj {planes} --pieces p -q -o x.obj");
+    let four = cut("--plane 0.3,0,0:1,0,0 --plane 0,0.1,0:0,1,0");
+    for before in ["", "--plane 0.3,0,0:1,0,0"] {
+        for blocked in 0..4 {
+            let name = format!("p/piece_{blocked:05}.obj");
+            if before.is_empty() {
+                // What lies there is a folder, of an earlier run by its list.
+                let list = format!("{{\"file\": \"{}\"}}", &name[2..]);
+                let list = format!("{{\"schema\": \"tearmesh.pieces/1\", \"pieces\": [{list}]}}");
+                folder.write("p/pieces.json", list);
+            } else {
+                folder.done(&cut(before));
+                let list = folder.read("p/pieces.json");
+                let more = format!("\"pieces\": [{{\"file\": \"{}\"}},", &name[2..]);
+                folder.write("p/pieces.json", list.replacen("\"pieces\": [", &more, 1));
+            }
+            let _none = std::fs::remove_file(folder.path(&name));
+            std::fs::create_dir(folder.path(&name)).expect("a folder");
+            let said = folder.ends(&four, 7);
+            assert!(said.contains(&name), "{said}");
+            std::fs::remove_dir(folder.path(&name)).expect("a folder");
+            let again = if blocked % 2 == 0 {
+                four.clone()
+            } else {
+                cut("--plane 0.3,0,0:1,0,0")
+            };
+            folder.done(&again);
+            let pieces = check(&folder, "x.obj", "p").len();
+            assert_eq!(pieces, if blocked % 2 == 0 { 4 } else { 2 });
+            assert_eq!(folder.list("p").len(), pieces + 1);
+            std::fs::remove_dir_all(folder.path("p")).expect("pieces");
+        }
+    }
+}

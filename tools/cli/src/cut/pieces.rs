@@ -1,6 +1,7 @@
 //! Pieces: numbered OBJ files, the largest first, and a list of them.
 
 use std::cmp::Reverse;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -18,7 +19,7 @@ use crate::{output, report};
 /// Where pieces go.
 pub(super) struct Pieces {
     folder: PathBuf,
-    /// The pieces of an earlier run, which are replaced or removed.
+    /// The files of an earlier run, which are replaced or removed.
     old: Vec<String>,
 }
 
@@ -33,6 +34,18 @@ const SCHEMA: &str = "tearmesh.pieces/1";
 struct List {
     schema: &'static str,
     pieces: Vec<Entry>,
+    /// As long as they are being written, the files of this run and of an earlier one: so whatever ends a run, the
+    /// next one knows whose they are.
+    #[serde(skip_serializing_if = "BTreeSet::is_empty")]
+    unfinished: BTreeSet<String>,
+}
+
+impl List {
+    fn write(&self, folder: &Path) -> Result<(), Fault> {
+        let json = serde_json::to_string_pretty(self);
+        let json = json.expect("a list of strings and finite numbers is JSON") + "\n";
+        output::write(&folder.join(LIST), |out| out.write_all(json.as_bytes()))
+    }
 }
 
 #[derive(Serialize)]
@@ -75,8 +88,9 @@ impl Pieces {
         Ok(Some(Pieces { folder, old }))
     }
 
-    /// Writes the pieces, and then their list: each file whole or not at all. Then removes the pieces of an
-    /// earlier run that had more. Makes the folder where there is none.
+    /// Writes the pieces, each whole or not at all, and removes those of an earlier run that had more. Before that,
+    /// writes a list of the files that it will touch, and after it that of the pieces. Makes the folder where there
+    /// is none.
     pub(super) fn write(
         &self,
         torn: &TornDocument<'_>,
@@ -89,10 +103,17 @@ impl Pieces {
         // Of equal ones the one with the lowest face comes first, as it does now.
         pieces.sort_by_key(|piece| Reverse(piece.faces.len()));
         let writer = PieceWriter::new(torn);
+        let new: BTreeSet<String> = (0..pieces.len()).map(name).collect();
         let mut list = List {
             schema: SCHEMA,
             pieces: Vec::with_capacity(pieces.len()),
+            unfinished: new
+                .iter()
+                .chain(self.old.iter().filter(|old| *old != LIST))
+                .cloned()
+                .collect(),
         };
+        list.write(folder)?;
         for (number, piece) in pieces.iter().enumerate() {
             let file = name(number);
             let path = folder.join(&file);
@@ -108,14 +129,13 @@ impl Pieces {
                 materials: names.materials,
             });
         }
-        let json = serde_json::to_string_pretty(&list);
-        let json = json.expect("a list of strings and finite numbers is JSON") + "\n";
-        output::write(&folder.join(LIST), |out| out.write_all(json.as_bytes()))?;
-        let is_new = |old: &str| old == LIST || list.pieces.iter().any(|piece| piece.file == old);
-        for old in self.old.iter().filter(|old| !is_new(old)) {
+        let is_gone = |old: &&String| *old != LIST && !new.contains(*old);
+        for old in self.old.iter().filter(is_gone) {
             let path = folder.join(old);
             fs::remove_file(&path).map_err(|error| output::cannot_write(&path, &error))?;
         }
+        list.unfinished.clear();
+        list.write(folder)?;
         let count = pieces.len();
         let folder = folder.display().to_string();
         Ok(report::Pieces { folder, count })
@@ -129,8 +149,10 @@ fn listed(folder: &Path) -> Vec<String> {
     if list["schema"] != SCHEMA {
         return Vec::new();
     }
-    let pieces = list["pieces"].as_array().into_iter().flatten();
-    let files = pieces.filter_map(|piece| Some(piece["file"].as_str()?.to_owned()));
+    let of = |key: &str| list[key].as_array().into_iter().flatten();
+    let pieces = of("pieces").map(|piece| &piece["file"]);
+    let files = pieces.chain(of("unfinished"));
+    let files = files.filter_map(|file| Some(file.as_str()?.to_owned()));
     files.chain([LIST.to_owned()]).collect()
 }
 
