@@ -83,6 +83,7 @@
 //! that has nothing to do returns `None` or a [`SplitRefusal`]. A panic means a bug in this library
 //! or in the calling code, such as an id of another mesh. Its message names the invariant.
 
+#![forbid(unsafe_code)]
 #![cfg_attr(
     test,
     allow(

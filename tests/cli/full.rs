@@ -86,6 +86,48 @@ fn regression_a_full_standard_output_is_said() {
     }
 }
 
+/// A stream that is closed as the program begins is not written, whatever the runtime puts in its place; to throw
+/// away what is printed is no failure.
+#[cfg(target_os = "linux")]
+#[test]
+fn regression_a_closed_standard_output_is_said() {
+    let folder = Folder::new();
+    for (line, says) in [
+        (format!("cut flag.obj {RAYS} -o -"), ""),
+        (format!("cut flag.obj {RAYS}"), ""),
+        (format!("cut flag.obj {RAYS} --format json"), ""),
+        (
+            format!("cut flag.obj {RAYS} -o x.obj"),
+            "`x.obj` was written",
+        ),
+        ("render flag.obj -o -".to_owned(), ""),
+        ("check flag.obj".to_owned(), ""),
+        ("completions bash".to_owned(), ""),
+    ] {
+        let ended = |to: &str| {
+            let command = folder.command(&line);
+            let mut shell = std::process::Command::new("sh");
+            shell.args(["-c", &format!("exec \"$0\" \"$@\" {to}")]);
+            shell.arg(command.get_program()).args(command.get_args());
+            let output = shell.current_dir(folder.path("")).output();
+            let output = output.expect("a shell");
+            (
+                output.status.code(),
+                String::from_utf8(output.stderr).expect("words"),
+            )
+        };
+        let (exit, said) = ended(">&-");
+        assert_eq!(exit, Some(7), "{line}\n{said}");
+        let error = "error[E-IO-WRITE]: cannot write standard output: it is closed";
+        assert_eq!(said.matches(error).count(), 1, "{line}\n{said}");
+        assert!(said.contains(says), "{line}\n{said}");
+        for to in ["> /dev/null", "1<> /dev/null", "<&- > /dev/null"] {
+            let (exit, said) = ended(to);
+            assert_eq!(exit, Some(0), "{line} {to}\n{said}");
+        }
+    }
+}
+
 /// Wherever standard output ends, the run says so once and exits with 7; where it was closed it ends
 /// as if all had been read. In CI it ends at every fifth byte, and else at every twentieth.
 #[test]

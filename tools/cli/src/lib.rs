@@ -12,6 +12,8 @@
 //! `say` prints diagnostics. `output` writes files atomically, and `files` checks their paths. `bug` writes
 //! a reproducer if an invariant is violated. `streams` holds the streams of a run, and `exit` its status.
 
+#![forbid(unsafe_code)]
+
 mod args;
 mod bug;
 mod chart;

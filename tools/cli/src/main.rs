@@ -1,5 +1,7 @@
 //! The command `tearmesh`.
 
+mod closed;
+
 use std::io::{self, BufWriter, IsTerminal};
 use std::process::ExitCode;
 
@@ -16,11 +18,15 @@ fn main() -> ExitCode {
         }
     });
     let (stdin, stdout, stderr) = (io::stdin(), io::stdout(), io::stderr());
+    let (mut open, mut closed) = (BufWriter::new(stdout.lock()), closed::Closed);
     let streams = Streams {
         output_is_terminal: stdout.is_terminal(),
         error_is_terminal: stderr.is_terminal(),
         input: &mut stdin.lock(),
-        output: &mut BufWriter::new(stdout.lock()),
+        output: match closed::is_output() {
+            true => &mut closed,
+            false => &mut open,
+        },
         error: &mut stderr.lock(),
     };
     run(std::env::args_os(), streams).into()

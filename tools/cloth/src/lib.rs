@@ -33,6 +33,8 @@
 //! Units are SI: metres, kilograms, seconds, newtons. Results depend on `+ − × ÷ √` in a
 //! fixed order; no step allocates once its solver has seen a system of that size.
 
+#![forbid(unsafe_code)]
+
 pub use tearmesh;
 
 pub mod air;

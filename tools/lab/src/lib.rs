@@ -9,6 +9,8 @@
 //! figure of that table ([`plot`]). Nothing here reads a file or a clock: a clock is an argument. So the same
 //! experiment gives the same bytes.
 
+#![forbid(unsafe_code)]
+
 pub mod cut;
 pub mod experiment;
 pub mod fig7;

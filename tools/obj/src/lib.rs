@@ -157,6 +157,8 @@
 //! This crate reads and writes streams of bytes. Opening files, replacing them as a whole, and
 //! rendering diagnostics are left to the caller.
 
+#![forbid(unsafe_code)]
+
 mod diagnostic;
 mod document;
 mod families;

@@ -16,6 +16,8 @@
 //! machine, and a test can compare a picture with an earlier one. A page also has the same bytes on every
 //! machine, but graphics cards may draw it differently.
 
+#![forbid(unsafe_code)]
+
 mod bounds;
 mod camera;
 mod figure;
