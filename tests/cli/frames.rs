@@ -7,6 +7,7 @@ use crate::harness::Folder;
 #[cfg(unix)]
 use crate::harness::interrupted_at;
 use crate::plain::Plain;
+use crate::vectors::{length, minus};
 
 #[test]
 fn frames_of_one_topology_have_the_same_corners() {
@@ -144,4 +145,121 @@ fn caches_have_the_places_of_frames_and_mesh() {
         fs::remove_dir_all(folder.path("f")).expect("no frames");
         fs::remove_dir_all(folder.path("g")).expect("no frames");
     }
+}
+
+/// The file of a sheet that lies elsewhere.
+fn moved(folder: &Folder, by: [f64; 3]) -> String {
+    let plain = Plain::read(&folder.read("sheet.obj"));
+    let all = 0..plain.vertices.len();
+    let places = all
+        .map(|v| plain.at(v))
+        .map(|p| [0, 1, 2].map(|i| p[i] + by[i]));
+    let vertices = places.map(|[x, y, z]| format!("v {x} {y} {z}\n"));
+    let faces = plain.faces.iter().map(|face| {
+        let corners = face.iter().map(|v| format!(" {}", v + 1));
+        format!("f{}\n", corners.collect::<String>())
+    });
+    vertices.chain(faces).collect()
+}
+
+/// A sheet of a metre in coordinates of a map, where numbers of 32 bits are .03 and .5 apart: it is refused before
+/// anything is done, with the origin to give; and with that, each point of the cache is where it belongs.
+#[test]
+fn regression_a_cache_far_from_the_origin_takes_an_origin() {
+    let folder = Folder::new();
+    let mut tried = 0;
+    for by in [
+        [448_262.37, 4_411_932.61, 0.0],
+        [-448_262.37, 1e4, -3e7],
+        [1e9 / 3.0, 0.0, 0.0],
+        [4e3, 0.0, 0.0],
+        [40.0, 0.0, 0.0],
+    ] {
+        folder.write("map.obj", moved(&folder, by));
+        let plain = Plain::read(&folder.read("map.obj"));
+        let lengths = plain.faces.iter().flat_map(|face| plain.sides(face));
+        let mean = lengths.clone().sum::<f64>() / lengths.count() as f64;
+        let off = |p: [f64; 3], at: [f64; 3]| length(minus(p, at));
+        let rounded = |p: [f64; 3]| p.map(|x| f64::from(x as f32));
+        let places = || (0..plain.vertices.len()).map(|v| plain.at(v));
+        let worst = places().map(|p| off(rounded(p), p)).fold(0.0, f64::max);
+        let line = "tear map.obj --scene hang --seconds 0.1 --cache c.pc2 -o t.obj --frames f --frames-topology final";
+        let mut origin = [0.0; 3];
+        let mut line = line.to_owned();
+        // (Which edges count is not the test's business where it is close.)
+        if worst > 1.1e-3 * mean {
+            let said = folder.ends(&line, 2);
+            assert!(!folder.path("t.obj").exists() && !folder.path("c.pc2").exists());
+            let (_, told) = said.split_once("would move vertex ").expect("a vertex");
+            let named: usize = told
+                .split(' ')
+                .next()
+                .and_then(|v| v.parse().ok())
+                .expect("a number");
+            let p = plain.at(named - 1);
+            assert!(off(rounded(p), p) == worst, "{said}");
+            let (_, told) = said.split_once("--cache-origin ").expect("an origin");
+            let told = told.split(':').next().expect("three numbers");
+            let numbers: Vec<f64> = told
+                .split(',')
+                .map(|x| x.parse().expect("a number"))
+                .collect();
+            origin = numbers.try_into().expect("three");
+            line += &format!(" --cache-origin {told}");
+            tried += 1;
+        } else {
+            assert!(worst < 0.9e-3 * mean);
+        }
+        folder.done(&format!("{line} --report r.json"));
+        let told = &folder.json("r.json")["cache"]["origin"];
+        assert_eq!(*told, serde_json::json!(origin));
+        let samples = samples(&folder.bytes("c.pc2"));
+        for (frame, sample) in folder.list("f").iter().zip(&samples) {
+            let plain = Plain::read(&folder.read(&format!("f/{frame}")));
+            for (v, &point) in sample.iter().enumerate() {
+                let point = [0, 1, 2].map(|i| f64::from(point[i]) + origin[i]);
+                assert!(
+                    off(point, plain.at(v)) <= 1.1e-3 * mean,
+                    "{by:?}: {frame}, {v}"
+                );
+            }
+        }
+        for name in ["t.obj", "c.pc2"] {
+            fs::remove_file(folder.path(name)).expect("a file");
+        }
+        fs::remove_dir_all(folder.path("f")).expect("frames");
+    }
+    assert_eq!(tried, 4);
+}
+
+/// A cloth that is carried far away has no cache; all else is written, and the exit status says that something is not.
+#[test]
+fn a_cloth_that_moves_far_away_has_all_but_a_cache() {
+    let folder = Folder::new();
+    let carried = |to: f64| {
+        let scene = format!(
+            "seconds = 0.2\n[[hold]]\nacross = [0, 1]\nmoves = [[0, 0, 0, 0], [0.1, {to}, 0, 0]]\n"
+        );
+        folder.write("s.toml", scene);
+        "tear sheet.obj --scene s.toml --cache c.pc2 -o t.obj --report r.json --frames f --frames-topology final"
+    };
+    let said = folder.ends(carried(1e6), 7);
+    assert!(
+        said.contains("error[E-CACHE-ORIGIN]: the cache would move vertex "),
+        "{said}"
+    );
+    assert!(
+        said.contains(" of frame ") && said.contains("no --cache-origin helps"),
+        "{said}"
+    );
+    assert!(!folder.path("c.pc2").exists() && folder.path("t.obj").exists());
+    let report = folder.json("r.json");
+    assert_eq!(
+        (&report["exit"], report["frames"]["count"].as_u64()),
+        (&7.into(), Some(7))
+    );
+    assert!(report["cache"].is_null());
+    assert_eq!(folder.list("f").len(), 7);
+    folder.done(carried(10.0));
+    assert!(folder.path("c.pc2").exists());
 }

@@ -120,7 +120,7 @@ fn join_rays(args: &[OsString]) -> Vec<OsString> {
         // How many values of numbers with commas between them an option takes.
         let takes = match name {
             "--rays" | "--points" => 2,
-            "--plane" | "--camera" | "--up" | "--near" => 1,
+            "--plane" | "--camera" | "--up" | "--near" | "--cache-origin" => 1,
             _ => {
                 joined.push(arg.clone());
                 continue;

@@ -99,6 +99,8 @@ pub(crate) struct Cache {
     pub(crate) samples: usize,
     /// As many as the mesh that was written has `v`.
     pub(crate) points: usize,
+    /// What was subtracted from each.
+    pub(crate) origin: [f64; 3],
 }
 
 /// What was mended.

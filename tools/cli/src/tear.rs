@@ -3,6 +3,7 @@
 pub(crate) mod advice;
 pub(crate) mod check;
 mod frames;
+mod precision;
 mod recorder;
 mod step;
 mod still;
@@ -20,6 +21,7 @@ use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::TornDocument;
 
 use self::frames::{Frames, places};
+use self::precision::Precision;
 use self::recorder::Recorder;
 use self::still::Still;
 use crate::args::{Format, TearArgs};
@@ -63,6 +65,11 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     check::known_forces(args, &scene)?;
     let run = begin(scene, &opened, &frame, &source)?;
     check::points_stay(args, &run, &source)?;
+    let precision = Precision::new(args.cache_origin, &opened.mesh, &opened.positions);
+    if args.cache.is_some() {
+        let name = |v| format!("vertex {}", opened.document.number_of_vertex(v));
+        precision.check(|| opened.positions.as_slice().iter().copied(), name)?;
+    }
     record_seams(&run, &mut opened, &source)?;
     session.faults.extend(check::moved(&opened));
     let number = |v| opened.document.number_of_vertex(v);
@@ -74,6 +81,7 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         args,
         opened: &opened,
         frame: &frame,
+        precision,
         guard: Guard::new(),
     };
     play.perform(run, session)
@@ -155,6 +163,8 @@ struct Play<'a> {
     args: &'a TearArgs,
     opened: &'a Opened,
     frame: &'a Frame,
+    /// That of the point cache.
+    precision: Precision,
     /// An interruption ends the steps, or the writing of frames; what was done is written.
     guard: Guard,
 }
@@ -325,7 +335,7 @@ impl Play<'_> {
         let was_interrupted = session.exit == Exit::Interrupted;
         let is_enough = || !was_interrupted && self.guard.is_interrupted();
         let Records { frames, torn, .. } = records;
-        frames.finish(run, &torn, is_enough, session)?;
+        frames.finish(run, &torn, (&self.precision, is_enough), session)?;
         if session.exit == Exit::Done && self.guard.is_interrupted() {
             session.exit = Exit::Interrupted;
         }

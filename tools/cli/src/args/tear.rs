@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Parser, ValueEnum};
+use tearmesh::Point;
 
 use super::files::FileArgs;
 use tearmesh_cloth::Method;
@@ -150,6 +151,13 @@ pub(crate) struct TearArgs {
     /// in OUT, so axes stay as imported.
     #[arg(long, value_name = "F.pc2")]
     pub(crate) cache: Option<PathBuf>,
+
+    /// Subtract this point from all points of --cache.
+    ///
+    /// A cache has numbers of 32 bits, too coarse for a cloth far from the origin: one is refused that would move a
+    /// point by more than a thousandth of the mean edge. In Blender, move the object to this point.
+    #[arg(long, value_name = "X,Y,Z", requires = "cache", allow_hyphen_values = true, value_parser = super::read::point)]
+    pub(crate) cache_origin: Option<Point>,
 
     #[command(flatten)]
     pub(crate) files: FileArgs,

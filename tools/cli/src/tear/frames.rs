@@ -14,8 +14,9 @@ use tearmesh_obj::TornDocument;
 use tearmesh_view::{MOMENTS_PER_S, write_pc2};
 
 use super::check;
+use super::precision::Precision;
 use crate::args::{TearArgs, Topology};
-use crate::exit::Stop;
+use crate::exit::{Exit, Stop};
 use crate::say::Fault;
 use crate::session::Session;
 use crate::{output, report};
@@ -128,18 +129,23 @@ impl Frames {
         Ok(())
     }
 
-    /// Writes the point cache, and then the frames that waited until it is enough; each sample and frame
-    /// is checked against its own mesh. Notes both in the report.
+    /// Writes the point cache, unless it would be too coarse, and then the frames that waited until it is enough;
+    /// each sample and frame is checked against its own mesh. Notes both in the report.
     pub(super) fn finish(
         mut self,
         run: &Run,
         torn: &TornDocument<'_>,
-        is_enough: impl Fn() -> bool,
+        (precision, is_enough): (&Precision, impl Fn() -> bool),
         session: &mut Session<'_, '_>,
     ) -> Result<(), Stop> {
-        let cache = self.cache.as_ref();
-        let cache = cache.map(|path| self.write_cache(path, run, torn));
-        let cache = cache.transpose()?;
+        let (mut cache, mut refused) = (None, None);
+        if let Some(path) = &self.cache {
+            let statements = torn.statements_in_order(run.mesh());
+            match self.check_cache(&statements, precision) {
+                Ok(()) => cache = Some(self.write_cache(path, run, &statements, precision)?),
+                Err(fault) => refused = Some(fault),
+            }
+        }
         let mut report = None;
         if let Some(folder) = self.folder.clone() {
             let is_final = self.topology == Topology::Final;
@@ -179,7 +185,22 @@ impl Frames {
         if let Some(tear) = &mut session.report.tear {
             (tear.frames, tear.cache) = (report, cache);
         }
-        Ok(())
+        refused.map_or(Ok(()), |fault| Err(Stop::new(Exit::Output, fault)))
+    }
+
+    /// Refuses a cache whose numbers would be too coarse for some frame.
+    fn check_cache(&self, statements: &[VertexId], precision: &Precision) -> Result<(), Fault> {
+        let points = || {
+            self.waiting.iter().flat_map(|frame| {
+                let points = self.grown(frame);
+                statements.iter().map(move |v| points[v.index()])
+            })
+        };
+        let name = |i: usize| {
+            let (frame, vertex) = (i / statements.len(), i % statements.len() + 1);
+            format!("vertex {vertex} of frame {frame}")
+        };
+        precision.check(points, name)
     }
 
     /// Writes where every `v` of the last mesh's file is in every frame.
@@ -187,21 +208,23 @@ impl Frames {
         &self,
         path: &Path,
         run: &Run,
-        torn: &TornDocument<'_>,
+        statements: &[VertexId],
+        precision: &Precision,
     ) -> Result<report::Cache, Fault> {
-        let statements = torn.statements_in_order(run.mesh());
         for (number, frame) in self.waiting.iter().enumerate() {
             self.checked(number, frame, run.mesh())?;
         }
         let samples = self.waiting.iter().map(|frame| {
             let points = self.grown(frame);
-            statements.iter().map(move |v| points[v.index()])
+            let at = move |v: &VertexId| points[v.index()] - precision.origin;
+            statements.iter().map(at)
         });
         output::write(path, |out| write_pc2(out, statements.len(), samples))?;
         Ok(report::Cache {
             path: path.display().to_string(),
             samples: self.waiting.len(),
             points: statements.len(),
+            origin: precision.origin.into(),
         })
     }
 
