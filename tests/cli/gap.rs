@@ -78,6 +78,8 @@ struct Counts {
     divided: u64,
     moved: u64,
     clamped: u64,
+    /// Second cuts.
+    undone: u64,
 }
 
 /// A cut with a gap, against the same without: `second` is cut after it.
@@ -175,10 +177,21 @@ fn gapped_cut(name: &str, mesh: &[u8], cut: &str, (gap, second): (&str, &str), t
     let [one, other] = [&gapped, &plain].map(|bytes| run(&again, bytes).output);
     assert!(one == other, "{name} {line}, then {second}");
     // One that says nothing of the gap leaves it open, where it is not cut across.
-    let again = format!("tearmesh cut - {second} --allow-miss -q -o -");
-    let one = Apart::read(&run(&again, &gapped).output);
-    assert_eq!(one.is, Apart::read(&other).shown);
-    assert!(count("vertices_moved") == 0 || one.is != one.shown);
+    let again = format!("tearmesh cut - {second} --allow-miss");
+    let twice = run(&format!("{again} -q -o -"), &gapped).output;
+    let both = Apart::read(&twice);
+    assert_eq!(both.is, Apart::read(&other).shown);
+    assert!(count("vertices_moved") == 0 || both.is != both.shown);
+    // Undone, it leaves the first as it was.
+    let report = run(&format!("{again} --format json"), &gapped).output;
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    if report["cuts"][0]["splits"] != 0 {
+        let undo = "tearmesh mend - --last 1 --simplify -q -o -";
+        let [undone, first] = [&run(undo, &twice).output, &gapped].map(|bytes| Apart::read(bytes));
+        let is_same = (undone.is, undone.faces) == (first.is, first.faces);
+        assert!(is_same, "{name} {line}, then {second}");
+        tally.undone += 1;
+    }
 }
 
 /// Cuts at random: across and into sheets, a tube and quads, by all methods.
@@ -201,6 +214,7 @@ fn gapped_cuts_change_nothing_but_what_is_seen() {
         let mut point = || format!("{},{}", x(), x());
         let pair = |a: String, b: String| format!("--rays {a},9:0,0,-1 {b},9:0,0,-1");
         let (first, second) = (pair(point(), point()), pair(point(), point()));
+        let second = second + ["", " --snap 0.3 --snap-move"][case / 2 % 2];
         let method = [
             "exact",
             "exact --snap 0",
@@ -216,6 +230,7 @@ fn gapped_cuts_change_nothing_but_what_is_seen() {
     }
     let least = wanted as u64;
     assert!(5 * tally.divided > least && 4 * tally.clamped > least && tally.moved > 20 * least);
+    assert!(2 * tally.undone > least, "{tally:?}");
 }
 
 /// Real files of up to 300 kB, where they are at hand, cut through and slit.

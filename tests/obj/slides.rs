@@ -78,6 +78,23 @@ fn a_slide_is_undone_to_the_bit() {
     }
 }
 
+/// Only one end of the edge between vertices 1 and 2 is split; the other end slides. The edge is torn all the same.
+#[test]
+fn a_torn_edge_holds_the_slides_of_its_cut_and_of_earlier_ones() {
+    for (deeds, is_held) in [
+        ("slide 1 3 .3, split 2 1", true),
+        ("slide 1 3 .3, next, split 2 1", true),
+        ("split 2 1, next, slide 1 3 .3", false),
+    ] {
+        let document = read(FLAG.as_bytes());
+        let mut work = Work::on(&document);
+        work.deeds(deeds);
+        let (_, counts) = work.simplified();
+        assert_eq!(counts, [0, 0, usize::from(!is_held)], "{deeds}");
+        assert_eq!(work.undone(), FLAG, "{deeds}");
+    }
+}
+
 /// Edits a file in several sessions, each of which reads what the previous one wrote. Whoever
 /// writes again what was read writes the same, and all is undone at last.
 fn is_undone_after_sessions(

@@ -49,9 +49,10 @@ impl TornDocument<'_> {
     /// Inserted texture coordinates and normals are removed if no remaining face uses them.
     ///
     /// A vertex that a cut slid is put back, with its extra numbers and the texture coordinates and
-    /// normals of its corners. This requires that no tear of this cut or a later one still holds the
-    /// vertex apart, and that all vertices inserted beside it since are removed. Several slides of a
-    /// vertex are undone in reverse order.
+    /// normals of its corners. This requires that no edge at the vertex is still torn by this cut or a
+    /// later one, and that all vertices inserted beside it since are removed. So the tip of a cut stays
+    /// while the cut is open, although the vertex was never split. Several slides of a vertex are undone
+    /// in reverse order.
     ///
     /// An inserted vertex stays if it was *edited* after the insertion. The recorded insertion determines
     /// its position, its extra numbers, and its texture coordinate and normal at each corner from those

@@ -9,6 +9,7 @@ mod ancestry;
 mod corners;
 mod turns;
 
+pub(crate) use self::ancestry::Distances;
 pub(crate) use self::corners::{Slots, length, normal_between, numbers_between};
 
 use std::borrow::Cow;

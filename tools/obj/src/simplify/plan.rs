@@ -5,7 +5,7 @@
 //!
 //! * An inserted vertex goes only if it is as it was inserted (`past.rs`), and if the ends that it was
 //!   put between are where they were then: a later slide of one of them has to be undone too.
-//! * A slide is undone if nothing that its cut or a later one tore holds the vertex apart, if the vertex
+//! * A slide is undone if no edge at the vertex is torn that its cut or a later one tore, if the vertex
 //!   is as it was left, and if everything goes that was put beside it since. What holds a
 //!   slide holds all earlier ones of its vertex.
 //!
@@ -19,6 +19,7 @@ use super::past::Past;
 use crate::document::Document;
 use crate::families::Families;
 use crate::record::{Inserted, Record};
+use crate::torn::Distances;
 
 /// A divided face.
 #[derive(Clone, Debug, Default)]
@@ -38,7 +39,7 @@ pub(super) struct Undo<'d> {
     /// The divided faces, by family.
     pub(super) divided: Vec<Divided>,
     inserted: &'d [Inserted],
-    /// Whether each slide is undone, and whether what its cut or a later one tore there is open.
+    /// Whether each slide is undone, and whether an edge that its cut or a later one tore there is torn.
     pub(super) is_back: Vec<bool>,
     is_open: Vec<bool>,
     /// By root, whether it was inserted and may go.
@@ -61,7 +62,7 @@ impl<'d> Undo<'d> {
             .map(|face| face.parts_for_plan(inserted));
         let insertions = Insertions::new(mesh, families);
         let may_go = may_go(record, &past, mesh);
-        let [is_open, is_back] = slides_to_undo(record, &past);
+        let [is_open, is_back] = slides_to_undo(record, &past, mesh);
         let plan = |past: &Past<'_>, may_go: &[bool], is_back: &[bool]| {
             let may_go = |v: VertexId| may_go[past.roots[v.index()] as usize];
             let indices = |h: HalfEdgeId| past.indices(h.index(), |slide| is_back[slide]);
@@ -201,24 +202,45 @@ impl<'d> Undo<'d> {
     }
 }
 
-/// For each slide, whether what its cut or a later one tore there is open, and whether it may be undone.
-fn slides_to_undo(record: &Record, past: &Past<'_>) -> [Vec<bool>; 2] {
-    let mut torn_by: BTreeMap<u32, u32> = BTreeMap::new();
-    for split in &record.splits {
-        for end in [split.vertex, split.from] {
-            let cut = torn_by.entry(end).or_default();
-            *cut = split.cut.max(*cut);
+/// For each slide, whether an edge is torn there that its cut or a later one tore, and whether the slide may be
+/// undone.
+fn slides_to_undo(record: &Record, past: &Past<'_>, mesh: &Mesh) -> [Vec<bool>; 2] {
+    if record.slides.is_empty() {
+        return Default::default();
+    }
+    let last_tears = last_tears(record, past, mesh);
+    let slides = record.slides.iter().zip(&past.is_intact);
+    let slides = slides.map(|(slid, is_intact)| {
+        let is_open = last_tears[past.roots[slid.vertex as usize] as usize] >= slid.cut;
+        (is_open, *is_intact && !is_open)
+    });
+    let (is_open, is_back) = slides.unzip();
+    [is_open, is_back]
+}
+
+/// By root, the last cut that tore an edge at one of its vertices, of edges that are still torn; 0 if none is.
+/// An edge is torn by every cut that parted its two sides at one of its ends: at the tip of a cut, the edge is
+/// torn and the vertex was never split.
+fn last_tears(record: &Record, past: &Past<'_>, mesh: &Mesh) -> Vec<u32> {
+    let mut last = vec![0; past.roots.len()];
+    let distances = Distances::of(past.roots.len(), &record.splits);
+    for h in mesh.half_edges() {
+        let Some(ghost) = mesh.ghost_pair(h).filter(|ghost| h < *ghost) else {
+            continue;
+        };
+        let sides = [
+            [mesh.origin(h), mesh.target(ghost)],
+            [mesh.target(h), mesh.origin(ghost)],
+        ];
+        let parted = sides.into_iter().filter(|[one, other]| one != other);
+        let cuts = parted.map(|[one, other]| distances.apart_since(one.into(), other.into()));
+        let cut = cuts.fold(0, u32::max);
+        for [vertex, _] in sides {
+            let of_root = &mut last[past.roots[vertex.index()] as usize];
+            *of_root = cut.max(*of_root);
         }
     }
-    let is_open = record.slides.iter().map(|slid| {
-        let torn_by = torn_by.get(&slid.vertex);
-        torn_by.is_some_and(|&cut| cut >= slid.cut)
-    });
-    let is_open: Vec<bool> = is_open.collect();
-    let may_go = is_open.iter().zip(&past.is_intact);
-    let is_back = may_go.map(|(is_open, is_intact)| *is_intact && !is_open);
-    let is_back = is_back.collect();
-    [is_open, is_back]
+    last
 }
 
 /// By root, whether it was inserted; and what no honest record has: a parent between inserted vertices,

@@ -196,11 +196,16 @@ impl Ancestry {
 
 /// Since which cuts nodes are apart: trees in which each node has another one above it, since a cut that is
 /// no younger than those below. At the top, the cut is 0.
-pub(super) struct Distances(Vec<(u32, u32)>);
+pub(crate) struct Distances(Vec<(u32, u32)>);
 
 impl Distances {
+    /// Those of `count` vertices, of which some were split off.
+    pub(crate) fn of(count: usize, splits: &[SplitOff]) -> Distances {
+        Ancestry::new(count, splits).distances()
+    }
+
     /// The cut since which two vertices of one class are apart; [`NEVER`] for one vertex.
-    pub(super) fn apart_since(&self, mut one: u32, mut other: u32) -> u32 {
+    pub(crate) fn apart_since(&self, mut one: u32, mut other: u32) -> u32 {
         let mut since = NEVER;
         while one != other {
             if self.0[one as usize].0 < self.0[other as usize].0 {
