@@ -198,8 +198,9 @@ impl Scissor {
     /// along the edge of the crossing. The seam is then straight without thin faces, but a curved
     /// surface changes slightly. The default is false.
     ///
-    /// A vertex is not moved if a face would turn over or lose 70 % of its altitude, if the vertex
-    /// is already torn, or if the vertex is on the boundary but the edge is not.
+    /// A vertex stays where it is, and the seam deviates there, if a face would turn over or lose 70 %
+    /// of its altitude, or would be cut into a face below the bound of [`Scissor::snap`]. So does a
+    /// vertex that is already torn, or that is on the boundary if the edge is not.
     #[must_use]
     pub fn snap_move(mut self, snap_move: bool) -> Scissor {
         self.snap_move = snap_move;
@@ -492,7 +493,7 @@ impl Scissor {
                 paper::cut(&way, is_alternating, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact, Some(trace)) => {
-                let snap_move = self.snap_move;
+                let snap_move = self.snap_move.then_some(self.snap);
                 exact::cut(&way, trace, snap_move, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact | CutMethod::Partition, _) => {

@@ -174,6 +174,9 @@ impl World {
                     Span::Plane => Scissor::by_plane(scissor.plane()),
                 };
                 let scissor = scissor.snap(snap).snap_move(snap_move).through(through);
+                if snap_move {
+                    self.no_slide_leaves_a_thin_face(method, &scissor, snap);
+                }
                 *last = self.cut(method, &scissor, span, snap_move);
             }
             Step::Mend { near, radius } => {
@@ -221,6 +224,25 @@ impl World {
         }
         assert_eq!(report.pieces_before, pieces_before);
         cut.ends().map(|[_, end]| end.clone())
+    }
+
+    /// Faces keep as much of their altitudes as the snap allows, or as they keep where nothing slides.
+    fn no_slide_leaves_a_thin_face(&self, method: CutMethod, scissor: &Scissor, snap: f64) {
+        let (first, before) = (self.work.edits.cursor(), self.work.altitudes());
+        let [still, slid] = [false, true].map(|moves| {
+            let mut work = self.work.clone();
+            work.cut(method, &scissor.clone().snap_move(moves));
+            work.kept_by(work.edits.since(first), &before)
+        });
+        assert_eq!(still.len(), slid.len(), "slides divide no face");
+        let bound = snap * (1.0 - snap);
+        for (still, slid) in still.into_iter().zip(slid) {
+            let is_thin = slid < still.min(bound) * (1.0 - 1e-9);
+            assert!(
+                !is_thin,
+                "{slid} of an altitude, and without slides {still}"
+            );
+        }
     }
 
     /// Counts what the edits from `first` on inserted.

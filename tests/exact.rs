@@ -208,7 +208,7 @@ fn a_snap_that_moves_makes_the_seam_straight() {
         deviations.push(report.seam_deviation_max_edges);
         let [was, is] = [before, work].map(|work| area(&work.mesh, &work.positions));
         assert!((is / was - 1.0).abs() < 1e-3);
-        assert!(kept.iter().all(|kept| *kept > 0.3 * 0.05 * 0.95));
+        assert!(kept.iter().all(|kept| *kept >= 0.05 * 0.95 * (1.0 - 1e-9)));
         // A corner that is less than the snap is touched and not cut off.
         assert!(report.crumbs == 0 && report.lost <= 1, "{report:?}");
     });

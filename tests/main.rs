@@ -37,6 +37,7 @@ mod scissor;
 mod scripts;
 mod sheet;
 mod shrink;
+mod snap_move;
 mod straight;
 mod straight_polylines;
 #[allow(dead_code, reason = "each has its users in some of the crates")]

@@ -3,7 +3,7 @@
 //! The fuzz target `cut_mend` uses this too.
 
 use tearmesh::{
-    Cut, CutError, CutMethod, CutReport, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray,
+    Cut, CutError, CutMethod, CutReport, Edit, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray,
     Scissor, Vector, VertexId, mend,
 };
 
@@ -162,9 +162,18 @@ impl Work {
 
     /// For each face the part of an altitude that it keeps of the face from which the edits cut it.
     pub(crate) fn kept(&self, before: &[f64]) -> Vec<f64> {
+        self.kept_by(self.edits.iter(), before)
+    }
+
+    /// The same of some of the edits, before which the altitudes were these.
+    pub(crate) fn kept_by<'e>(
+        &self,
+        edits: impl Iterator<Item = Edit<'e>>,
+        before: &[f64],
+    ) -> Vec<f64> {
         let mut parents: Vec<usize> = (0..before.len()).collect();
-        for edit in self.edits.iter() {
-            if let tearmesh::Edit::Insert(insert) = edit {
+        for edit in edits {
+            if let Edit::Insert(insert) = edit {
                 let new = insert.children.iter().filter(|c| c.face != c.parent);
                 for child in new {
                     parents.push(parents[child.parent.index()]);

@@ -5,6 +5,7 @@
 //!    that, the end counts as on the plane, for all its edges. It is not moved, so the seam
 //!    deviates by as much, unless that is asked for (`exact/slip.rs`). What is left are crossings
 //!    well inside their edges, and so no child has an altitude below r (1 − r) of its parent's.
+//!    A vertex that would leave such a child if it moved stays.
 //! 3. **Trace** (`exact/trace.rs`, found by `exact/tracer.rs`): in each face the slit runs from
 //!    node to node (a vertex on the plane, or a crossing) as far as the strip between the side
 //!    planes goes. Where that ends inside the face there is a *tip*, which moves along the slit or
@@ -117,11 +118,11 @@ fn pieces_of(way: &Way<'_>, trace: &Trace, census: &Census, mesh: &Mesh) -> (usi
     census.expected(mesh, sign, is_slit, is_slit_along, passed)
 }
 
-/// Cuts along a trace.
+/// Cuts along a trace. Where vertices are to be moved onto the plane, `snap_move` is the snap.
 pub(super) fn cut(
     way: &Way<'_>,
     mut trace: Trace,
-    snap_move: bool,
+    snap_move: Option<f64>,
     mesh: &mut Mesh,
     positions: &mut Positions,
     judged: Judged<'_>,
@@ -141,8 +142,9 @@ pub(super) fn cut(
             Err(refusal) => panic!("a trace makes a plan that can be carried out: {refusal}"),
         }
     };
-    if snap_move {
-        slip::onto_plane(&trace, mesh, positions, edits);
+    if let Some(snap) = snap_move {
+        let children = insertion.as_ref().map_or(&[][..], |one| &one.children);
+        slip::onto_plane(way, &trace, snap, children, mesh, positions, edits);
     }
     if let Some(insertion) = insertion {
         insertion.carry_out(mesh, edits);

@@ -1,40 +1,60 @@
 //! Moving vertices onto the plane, along the edges whose crossings they stand for.
+//!
+//! The slides of a cut are judged together, and with the points that the cut is about to insert. So a face keeps
+//! the bound of the snap r whatever its vertices do: none of the faces that it is cut into has an altitude below
+//! r (1 − r) times its own before the cut.
 
+use std::collections::BTreeMap;
+
+use super::tips::corners_of;
 use super::trace::{Site, Snapped, Trace};
-use crate::edit::Edits;
-use crate::geometry::{altitude, between, cross, dot};
-use crate::id::{HalfEdgeId, VertexId};
+use crate::edit::{ChildFace, Edits};
+use crate::geometry::{Point, altitude, between, cross, dot};
+use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use crate::scissor::way::Way;
 use crate::slide;
 
-/// A face may keep as little of its smallest altitude as this.
+/// The least part of its smallest altitude that a face keeps when its vertices slide.
 const ALTITUDE_KEPT: f64 = 0.3;
 
 /// Slides the vertices of the slit that stand for crossings, as far as that does no harm; see
 /// [`Scissor::snap_move`](super::super::Scissor::snap_move). A vertex near which the plane merely
-/// passes stays: nothing is cut there.
+/// passes stays: nothing is cut there. `children` are the faces that the cut will insert.
 pub(super) fn onto_plane(
+    way: &Way<'_>,
     trace: &Trace,
+    snap: f64,
+    children: &[ChildFace],
     mesh: &mut Mesh,
     positions: &mut Positions,
     edits: &mut Edits,
 ) {
     let nodes = trace.nodes();
-    for &Snapped {
-        vertex, toward, t, ..
-    } in &trace.snapped
-    {
-        if t > 0.0
-            && nodes.binary_search(&Site::Vertex(vertex)).is_ok()
-            && may_slide(mesh, vertex, toward)
-            && is_harmless(mesh, positions, vertex, toward, t)
-        {
-            slide::toward(mesh, vertex, toward, t, edits).expect("a crossing is on an edge");
-            // The next vertex may have a face in common with this one.
-            edits.replay(positions);
-        }
+    let is_due = |one: &&Snapped| {
+        one.t > 0.0
+            && nodes.binary_search(&Site::Vertex(one.vertex)).is_ok()
+            && may_slide(mesh, one.vertex, one.toward)
+    };
+    let mut due: Vec<&Snapped> = trace.snapped.iter().filter(is_due).collect();
+    // The other end of the edge is farther from the plane. So it slides later, and a vertex slides along the
+    // edge on which the crossing was found.
+    let distance = |one: &Snapped| way.offsets.of(one.vertex).abs();
+    due.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
+    let mut trial = Trial {
+        mesh,
+        positions,
+        children,
+        least: snap * (1.0 - snap),
+        moved: BTreeMap::new(),
+    };
+    due.retain(|one| trial.takes(one));
+    for one in due {
+        slide::toward(mesh, one.vertex, one.toward, one.t, edits)
+            .expect("a crossing is on an edge");
     }
+    edits.replay(positions);
 }
 
 /// Whether a vertex is inside the mesh and untorn, or slides along its boundary.
@@ -55,20 +75,47 @@ fn may_slide(mesh: &Mesh, vertex: VertexId, toward: VertexId) -> bool {
     !on_boundary || along_boundary
 }
 
-/// Whether every face round the vertex keeps its orientation and enough of its altitude.
-fn is_harmless(
-    mesh: &Mesh,
-    positions: &Positions,
-    vertex: VertexId,
-    toward: VertexId,
-    t: f64,
-) -> bool {
-    let moved = between(positions.at(vertex), positions.at(toward), t);
-    mesh.faces_of(vertex).all(|f| {
-        let corners = mesh.face_vertices(f);
-        let before = corners.map(|v| positions.at(v));
-        let after = corners.map(|v| if v == vertex { moved } else { positions.at(v) });
+/// Slides vertices on trial.
+struct Trial<'t> {
+    mesh: &'t Mesh,
+    positions: &'t Positions,
+    /// By parent.
+    children: &'t [ChildFace],
+    /// The least part of the altitude of a face that the faces keep that it is cut into.
+    least: f64,
+    /// Where the vertices are that slide.
+    moved: BTreeMap<VertexId, Point>,
+}
+
+impl Trial<'_> {
+    fn at(&self, v: VertexId) -> Point {
+        let moved = self.moved.get(&v).copied();
+        moved.unwrap_or_else(|| self.positions.at(v))
+    }
+
+    /// Slides a vertex, unless that does harm to a face; whether it did.
+    fn takes(&mut self, one: &Snapped) -> bool {
+        let to = between(self.at(one.vertex), self.at(one.toward), one.t);
+        self.moved.insert(one.vertex, to);
+        let is_harmless = self.mesh.faces_of(one.vertex).all(|f| self.keeps(f));
+        if !is_harmless {
+            self.moved.remove(&one.vertex);
+        }
+        is_harmless
+    }
+
+    /// Whether a face keeps its orientation and enough of its altitude, as do the faces that it is cut into.
+    fn keeps(&self, f: FaceId) -> bool {
+        let corners = self.mesh.face_vertices(f);
+        let before = corners.map(|v| self.positions.at(v));
+        let after = corners.map(|v| self.at(v));
         let [normal, turned] = [before, after].map(|[a, b, c]| cross(b - a, c - a));
-        dot(normal, turned) > 0.0 && altitude(after) >= ALTITUDE_KEPT * altitude(before)
-    })
+        let high = altitude(before);
+        let first = self.children.partition_point(|child| child.parent < f);
+        let children = self.children[first..].iter();
+        let mut children = children.take_while(|child| child.parent == f);
+        dot(normal, turned) > 0.0
+            && altitude(after) >= ALTITUDE_KEPT * high
+            && children.all(|child| altitude(corners_of(child, after)) >= self.least * high)
+    }
 }

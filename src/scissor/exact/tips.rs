@@ -245,9 +245,7 @@ impl<'t> Trial<'t> {
         let least = self.snap * (1.0 - self.snap);
         let is_kept = |child: &ChildFace| {
             let corners = self.corners(child.parent);
-            let place = |source: Mix<HalfEdgeId>| source.map(|h| &corners[h.corner()]);
-            let own = child.sources.map(|source| Point::blend(place(source)));
-            altitude(own) >= least * altitude(corners)
+            altitude(corners_of(child, corners)) >= least * altitude(corners)
         };
         insertion.children.iter().filter(divided).all(is_kept)
     }
@@ -255,6 +253,12 @@ impl<'t> Trial<'t> {
     fn corners(&self, f: FaceId) -> [Point; 3] {
         self.mesh.face_vertices(f).map(|v| self.positions.at(v))
     }
+}
+
+/// The corners of a face that is to be cut from one with these corners.
+pub(super) fn corners_of(child: &ChildFace, parent: [Point; 3]) -> [Point; 3] {
+    let place = |source: Mix<HalfEdgeId>| source.map(|h| &parent[h.corner()]);
+    child.sources.map(|source| Point::blend(place(source)))
 }
 
 /// How often a site is in a sorted list.
