@@ -196,11 +196,15 @@ impl Scissor {
 
     /// Sets whether the method `exact` moves a vertex that replaces a crossing onto the plane,
     /// along the edge of the crossing. The seam is then straight without thin faces, but a curved
-    /// surface changes slightly. The default is false.
+    /// surface changes slightly. A flat sheet keeps its area and its outline. The default is false.
     ///
     /// A vertex stays where it is, and the seam deviates there, if a face would turn over or lose 70 %
     /// of its altitude, or would be cut into a face below the bound of [`Scissor::snap`]. So does a
-    /// vertex that is already torn, or that is on the boundary if the edge is not.
+    /// vertex that is already torn. A vertex on the boundary moves only along a boundary that is
+    /// straight there: both its boundary edges lie on one line, of which the edge of the crossing is a
+    /// part. That is judged by coordinates, and exact but for their rounding: the vertex may be off the
+    /// line between its neighbours by 32 · 2⁻⁵³ of the largest of their coordinates. So corners and
+    /// curved boundaries never move.
     #[must_use]
     pub fn snap_move(mut self, snap_move: bool) -> Scissor {
         self.snap_move = snap_move;

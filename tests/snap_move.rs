@@ -1,17 +1,17 @@
-//! Cuts that slide vertices onto their plane: no face gets thinner than the snap allows, and the vertices end up on
-//! the plane.
+//! Cuts that slide vertices onto their plane: no face gets thinner than the snap allows, a flat sheet keeps its area,
+//! and the vertices end up on the plane.
 
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use tearmesh::{CutMethod, Edit, Mesh, Scissor, VertexId, shapes};
+use tearmesh::{CutMethod, Edit, Mesh, Plane, Point, Scissor, Vector, VertexId, shapes};
 
 use crate::cases::cases;
 use crate::oracle::straight::Surface;
 use crate::random::Random;
 use crate::surfaces::{built, jittered, surface, surfaces};
-use crate::work::{Work, between};
+use crate::work::{Work, area, between};
 
 const SNAPS: [f64; 6] = [0.02, Scissor::SNAP, 0.1, 0.2, 0.3, 0.49];
 
@@ -87,6 +87,7 @@ struct Case {
     /// Two points on the line of the cut, seen from above.
     ends: [[f64; 2]; 2],
     snap: f64,
+    is_flat: bool,
     before: Work,
     after: Work,
     /// The vertices that slid.
@@ -127,6 +128,7 @@ impl Case {
             slid: slid.collect(),
             ends,
             snap,
+            is_flat,
             before,
             after,
         })
@@ -169,6 +171,30 @@ fn no_face_gets_thinner_than_the_snap_allows() {
 }
 
 #[test]
+fn a_flat_sheet_keeps_its_area() {
+    let flat = || slides().iter().filter(|case| case.is_flat);
+    for case in flat() {
+        let [was, is] = [&case.before, &case.after].map(|work| area(&work.mesh, &work.positions));
+        let largest = |p: &Point| p.coords.amax();
+        let points = case.before.positions.as_slice();
+        let largest = points.iter().map(largest).fold(1.0, f64::max);
+        let off = (is - was).abs();
+        assert!(off <= 1e-12 * largest, "{}: {was} became {is}", case.name);
+    }
+    // Along straight boundaries vertices do slide.
+    let is_on_boundary = |work: &Work, v: VertexId| {
+        let mut corners = work.mesh.corners_of(v);
+        corners.any(|h| work.mesh.pair(h).is_none() || work.mesh.pair(h.prev()).is_none())
+    };
+    let of_boundary = |case: &Case| {
+        let slid = case.slid.iter();
+        slid.filter(|&&v| is_on_boundary(&case.before, v)).count()
+    };
+    let count: usize = flat().map(of_boundary).sum();
+    assert!(count as u64 > cases() / 20, "{count}");
+}
+
+#[test]
 fn what_slides_comes_onto_the_plane() {
     for case in slides() {
         let [p, q] = case.ends;
@@ -181,4 +207,20 @@ fn what_slides_comes_onto_the_plane() {
             assert!(far <= bound, "{}: {v} is {far} off", case.name);
         }
     }
+}
+
+/// The line passes near a corner of the sheet, which counts as on the plane.
+#[test]
+fn regression_a_corner_of_a_sheet_stays() {
+    let mut sheet = surface(&shapes::grid(8, 8));
+    sheet.points.iter_mut().flatten().for_each(|x| *x *= 8.0);
+    let mut work = Work::of(&sheet);
+    let plane = Plane::new(
+        Point::new(3.663, 2.558, 0.0),
+        Vector::new(0.589, 0.398, 0.0),
+    );
+    let scissor = Scissor::by_plane(plane.expect("a plane")).snap_move(true);
+    work.cut(CutMethod::Exact, &scissor);
+    let area = area(&work.mesh, &work.positions);
+    assert!((area - 64.0).abs() < 1e-12, "{area}");
 }

@@ -9,7 +9,8 @@ use std::collections::BTreeMap;
 use super::tips::corners_of;
 use super::trace::{Site, Snapped, Trace};
 use crate::edit::{ChildFace, Edits};
-use crate::geometry::{Point, altitude, between, cross, dot};
+use crate::exact::ROUNDING;
+use crate::geometry::{Point, altitude, between, cross, dot, max_abs};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -35,7 +36,7 @@ pub(super) fn onto_plane(
     let is_due = |one: &&Snapped| {
         one.t > 0.0
             && nodes.binary_search(&Site::Vertex(one.vertex)).is_ok()
-            && may_slide(mesh, one.vertex, one.toward)
+            && may_slide(mesh, positions, one.vertex, one.toward)
     };
     let mut due: Vec<&Snapped> = trace.snapped.iter().filter(is_due).collect();
     // The other end of the edge is farther from the plane. So it slides later, and a vertex slides along the
@@ -57,22 +58,37 @@ pub(super) fn onto_plane(
     edits.replay(positions);
 }
 
-/// Whether a vertex is inside the mesh and untorn, or slides along its boundary.
-fn may_slide(mesh: &Mesh, vertex: VertexId, toward: VertexId) -> bool {
-    let is_edge = |h: HalfEdgeId| mesh.origin(h) == toward || mesh.target(h) == toward;
-    let sides = |h: HalfEdgeId| [h, h.prev()];
-    let mut on_boundary = false;
-    let mut along_boundary = false;
-    for h in mesh.corners_of(vertex).flat_map(sides) {
+/// Whether a vertex is inside the mesh and untorn, or slides along a boundary that is straight there.
+fn may_slide(mesh: &Mesh, positions: &Positions, vertex: VertexId, toward: VertexId) -> bool {
+    let edges = |h: HalfEdgeId| [(h, mesh.target(h)), (h.prev(), mesh.origin(h.prev()))];
+    let mut on_boundary = Vec::new();
+    for (h, end) in mesh.corners_of(vertex).flat_map(edges) {
         if mesh.ghost_pair(h).is_some() {
             return false;
         }
-        if mesh.pair_or_ghost(h).is_none() {
-            on_boundary = true;
-            along_boundary |= is_edge(h);
+        if mesh.pair(h).is_none() {
+            on_boundary.push(end);
         }
     }
-    !on_boundary || along_boundary
+    match on_boundary[..] {
+        [] => true,
+        [one, other] => {
+            let ends = [one, other].map(|v| positions.at(v));
+            (one == toward || other == toward) && is_between(positions.at(vertex), ends)
+        }
+        _ => false,
+    }
+}
+
+/// Whether a point lies on the line from one point to another and between them, as far as the rounding of
+/// coordinates can tell: it may be off the line by 32 · 2^-53 of the largest coordinate.
+fn is_between(p: Point, [a, b]: [Point; 2]) -> bool {
+    let [to_a, to_b] = [a - p, b - p];
+    let largest = [p, a, b].map(|p| max_abs(p.coords));
+    let largest = largest.into_iter().fold(0.0, f64::max);
+    // Without squares, which could be too small for an `f64`.
+    let off = max_abs(cross(to_a, to_b));
+    dot(to_a, to_b) < 0.0 && off <= ROUNDING * largest * max_abs(b - a)
 }
 
 /// Slides vertices on trial.

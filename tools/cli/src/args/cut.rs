@@ -105,7 +105,8 @@ pub(crate) struct CutArgs {
 
     /// Move a vertex that a crossing snapped to onto the plane, along its edge.
     ///
-    /// `tearmesh mend --simplify` moves it back.
+    /// A vertex stays if a face would get thinner than --snap allows, at a corner of the boundary or on
+    /// a curved one, and where the mesh is torn. `tearmesh mend --simplify` moves vertices back.
     #[arg(long)]
     pub(crate) snap_move: bool,
 
