@@ -18,7 +18,7 @@ use crate::harness::{Folder, files_in, root};
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
     ("README.md", 0x8708_94c6_1bd7_f1dc),
-    ("tear.txt", 0x5ee6_fc2a_a4f9_8252),
+    ("tear.txt", 0xdcbb_20b0_cec3_a9de),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A

@@ -25,7 +25,7 @@ use crate::args::{CutArgs, Gap, Mass};
 use crate::choice::Choice as _;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
-use crate::measure::{Bounds, Edges};
+use crate::measure::{Bounds, Edges, written_area};
 use crate::picture::Texture;
 use crate::rays;
 use crate::say::{Fault, short};
@@ -79,6 +79,7 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let mut closed = seams.close(&mut mesh);
     let mut edits = Edits::new();
     let (mut torn, mut texture) = (TornDocument::new(&document), Texture::of(&document));
+    let area_before = written_area(&torn, &mesh, &positions);
     let gap = args.gap.map(|gap| match gap {
         Gap::Length(length) => length,
         Gap::Edges(part) => part * Edges::of(&mesh, &positions).mean,
@@ -168,6 +169,10 @@ fn work(args: &CutArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         session.words.push(pieces::words(&written));
         session.report.pieces = Some(written);
     }
+    session.report.area = Some(report::Area {
+        before: area_before,
+        after: written_area(&torn, &mesh, &positions),
+    });
     session.end(vertices_before, &mesh, mass);
     Ok(())
 }

@@ -1,7 +1,9 @@
 //! The size of a mesh, and its pieces.
 
 use serde::Serialize;
+use tearmesh::geometry::{cross, length};
 use tearmesh::{Mesh, Place, Point, Positions};
+use tearmesh_obj::TornDocument;
 
 /// The box that holds all faces.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -77,5 +79,13 @@ impl Piece {
 
 /// The area of a triangle.
 pub(crate) fn area([a, b, c]: [Point; 3]) -> f64 {
-    (b - a).cross(&(c - a)).norm() / 2.0
+    length(cross(b - a, c - a)) / 2.0
+}
+
+/// The area of a mesh as its file has it, with the gaps that it is written with: summed face by face.
+pub(crate) fn written_area(torn: &TornDocument<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
+    let points = torn.written_points(positions);
+    let faces = mesh.faces().map(|f| mesh.face_vertices(f));
+    let areas = faces.map(|corners| area(corners.map(|v| points[v.index()])));
+    areas.sum()
 }

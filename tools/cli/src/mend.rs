@@ -12,7 +12,7 @@ use tearmesh_obj::{Document, Simplified, TornDocument};
 use crate::args::MendArgs;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
-use crate::measure::Edges;
+use crate::measure::{Edges, written_area};
 use crate::picture::Texture;
 use crate::report;
 use crate::say::{Fault, count, short};
@@ -38,6 +38,7 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let masses = Masses::area(&mesh, &positions, 1.0);
     let mut masses = masses.map_err(Fault::from)?;
     let mut torn = TornDocument::new(&document);
+    let area_before = written_area(&torn, &mesh, &positions);
 
     let start = Instant::now();
     let stitches = stitches(args, &mesh, &positions, &torn);
@@ -56,10 +57,10 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     close_gaps(&mut torn, &mesh, &edits, vertices_before);
     session.timing.cut = milliseconds(start);
 
-    let mut ledger = masses.ledger();
+    let ledger = masses.ledger();
     let moved = || session::moved(&document, &mesh, &positions);
     let broken = (!moves).then(moved).flatten();
-    let mut mass = session.verify(&mesh, &ledger, report::AREA, broken)?;
+    let mass = session.verify(&mesh, &ledger, report::AREA, broken)?;
 
     let simplified = match args.simplify {
         true => torn.simplified(&mesh, &positions),
@@ -94,10 +95,8 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         positions = Positions::new(points).expect("they were usable");
     }
     if moves || simplified.slid_back > 0 {
-        // What was moved spans another area: the mass is that of what is written.
-        let masses = Masses::area(&mesh, &positions, 1.0).map_err(Fault::from)?;
-        ledger.after = masses.ledger().after;
-        mass = session.note_mass(&ledger, report::AREA);
+        // No verb would read a mesh that has no area where its vertices moved.
+        Masses::area(&mesh, &positions, 1.0).map_err(Fault::from)?;
     }
     let mut texture = Texture::of(simplified.document.as_ref().unwrap_or(&document));
     if simplified.document.is_none() {
@@ -122,6 +121,10 @@ fn work(args: &MendArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     };
     session.words.push(summary(&mended));
     session.report.mend = Some(mended);
+    session.report.area = Some(report::Area {
+        before: area_before,
+        after: written_area(torn, &mesh, &positions),
+    });
     session.end(vertices_before, &mesh, mass);
     Ok(())
 }

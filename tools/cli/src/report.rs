@@ -34,6 +34,8 @@ pub(crate) struct Report {
     pub(crate) tear: Option<Tear>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) mass: Option<Mass>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) area: Option<Area>,
     pub(crate) invariants: Invariants,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) timing_ms: Option<Timing>,
@@ -322,8 +324,16 @@ pub(crate) struct Mass {
     pub(crate) unit: &'static str,
 }
 
-/// The unit where no density was given: the mass is the area of the faces, in squares of the file's unit of
-/// length.
+/// The sum of the areas of all triangles, with every vertex where the `v` of the file puts it: of the file that
+/// was read, and of the one that was written.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Area {
+    pub(crate) before: f64,
+    pub(crate) after: f64,
+}
+
+/// The unit where no density was given: a vertex weighs what the faces of the input have of area there, in
+/// squares of the file's unit of length.
 pub(crate) const AREA: &str = "area";
 pub(crate) const KILOGRAM: &str = "kg";
 

@@ -125,7 +125,11 @@ impl<'a, 's> Session<'a, 's> {
         broken: Option<String>,
     ) -> Result<report::Mass, Stop> {
         let start = Instant::now();
-        let mass = self.note_mass(ledger, unit);
+        let mass = *self.report.mass.insert(report::Mass {
+            before: ledger.before.to_f64(),
+            after: ledger.after.to_f64(),
+            unit,
+        });
         self.report.invariants.checked = true;
         let violations = &mut self.report.invariants.violations;
         violations.extend(mesh.check().iter().map(ToString::to_string));
@@ -141,15 +145,6 @@ impl<'a, 's> Session<'a, 's> {
         Ok(mass)
     }
 
-    /// Notes the mass before and after for the report, and gives both.
-    pub(crate) fn note_mass(&mut self, ledger: &MassLedger, unit: &'static str) -> report::Mass {
-        *self.report.mass.insert(report::Mass {
-            before: ledger.before.to_f64(),
-            after: ledger.after.to_f64(),
-            unit,
-        })
-    }
-
     /// The name of the file that the mesh goes to, if it goes anywhere.
     fn name(&self) -> Option<String> {
         Some(self.destination.as_ref().ok()?.display().to_string())
@@ -163,11 +158,13 @@ impl<'a, 's> Session<'a, 's> {
 
     /// Ends the summary of a mesh that had so many vertices before.
     pub(crate) fn end(&mut self, vertices_before: usize, mesh: &Mesh, mass: report::Mass) {
-        let [before, after] = [mass.before, mass.after].map(short);
-        let summed = match mass.unit {
-            report::AREA => format!("area {before} -> {after}"),
-            unit => format!("mass {before} -> {after} {unit}"),
-        };
+        let mut sums = change("mass", [mass.before, mass.after]);
+        if mass.unit != report::AREA {
+            sums += &format!(" {}", mass.unit);
+        }
+        if let Some(report::Area { before, after }) = self.report.area {
+            sums += &format!(" · {}", change("area", [before, after]));
+        }
         let (vertices, faces) = (mesh.vertex_count(), mesh.face_count());
         let ending = match (&self.destination, self.file()) {
             (Err(why), _) => (*why).to_owned(),
@@ -175,7 +172,7 @@ impl<'a, 's> Session<'a, 's> {
             (_, Some(path)) => format!("wrote {}", shown(path)),
         };
         self.words.push(format!(
-            "{summed} · vertices {vertices_before} -> {vertices} · faces {faces} · invariants hold · {ending}"
+            "{sums} · vertices {vertices_before} -> {vertices} · faces {faces} · invariants hold · {ending}"
         ));
     }
 
@@ -357,6 +354,12 @@ impl<'a, 's> Session<'a, 's> {
         }
         output::print_text(self.streams.output, &words)
     }
+}
+
+/// A quantity before and after, for the summary.
+fn change(of: &str, numbers: [f64; 2]) -> String {
+    let [before, after] = numbers.map(short);
+    format!("{of} {before} -> {after}")
 }
 
 /// Finds a mesh to look at, and opens it.

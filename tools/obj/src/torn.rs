@@ -271,6 +271,18 @@ impl<'d> TornDocument<'d> {
         }
     }
 
+    /// Returns the points at which [`TornDocument::write`] writes the vertices, by vertex index. They
+    /// are the positions, except where the two sides of a cut are written apart: see
+    /// [`TornDocument::set_apart`].
+    #[must_use]
+    pub fn written_points<'p>(&self, positions: &'p Positions) -> Cow<'p, [Point]> {
+        let mut points = Cow::Borrowed(positions.as_slice());
+        for apart in self.apart(positions) {
+            points.to_mut()[apart.vertex as usize] = apart.shown;
+        }
+        points
+    }
+
     /// The vertices that are written apart, ascending: none if anything but the log moved a vertex.
     pub(crate) fn apart(&self, positions: &Positions) -> Vec<Apart> {
         let Some(shown) = &self.shown else {
