@@ -188,13 +188,13 @@ impl UnsewnSeams {
     /// If the mesh was edited since the seams were found.
     #[must_use = "the seams have to be reopened"]
     pub fn close(&self, mesh: &mut Mesh) -> ClosedSeams {
-        let mut classes: Vec<u32> = (0..mesh.vertex_count() as u32).collect();
-        if mesh.half_edges().any(|h| mesh.ghost_pair(h).is_some()) {
-            classes = mesh.roots();
-        }
+        let classes = match self.is_empty() {
+            true => Vec::new(),
+            false => mesh.roots(),
+        };
         mesh.close_seams(&self.edges);
         ClosedSeams {
-            next: classes.len() as u32,
+            next: mesh.vertex_count() as u32,
             classes,
             seen: Cursor::START,
         }
@@ -500,7 +500,8 @@ impl Classes {
 /// It follows the log of the mesh. Replay every edit on it before the seams are reopened.
 #[derive(Clone, Debug)]
 pub struct ClosedSeams {
-    /// By vertex: vertices that are one but for tears have the same. Seams do not matter.
+    /// By vertex: vertices that are one but for tears have the same. Seams do not matter. Empty if there
+    /// are none.
     classes: Vec<u32>,
     next: u32,
     seen: Cursor,
@@ -520,6 +521,9 @@ impl ClosedSeams {
     ///
     /// If this has not followed all edits of the mesh.
     pub fn reopen(self, mesh: &mut Mesh) {
+        if self.classes.is_empty() {
+            return;
+        }
         let count = mesh.vertex_count();
         assert_eq!(
             self.classes.len(),
@@ -555,6 +559,9 @@ impl Follower for ClosedSeams {
     }
 
     fn follow(&mut self, edit: &Edit<'_>) {
+        if self.classes.is_empty() {
+            return;
+        }
         match edit {
             Edit::Split(split) => self.classes.push(self.classes[split.old.index()]),
             Edit::Insert(insert) => {

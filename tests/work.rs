@@ -3,8 +3,8 @@
 //! The fuzz target `cut_mend` uses this too.
 
 use tearmesh::{
-    Cut, CutError, CutMethod, CutReport, Edit, Edits, Masses, Mesh, PerCorner, Point, Positions, Ray,
-    Scissor, Vector, VertexId, mend,
+    Cut, CutError, CutMethod, CutReport, Edit, Edits, Masses, Mesh, PerCorner, Point, Positions,
+    Ray, Scissor, Vector, VertexId, mend,
 };
 
 /// Two rays: an origin and a direction each.

@@ -39,9 +39,9 @@ fn exit_and_peak(args: &[&str]) -> (String, usize) {
     (words[at - 1].to_owned(), peak)
 }
 
-/// The size of such a file. Twelve times it is just more than 64 MiB, so that what is taken besides counts
-/// most.
-const MIB: usize = 6;
+/// The size of such a file. Twelve times it is a little more than 64 MiB, so that what is taken besides
+/// counts. (At six, the code of these tests, which is counted too, is a tenth.)
+const MIB: usize = 7;
 
 /// Files that have the same faces again and again: the first of them by the first verb, and in CI both by both.
 #[test]

@@ -41,11 +41,11 @@ pub(crate) struct PlayArgs {
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, value_parser = super::read::up_axis)]
     pub(crate) up: Option<Axis>,
 
-    /// Sew seams that coincide before the simulation: edges of the boundary that lie on each other.
+    /// First, sew boundary edges that lie on each other.
     ///
-    /// Programs that write a vertex for each texture coordinate or normal leave such seams: to the
-    /// simulation or the cut, the parts are loose. With --weld=D, sides that are up to D apart are sewn too,
-    /// in their middle. Edges at which more than two sides meet stay apart. The output has the seams sewn.
+    /// Programs that write a vertex for each texture coordinate or normal leave such seams, and the parts
+    /// are loose. With --weld=D, sides that are up to D apart are sewn in their middle. Edges at which
+    /// more than two sides meet stay apart. The output has the seams sewn.
     #[arg(long, value_name = "D", num_args = 0..=1, require_equals = true, default_missing_value = "0",
         value_parser = super::read::distance)]
     pub(crate) weld: Option<f64>,
