@@ -92,9 +92,9 @@ impl<V: Followers> Sheet<V> {
     /// let (v, face) = (mesh.vertex(4), mesh.face(0));
     /// let mut sheet = Sheet::new(mesh, positions);
     /// sheet.split(v, &[face])?;
-    /// let ids = PerVertex::new((0..sheet.mesh().vertex_count()).collect());
+    /// let heat = PerVertex::new(vec![0.5; sheet.mesh().vertex_count()]);
     /// let now = sheet.edits().cursor();
-    /// let sheet = sheet.with(ids.starting_at(now));
+    /// let sheet = sheet.with(heat.starting_at(now));
     /// assert_eq!(sheet.values().as_slice().len(), 10);
     /// # Ok::<(), tearmesh::SplitRefusal>(())
     /// ```

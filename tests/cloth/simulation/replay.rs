@@ -372,6 +372,11 @@ fn perform(sim: &mut Simulation, made: &mut Made, verb: &Verb) {
     for &hand in hands.iter() {
         let vertices = sim.in_hand(hand).expect("a hand");
         assert!(!vertices.is_empty());
+        // Copies of one vertex, which no edge joins: nothing is inserted between them.
+        let mesh = sim.mesh();
+        let is_in = |v| vertices.contains(&v);
+        let joins = |h| is_in(mesh.origin(h)) && is_in(mesh.target(h));
+        assert!(!mesh.half_edges().any(joins));
         for &v in vertices {
             assert_eq!(at(sim, v), at(sim, vertices[0]));
             assert!(sim.cloth().system().is_held(v.index()) && taken.insert(v));
