@@ -27,13 +27,15 @@
 
 mod spots;
 
+use std::fmt;
+
 use crate::attribute::Blend as _;
 use crate::edit::{Cursor, Edit, Follower, InsertedPoint, Mix};
 use crate::geometry::{Point, max_abs};
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mend::Stitch;
-use crate::mesh::Mesh;
-use crate::place::{Place, Positions};
+use crate::mesh::{BuildError, Mesh};
+use crate::place::{Place, PositionError, Positions};
 use crate::sets::DisjointSets;
 use spots::Spots;
 
@@ -581,6 +583,95 @@ impl Follower for ClosedSeams {
             }
             Edit::Merge(merge) => _ = self.classes.swap_remove(merge.gone.index()),
             Edit::Slide(_) => {}
+        }
+    }
+}
+
+/// Builds a mesh from an engine's vertex and index buffers, in which vertices are repeated along texture
+/// seams and hard edges.
+///
+/// Faces and corners keep their order, so values that differ along a seam belong to corners, and
+/// [`DrawBuffers`](crate::engine::DrawBuffers) turns them back into a vertex buffer. Vertices are one where
+/// their faces share an edge by place; vertices that no triangle uses are left out. Edges at which more
+/// than two triangles meet stay apart.
+///
+/// ```
+/// use tearmesh::{engine::DrawBuffers, unsewn};
+///
+/// // A square of two triangles, with a texture seam along the diagonal.
+/// let places = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+/// let uv = [[0.0_f32, 0.0], [0.5, 0.0], [0.5, 1.0], [0.5, 0.0], [1.0, 1.0], [0.5, 1.0]];
+/// let triangles = [[0, 1, 2], [3, 4, 5]];
+///
+/// let (mesh, _positions) = unsewn::weld(&places, &triangles)?;
+/// assert_eq!(mesh.vertex_count(), 4);
+/// let uv = triangles.as_flattened().iter().map(|&i| uv[i as usize]);
+/// let buffers = DrawBuffers::new(&mesh, uv.collect());
+/// assert_eq!(buffers.len(), 6);
+/// # Ok::<(), tearmesh::unsewn::WeldError>(())
+/// ```
+///
+/// # Errors
+///
+/// [`WeldError`] if a triangle names a vertex that does not exist, or one whose place is not usable.
+pub fn weld(places: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<(Mesh, Positions), WeldError> {
+    let known = places.len();
+    let indices = triangles.as_flattened();
+    if let Some(&index) = indices.iter().find(|&&index| index as usize >= known) {
+        return Err(WeldError::Index { index, known });
+    }
+    let point = |place: [f32; 3]| place.map(f64::from);
+    // The error names the vertices of the buffer.
+    Positions::new(places.iter().copied().map(point)).map_err(WeldError::Place)?;
+    // Each triangle has vertices of its own, so that nothing but edges joins them.
+    let corners = indices.iter().map(|&index| point(places[index as usize]));
+    let positions = Positions::new(corners).map_err(WeldError::Place)?;
+    let faces: Vec<[u32; 3]> = (0..triangles.len() as u32)
+        .map(|f| [3 * f, 3 * f + 1, 3 * f + 2])
+        .collect();
+    let mesh = Mesh::build(positions.len(), faces).map_err(WeldError::Build)?;
+    let welded = UnsewnSeams::find(&mesh, &positions).welded(&mesh, &positions);
+    Ok((welded.mesh, welded.positions))
+}
+
+/// The reason why buffers were refused.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum WeldError {
+    /// A triangle refers to a vertex that the buffer does not have.
+    Index {
+        /// The vertex index in the triangle.
+        index: u32,
+        /// The number of vertices in the buffer.
+        known: usize,
+    },
+    /// Some vertices of the buffer have coordinates that are not finite. The error lists them.
+    Place(PositionError),
+    /// There are more triangles than a mesh can have.
+    Build(BuildError),
+}
+
+impl fmt::Display for WeldError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            WeldError::Index { index, known } => {
+                write!(
+                    f,
+                    "a triangle names vertex {index}, but there are {known} vertices"
+                )
+            }
+            WeldError::Place(error) => error.fmt(f),
+            WeldError::Build(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for WeldError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            WeldError::Index { .. } => None,
+            WeldError::Place(error) => Some(error),
+            WeldError::Build(error) => Some(error),
         }
     }
 }

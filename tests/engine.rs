@@ -3,9 +3,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tearmesh::engine::weld::{self, WeldError};
 use tearmesh::engine::{DrawBuffers, DrawChanges, Normals};
 use tearmesh::script::{Step, World};
+use tearmesh::unsewn::{self, WeldError};
 use tearmesh::{
     CutMethod, HalfEdgeId, Mesh, PerCorner, Plane, Point, Positions, Scissor, Vector, VertexId,
     shapes,
@@ -212,26 +212,18 @@ fn a_mesh_that_was_taken_apart_at_its_seams_is_welded() {
         for _ in 0..20 {
             let (places, faces) = engine_buffers(&work, &mut random);
             assert!(places.len() > work.mesh.vertex_count());
-            let welded = weld::by_place(&places, &faces).expect("a manifold");
-            let own = &welded.mesh;
+            let (own, positions) = unsewn::weld(&places, &faces).expect("usable buffers");
             assert_eq!(own.check(), []);
             assert_eq!(own.vertex_count(), work.mesh.vertex_count());
-            assert_eq!(welded.vertices.len(), places.len());
-            // The same faces, by a map of vertices that is one to one.
+            // The same faces, by a map of vertices that is one to one, at the places of the buffer.
             let mut to: BTreeMap<u32, u32> = BTreeMap::new();
             let slots = faces.as_flattened();
             for ((&v, &own), &slot) in work.mesh.indices().iter().zip(own.indices()).zip(slots) {
                 assert_eq!(*to.entry(v).or_insert(own), own, "{v}");
-                assert_eq!(u32::from(welded.vertices[slot as usize]), own, "the map");
+                let at: [f64; 3] = positions.as_slice()[own as usize].into();
+                assert_eq!(at.map(|x| x as f32), places[slot as usize]);
             }
             assert_eq!(to.values().collect::<BTreeSet<_>>().len(), to.len());
-            let mut next = 0;
-            for (v, place) in welded.vertices.iter().zip(&places) {
-                let welded: [f64; 3] = welded.positions.at(*v).coords.into();
-                assert_eq!(welded.map(|x| x as f32), *place);
-                assert!(v.index() <= next, "in order");
-                next = next.max(v.index() + 1);
-            }
         }
     }
 }
@@ -239,7 +231,7 @@ fn a_mesh_that_was_taken_apart_at_its_seams_is_welded() {
 #[test]
 fn buffers_that_make_no_mesh_are_refused() {
     let places = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, 0.0, 0.0]];
-    let refused = |places: &[[f32; 3]], face| weld::by_place(places, &[face]).expect_err("no mesh");
+    let refused = |places: &[[f32; 3]], face| unsewn::weld(places, &[face]).expect_err("no mesh");
     let error = refused(&places, [0, 1, 4]);
     assert_eq!(error, WeldError::Index { index: 4, known: 4 });
     let told = "a triangle names vertex 4, but there are 4 vertices";
@@ -250,9 +242,6 @@ fn buffers_that_make_no_mesh_are_refused() {
         panic!("no place")
     };
     assert_eq!(error.unusable()[0].0.index(), 3, "a vertex of the buffer");
-    // 0 and 3 are at one place.
-    let error = refused(&places, [0, 1, 3]);
-    assert!(matches!(error, WeldError::Build(_)), "{error}");
 }
 
 /// The t-shirt of the corpus, if there is one: on a GPU it has a vertex for each place and texture
@@ -276,8 +265,8 @@ fn a_garment_is_welded_and_its_buffers_follow_a_cut() {
         let on_gpu: Vec<[f32; 3]> = on_gpu.collect();
         let faces = corners.iter().map(|face| face.map(|pair| number[&pair]));
         let faces: Vec<[u32; 3]> = faces.collect();
-        let welded = weld::by_place(&on_gpu, &faces).expect("a manifold");
-        let mut work = Work::new((welded.mesh, welded.positions));
+        let welded = unsewn::weld(&on_gpu, &faces).expect("usable buffers");
+        let mut work = Work::new(welded);
         let value = |&[_, vt]: &[usize; 2]| [0, 1].map(|i| file.texture[vt][i]);
         let values = corners.as_flattened().iter().map(value);
         let mut values = PerCorner::new(values.collect::<Vec<Value>>());

@@ -13,6 +13,7 @@ mod torn;
 
 use pyo3::prelude::*;
 use tearmesh_core::gap::gapped;
+use tearmesh_core::unsewn::UnsewnSeams;
 use tearmesh_core::{Cursor, Cut, CutError, CutMethod, Edits, Mesh, Scissor, mend as sewing};
 
 use arguments::{Triple, mesh_of, parts_of, scissor_of};
@@ -79,11 +80,15 @@ mod tearmesh {
     /// gap: how far to move the two sides apart, in the unit of the points: for good, so use it on the last cut.
     /// snap: how near the end of an edge a crossing is moved to that end, as a fraction of the edge: 0 to 0.49.
     /// roots: (n,) integers, if the mesh is torn already.
+    /// weld: a distance. Seams whose sides are at most that far apart are sewn first: boundary edges that lie on each
+    /// other, such as those of a mesh with a vertex for each texture coordinate. To keep the texture coordinates of
+    /// both sides, give uv per corner. Without weld, the cut crosses such seams, and they stay as they are.
     ///
     /// Raises ValueError if the faces form no oriented manifold, a coordinate is not finite or exceeds 1.8e75, the
-    /// plane has no normal, or both rays lie on one line. A cut that misses the mesh changes nothing.
+    /// plane has no normal, both rays lie on one line, or they cross within the mesh. A cut that misses the mesh
+    /// changes nothing.
     #[pyfunction]
-    #[pyo3(signature = (points, faces, plane=None, rays=None, *, uv=None, layers="all", gap=0.0, snap=Scissor::SNAP, roots=None))]
+    #[pyo3(signature = (points, faces, plane=None, rays=None, *, uv=None, layers="all", gap=0.0, snap=Scissor::SNAP, roots=None, weld=None))]
     #[expect(clippy::too_many_arguments, reason = "in Python they have names")]
     fn cut<'py>(
         py: Python<'py>,
@@ -96,7 +101,12 @@ mod tearmesh {
         gap: f64,
         snap: f64,
         roots: Option<&Array<'py>>,
+        weld: Option<f64>,
     ) -> PyResult<TornMesh> {
+        if let Some(distance) = weld.filter(|distance| !(0.0..f64::INFINITY).contains(distance)) {
+            let why = format!("weld must be a distance of 0 or more, not {distance}");
+            return Err(value_error(why));
+        }
         if !(gap >= 0.0 && gap.is_finite()) {
             let why = format!("gap must be a length of 0 or more, not {gap}");
             return Err(value_error(why));
@@ -105,7 +115,18 @@ mod tearmesh {
         let (mut mesh, mut positions) = parts_of(points, faces, roots)?;
         let (log, mut edits) = (Log::new(&mesh, Cursor::START), Edits::new());
         let made = py.detach(|| {
+            let seams = UnsewnSeams::within(&mesh, &positions, weld.unwrap_or(0.0));
+            let mut closed = seams.close(&mut mesh);
+            if weld.is_some() {
+                let stitches = seams.stitches(&mesh);
+                let far = f64::INFINITY;
+                let sewn = sewing::sew(&mut mesh, &positions, &stitches, |_| 1.0, far, &mut edits);
+                sewn.expect("the sides of a seam have one root");
+                edits.replay(&mut positions);
+            }
             let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)?;
+            edits.replay(&mut closed);
+            closed.reopen(&mut mesh);
             let points = match gap > 0.0 {
                 true => gapped(&mesh, &positions, gap).1,
                 false => positions.as_slice().to_vec(),

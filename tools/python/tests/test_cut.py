@@ -180,3 +180,34 @@ def test_pyvista_takes_a_cut(sheet):
     cut = tearmesh.cut(*sheet, plane=PLANE)
     mesh = pyvista.PolyData.from_regular_faces(cut.points, cut.faces)
     assert mesh.connectivity()["RegionId"].max() == 1
+
+
+def soup(columns):
+    """A strip of squares, each triangle with vertices of its own."""
+    places = []
+    for x in range(columns):
+        a, b, c, d = [(x + i, j, 0.0) for j in (0, 1) for i in (0, 1)]
+        places += [a, b, d, a, d, c]
+    points = np.array(places, float)
+    return points, np.arange(len(points)).reshape(-1, 3)
+
+
+def test_seams_that_coincide_stay_closed_in_a_cut_and_are_welded_on_request():
+    points, faces = soup(4)
+    plane = ((0.0, 0.04, 0.0), (0.0, 1.0, 0.0))
+    torn = tearmesh.cut(points, faces, plane=plane, snap=0.2)
+    assert len(torn.points) > len(points)
+    edges = {}
+    for face in torn.faces:
+        for a, b in zip(face, np.roll(face, -1)):
+            ends = tuple(torn.points[a]), tuple(torn.points[b])
+            edges[ends] = edges.get(ends, 0) + 1
+    open_edges = [ends for ends in edges if ends[::-1] not in edges]
+    assert all(abs(p[1] - q[1]) < 1e-12 and p[1] in (0, 1) or p[0] == q[0] and p[0] in (0, 4) for p, q in open_edges)
+
+    welded = tearmesh.cut(points, faces, plane=((2.5, 0, 0), (1, 0, 0)), weld=0.0)
+    assert len(set(welded.pieces)) == 2
+    loose = tearmesh.cut(points, faces, plane=((2.5, 0, 0), (1, 0, 0)))
+    assert len(set(loose.pieces)) > 8
+    with pytest.raises(ValueError, match="weld must be a distance of 0 or more, not -1"):
+        tearmesh.cut(points, faces, plane=plane, weld=-1.0)
