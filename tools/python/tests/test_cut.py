@@ -194,7 +194,7 @@ def soup(columns):
 
 def test_seams_that_coincide_stay_closed_in_a_cut_and_are_welded_on_request():
     points, faces = soup(4)
-    plane = ((0.0, 0.04, 0.0), (0.0, 1.0, 0.0))
+    plane = ((0.0, 0.1, 0.0), (-0.2, 1.0, 0.0))
     torn = tearmesh.cut(points, faces, plane=plane, snap=0.2)
     assert len(torn.points) > len(points)
     edges = {}
