@@ -135,8 +135,10 @@ impl UnsewnSeams {
             boundary,
         );
         seams.edges = sides.edges;
-        seams.leave_apart(mesh);
-        seams.add_enclosed(mesh);
+        if let Some(classes) = seams.leave_apart(mesh) {
+            let left = [&sides.crowded, &sides.same_direction, &sides.alone];
+            seams.add_enclosed(mesh, classes, left.into_iter().flatten());
+        }
         let mut sewn = seams.edges.as_flattened().to_vec();
         sewn.sort_unstable();
         let left = |half_edges: &[HalfEdgeId]| {
@@ -192,7 +194,8 @@ impl UnsewnSeams {
     pub fn close(&self, mesh: &mut Mesh) -> ClosedSeams {
         let classes = match self.is_empty() {
             true => Vec::new(),
-            false => mesh.roots(),
+            false if is_torn(mesh) => mesh.roots(),
+            false => (0..mesh.vertex_count() as u32).collect(),
         };
         mesh.close_seams(&self.edges);
         ClosedSeams {
@@ -275,26 +278,21 @@ impl UnsewnSeams {
 
     /// Adds the edges that the seams leave with two sides between the same vertices: more than two sides meet
     /// at that place, but now it is clear which two belong together.
-    fn add_enclosed(&mut self, mesh: &Mesh) {
-        let mut classes = Classes::of(mesh, &self.edges);
+    fn add_enclosed<'h>(
+        &mut self,
+        mesh: &Mesh,
+        mut classes: Classes,
+        left: impl Iterator<Item = &'h HalfEdgeId>,
+    ) {
         let roots = classes.of.leaders();
         let root = |v: VertexId| roots[v.index()];
-        let mut sewn = self.edges.as_flattened().to_vec();
-        sewn.sort_unstable();
-        let is_enclosed = |&h: &HalfEdgeId| {
-            let ends = [mesh.origin(h), mesh.target(h)];
-            mesh.pair_or_ghost(h).is_none()
-                && ends.iter().any(|&v| classes.is_joined[root(v) as usize])
-                && sewn.binary_search(&h).is_err()
-        };
-        let mut enclosed: Vec<([u32; 2], HalfEdgeId)> = mesh
-            .half_edges()
-            .filter(is_enclosed)
-            .map(|h| {
-                let [a, b] = [mesh.origin(h), mesh.target(h)].map(root);
-                ([a.min(b), a.max(b)], h)
-            })
-            .collect();
+        let mut enclosed: Vec<([u32; 2], HalfEdgeId)> = Vec::new();
+        for &h in left {
+            let [a, b] = [mesh.origin(h), mesh.target(h)].map(root);
+            if [a, b].iter().any(|&root| classes.is_joined[root as usize]) {
+                enclosed.push(([a.min(b), a.max(b)], h));
+            }
+        }
         enclosed.sort_unstable();
         for group in enclosed.chunk_by(|a, b| a.0 == b.0) {
             if let &[(_, h), (_, g)] = group {
@@ -304,13 +302,14 @@ impl UnsewnSeams {
         self.edges.sort_unstable();
     }
 
-    /// Leaves connected seams apart that would not be manifold.
-    fn leave_apart(&mut self, mesh: &Mesh) {
+    /// Leaves connected seams apart that would not be manifold. Returns the classes of vertices that the
+    /// others make, if there are any.
+    fn leave_apart(&mut self, mesh: &Mesh) -> Option<Classes> {
         while !self.edges.is_empty() {
             let mut classes = Classes::of(mesh, &self.edges);
             let bad = classes.defects(mesh);
             if bad.is_empty() {
-                return;
+                return Some(classes);
             }
             let mut is_bad = vec![false; mesh.vertex_count()];
             for class in bad {
@@ -325,6 +324,7 @@ impl UnsewnSeams {
             assert!(apart > 0, "I11: a defect is at a seam");
             self.left.not_manifold += 2 * apart;
         }
+        None
     }
 }
 
@@ -342,25 +342,25 @@ impl Sides {
     fn of<P: Place + ?Sized>(
         mesh: &Mesh,
         spots: &Spots<'_, P>,
-        half_edges: Vec<HalfEdgeId>,
+        mut half_edges: Vec<HalfEdgeId>,
     ) -> Sides {
         let mut sides = Sides::default();
-        let key = |h: HalfEdgeId| {
-            let [from, to] = [mesh.origin(h), mesh.target(h)].map(|v| spots.of_vertex(v));
-            ([from.min(to), from.max(to)], from < to, h)
+        let ends = |h: HalfEdgeId| [mesh.origin(h), mesh.target(h)].map(|v| spots.of_vertex(v));
+        let lies_at = |h: HalfEdgeId| {
+            let [from, to] = ends(h);
+            [from.min(to), from.max(to)]
         };
-        let mut keyed: Vec<_> = half_edges.into_iter().map(key).collect();
-        keyed.sort_unstable();
-        for group in keyed.chunk_by(|a, b| a.0 == b.0) {
-            let [from, to] = group[0].0;
-            let at_one_place: Vec<HalfEdgeId> = group.iter().map(|&(.., h)| h).collect();
-            if from == to || group.len() == 1 {
+        let is_ahead = |h: HalfEdgeId| ends(h)[0] < ends(h)[1];
+        half_edges.sort_unstable_by_key(|&h| (lies_at(h), is_ahead(h), h));
+        for at_one_place in half_edges.chunk_by(|&a, &b| lies_at(a) == lies_at(b)) {
+            let [from, to] = ends(at_one_place[0]);
+            if from == to || at_one_place.len() == 1 {
                 sides.alone.extend(at_one_place);
-            } else if group.len() > CROWD {
+            } else if at_one_place.len() > CROWD {
                 sides.crowded.extend(at_one_place);
             } else {
-                let ahead = group.partition_point(|&(_, is_ahead, _)| !is_ahead);
-                let (back, ahead) = at_one_place.split_at(ahead);
+                let back = at_one_place.partition_point(|&h| !is_ahead(h));
+                let (back, ahead) = at_one_place.split_at(back);
                 sides.compare(mesh, spots, back, ahead);
                 sides.compare(mesh, spots, ahead, back);
             }
@@ -417,6 +417,11 @@ fn size(mesh: &Mesh, place: &(impl Place + ?Sized), half_edges: &[HalfEdgeId]) -
     max_abs(high - low)
 }
 
+/// Whether any edge is torn.
+fn is_torn(mesh: &Mesh) -> bool {
+    mesh.half_edges().any(|h| mesh.ghost_pair(h).is_some())
+}
+
 /// The vertices that a seam edge joins.
 fn joined(mesh: &Mesh, [h, g]: [HalfEdgeId; 2]) -> [[VertexId; 2]; 2] {
     [
@@ -446,8 +451,10 @@ impl Classes {
     fn of(mesh: &Mesh, edges: &[[HalfEdgeId; 2]]) -> Classes {
         let count = mesh.vertex_count() as u32;
         let mut of = DisjointSets::new(count);
-        for (root, v) in mesh.roots().into_iter().zip(0..) {
-            of.join(root, v);
+        if is_torn(mesh) {
+            for (root, v) in mesh.roots().into_iter().zip(0..) {
+                of.join(root, v);
+            }
         }
         let pairs = edges.iter().flat_map(|&edge| joined(mesh, edge));
         pairs.for_each(|[a, b]| of.join(a.to_u32(), b.to_u32()));
