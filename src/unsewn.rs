@@ -117,10 +117,7 @@ impl UnsewnSeams {
     #[must_use]
     pub fn within(mesh: &Mesh, place: &(impl Place + ?Sized), distance: f64) -> UnsewnSeams {
         assert!(distance >= 0.0, "a distance is not {distance}");
-        let boundary = mesh.half_edges();
-        let boundary: Vec<HalfEdgeId> = boundary
-            .filter(|&h| mesh.pair_or_ghost(h).is_none())
-            .collect();
+        let boundary: Vec<HalfEdgeId> = mesh.boundary().collect();
         let mut seams = UnsewnSeams {
             boundary_edges: boundary.len(),
             ..UnsewnSeams::default()
@@ -194,7 +191,7 @@ impl UnsewnSeams {
     pub fn close(&self, mesh: &mut Mesh) -> ClosedSeams {
         let classes = match self.is_empty() {
             true => Vec::new(),
-            false if is_torn(mesh) => mesh.roots(),
+            false if mesh.is_torn() => mesh.roots(),
             false => (0..mesh.vertex_count() as u32).collect(),
         };
         mesh.close_seams(&self.edges);
@@ -417,11 +414,6 @@ fn size(mesh: &Mesh, place: &(impl Place + ?Sized), half_edges: &[HalfEdgeId]) -
     max_abs(high - low)
 }
 
-/// Whether any edge is torn.
-fn is_torn(mesh: &Mesh) -> bool {
-    mesh.half_edges().any(|h| mesh.ghost_pair(h).is_some())
-}
-
 /// The vertices that a seam edge joins.
 fn joined(mesh: &Mesh, [h, g]: [HalfEdgeId; 2]) -> [[VertexId; 2]; 2] {
     [
@@ -451,7 +443,7 @@ impl Classes {
     fn of(mesh: &Mesh, edges: &[[HalfEdgeId; 2]]) -> Classes {
         let count = mesh.vertex_count() as u32;
         let mut of = DisjointSets::new(count);
-        if is_torn(mesh) {
+        if mesh.is_torn() {
             for (root, v) in mesh.roots().into_iter().zip(0..) {
                 of.join(root, v);
             }

@@ -72,6 +72,19 @@ impl Mesh {
         lost.map_or(Ok(mesh), Err)
     }
 
+    /// The half-edges on the boundary, ascending: those that have neither a pair nor a ghost pair.
+    pub(crate) fn boundary(&self) -> impl Iterator<Item = HalfEdgeId> + '_ {
+        let links = (0..).map(HalfEdgeId::from_u32).zip(&self.link);
+        let boundary = links.filter(|&(_, &link)| link == Link::BOUNDARY);
+        boundary.map(|(h, _)| h)
+    }
+
+    /// Whether any edge is torn.
+    pub(crate) fn is_torn(&self) -> bool {
+        let is_torn = |&link: &Link| !link.is_pair() && link != Link::BOUNDARY;
+        self.link.iter().any(is_torn)
+    }
+
     /// Links boundary half-edges as ghost pairs: the two sides of a seam that is not sewn. The caller
     /// answers for the invariants. For `unsewn.rs` alone.
     ///

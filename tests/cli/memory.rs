@@ -73,7 +73,7 @@ fn regression_repairing_many_fans_keeps_to_the_memory() {
     let [path, out] = ["fans.obj", "out.obj"].map(|name| folder.path().join(name));
     let [path, out] = [&path, &out].map(|path| path.to_str().expect("a plain name"));
     let fan = |i: usize| format!("v 1 0 0\nv 0 1 0\nf 1 {} {}\n", 2 * i + 2, 2 * i + 3);
-    let file = "v 0 0 0\n".to_owned() + &(0..300_000).map(fan).collect::<String>();
+    let file = "v 0 0 0\n".to_owned() + &(0..400_000).map(fan).collect::<String>();
     std::fs::write(path, &file).expect("a temporary file");
     let rays = ["--rays", "9,9,1:0,0,-1", "9,8,1:0,0,-1", "--allow-miss"];
     let args = ["tearmesh", "cut", path, "--repair", "-q", "-o", out];
