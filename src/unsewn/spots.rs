@@ -102,25 +102,33 @@ fn merged(vertices: &[VertexId], at: impl Fn(VertexId) -> [f64; 3], distance: f6
     let far = |i: u32, j: u32| length(Point::from(at(j)) - Point::from(at(i)));
     let mut cells: Vec<u32> = (0..count).collect();
     cells.sort_unstable_by(|&i, &j| compare(cell(i), cell(j)).then(i.cmp(&j)));
-    let inside = |of: [f64; 3]| {
-        let from = cells.partition_point(|&i| compare(cell(i), of).is_lt());
+    // Those in a cell and in the two beside it along z.
+    let inside = |[x, y, z]: [f64; 3]| {
+        let [low, high] = [[x, y, z - 1.0], [x, y, z + 1.0]];
+        let from = cells.partition_point(|&i| compare(cell(i), low).is_lt());
         let count = cells[from..].iter().take(DENSE + 1);
-        let count = count.take_while(|&&i| compare(cell(i), of).is_eq()).count();
-        &cells[from..from + count]
+        let count = count.take_while(|&&i| compare(cell(i), high).is_le());
+        &cells[from..from + count.count()]
     };
     let mut sets = DisjointSets::new(count);
     let mut is_dense = vec![false; vertices.len()];
     for &i in &cells {
-        for step in 0..27 {
-            let steps = [step / 9, step / 3 % 3, step % 3];
-            let of = cell(i);
-            let near = inside([0, 1, 2].map(|axis| of[axis] + f64::from(steps[axis] - 1)));
+        let [x, y, z] = cell(i);
+        // The other half of the cells round this one sees it.
+        for [dx, dy] in [
+            [-1.0, -1.0],
+            [-1.0, 0.0],
+            [-1.0, 1.0],
+            [0.0, -1.0],
+            [0.0, 0.0],
+        ] {
+            let near = inside([x + dx, y + dy, z]);
             if near.len() > DENSE {
                 is_dense[i as usize] = true;
                 continue;
             }
             let near = near.iter().copied();
-            for j in near.filter(|&j| j < i && far(i, j) <= distance) {
+            for j in near.filter(|&j| j != i && far(i, j) <= distance) {
                 sets.join(i, j);
             }
         }
