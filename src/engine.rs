@@ -1,4 +1,4 @@
-//! What engines exchange with a mesh: buffers in and out, the face under a pointer, and normals.
+//! Exchange between a mesh and an engine: draw buffers, the face under a pointer, and normals.
 //!
 //! * [`DrawBuffers`] turns a mesh into an engine's buffers, with what changed since they were last asked.
 //!   [`unsewn::weld`](crate::unsewn::weld) builds a mesh from such buffers.

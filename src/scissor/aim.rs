@@ -1,4 +1,4 @@
-//! How near a cut comes to the points of the mesh at which its rays are aimed.
+//! The distance of a cut from the points of the mesh at which its rays are aimed.
 //!
 //! These are found by picking, which shares nothing with the planes of the strip. So a strip that lies
 //! elsewhere than between the rays is noticed.

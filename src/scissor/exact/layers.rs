@@ -1,4 +1,4 @@
-//! Which layers of a folded surface a cut goes through.
+//! The layers of a folded surface that a cut goes through.
 //!
 //! Plane, mesh and strip have *chains* in common: pieces of the slit that follow one another from face
 //! to face. A sheet that the strip passes once gives one, the front and the back of a garment one

@@ -93,11 +93,11 @@ pub(crate) fn warning(seams: &UnsewnSeams) -> Option<Fault> {
     let edges = count(all, "boundary edge", "boundary edges");
     let mut message = format!("{} of {edges} lie on another", sewable + left.count());
     if !parts.is_empty() {
-        message += &(format!(" (stay apart: {})", parts.join(", ")));
+        message += &format!(" (stay apart: {})", parts.join(", "));
     }
     if seams.near_misses() > 0 {
         let pairs = count(seams.near_misses(), "pair nearly does", "pairs nearly do");
-        message += &(format!("; {pairs}, by less than a millionth of the size"));
+        message += &format!("; {pairs}, by less than a millionth of the size");
     }
     let fault = Fault::warning("W-MESH-UNSEWN", message);
     Some(match sewable {
