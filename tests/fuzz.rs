@@ -58,17 +58,18 @@ fn cuts_of_seeds_finds_and_random_bytes_are_mended() {
 fn rays_of_seeds_finds_and_random_bytes_cut_as_they_should() {
     let mut random = Random(113);
     let random_bytes = (0..cases()).map(|_| random.bytes(120));
-    let mut counts = [0; 4];
+    let mut counts = [0; 5];
     for bytes in seeds_and_finds("scissor_rays").chain(random_bytes) {
         println!("{bytes:?}");
         counts[match Case::from_bytes(&bytes).check() {
             Outcome::NoRay => 0,
             Outcome::NoPlane => 1,
-            Outcome::Cut(0) => 2,
-            Outcome::Cut(_) => 3,
+            Outcome::RaysCross => 2,
+            Outcome::Cut(0) => 3,
+            Outcome::Cut(_) => 4,
         }] += 1;
     }
-    let [no_ray, no_plane, missed, cut] = counts;
+    let [no_ray, no_plane, _, missed, cut] = counts;
     let some = no_ray >= 1 && no_plane >= 1 && missed >= 1 && cut >= 5;
     assert!(some, "{counts:?}");
 }

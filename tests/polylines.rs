@@ -8,8 +8,8 @@
 use std::f64::consts::TAU;
 
 use tearmesh::{
-    CutEnd, CutError, CutLayers, CutMethod, CutReport, Edit, Edits, HalfEdgeId, Mesh, Positions,
-    Scissor, ScissorError,
+    CutAim, CutEnd, CutError, CutLayers, CutMethod, CutReport, Edit, Edits, HalfEdgeId, Mesh,
+    Positions, Scissor, ScissorError,
 };
 
 use crate::cases::cases;
@@ -81,11 +81,12 @@ fn meshes() -> Vec<(&'static str, Surface)> {
     ]
 }
 
-/// The nearest point at which a ray meets a triangle of a surface (Möller and Trumbore 1997).
-fn aimed((origin, along): Line, points: &[Point], faces: &[[u32; 3]]) -> Option<Point> {
+/// The nearest point at which a ray meets a triangle of a surface (Möller and Trumbore 1997), by weights
+/// of the corners that are no less than `least`: what is less than zero by rounding has met an edge.
+fn aimed((origin, along): Line, mesh: &Surface, least: f64) -> Option<Point> {
     let mut nearest = f64::INFINITY;
-    for face in faces {
-        let [a, b, c] = face.map(|v| points[v as usize]);
+    for face in &mesh.faces {
+        let [a, b, c] = face.map(|v| mesh.points[v as usize]);
         let (ab, ac) = (minus(b, a), minus(c, a));
         let across = cross(along, ac);
         let whole = dot(ab, across);
@@ -93,8 +94,7 @@ fn aimed((origin, along): Line, points: &[Point], faces: &[[u32; 3]]) -> Option<
         let u = dot(from, across) / whole;
         let turned = cross(from, ab);
         let (v, t) = (dot(along, turned) / whole, dot(ac, turned) / whole);
-        let near = -1e-9;
-        if u >= near && v >= near && 1.0 - u - v >= near && t > 0.0 {
+        if u >= least && v >= least && 1.0 - u - v >= least && t > 0.0 {
             nearest = nearest.min(t);
         }
     }
@@ -186,7 +186,7 @@ fn polyline(mesh: &Surface, view: &View, count: usize, random: &mut Random) -> V
         };
         heading += 1.6 * (random.next() - 0.5);
         let line = view.ray(next, random);
-        if aimed(line, &mesh.points, &mesh.faces).is_none() {
+        if aimed(line, mesh, -1e-9).is_none() {
             heading += 1.0;
             continue;
         }
@@ -285,7 +285,7 @@ impl Case {
         report: &CutReport,
         counts: &mut Counts,
     ) {
-        let longest = self.before.longest_edge();
+        let longest = before.longest_edge();
         let edge = |h: HalfEdgeId| [h, h.next()].map(|h| positions.at(mesh.origin(h)).into());
         for edit in edits.iter() {
             let Edit::Split(split) = edit else { continue };
@@ -300,14 +300,17 @@ impl Case {
         let torn: Vec<[Point; 2]> = torn.map(edge).collect();
         let aims = report.aims.expect("a cut between rays");
         for (line, aim) in pair.into_iter().zip(aims) {
-            let Some(at) = aimed(line, &before.points, &before.faces) else {
+            let rounding = 1e-9;
+            let Some(at) = aimed(line, before, -rounding) else {
                 continue;
             };
-            let aim = aim.expect("the ray meets the mesh");
-            if length(minus(at, aim.at.into())) > 1e-6 {
-                counts.ambiguous += 1; // It passes through a torn vertex or edge.
+            let is_same = |aim: &CutAim| length(minus(at, aim.at.into())) <= 1e-6;
+            let Some(aim) = aim.filter(is_same) else {
+                // It passes through a torn vertex or edge, or an edge beyond which no face is seen.
+                assert!(aim.is_some() || aimed(line, before, rounding).is_none());
+                counts.ambiguous += 1;
                 continue;
-            }
+            };
             let aside = torn.iter().map(|&edge| distance(edge, at));
             let aside = aside.fold(f64::INFINITY, f64::min);
             let off = (aim.aside - aside).abs();
@@ -334,8 +337,9 @@ fn polylines_run_between_their_rays() {
                 Case::new(&meshes, eyes, snap, &mut random).cut(&mut counts);
             }
             println!("{eyes:?}, snap {snap}: {counts:?}");
-            // A seam that goes the wrong way does not end before a boundary.
-            assert!(counts.beyond < 1.0 && counts.ambiguous <= counts.cuts / 50);
+            // A seam that goes the wrong way does not end before a boundary, which is farther than an end
+            // is moved: to another vertex of its face, once along the seam and once across it.
+            assert!(counts.beyond < 2.0 && counts.ambiguous <= counts.cuts / 50);
         }
     }
 }
