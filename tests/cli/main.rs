@@ -32,6 +32,7 @@ mod progress;
 mod support;
 mod tear;
 mod transcripts;
+mod unsewn;
 #[path = "../support/vectors.rs"]
 mod vectors;
 mod words;
