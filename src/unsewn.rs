@@ -19,24 +19,32 @@
 //! ```
 //!
 //! Where the closed mesh would not be an oriented 2-manifold, because a face would have one vertex
-//! twice (I3), an edge a third face (I11), or three vertices a second face (I13), the whole connected
-//! seam there is left apart, and counted. So are edges at which more than two sides meet.
+//! twice (I3) or an edge a third face (I11), the whole connected seam there is left apart, and counted.
+//! So are edges at which more than two sides meet.
 //!
-//! The cost is linear in the mesh, plus the time to sort the boundary. A mesh without a boundary is
+//! The cost is linear in the mesh, plus the time to sort the seams. A mesh without a boundary is
 //! only looked through.
 
+mod classes;
+mod closed;
+mod groups;
+mod sides;
 mod spots;
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use crate::attribute::Blend as _;
-use crate::edit::{Cursor, Edit, Follower, InsertedPoint, Mix};
+use crate::edit::Cursor;
 use crate::geometry::{Point, max_abs};
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mend::Stitch;
 use crate::mesh::{BuildError, Mesh};
 use crate::place::{Place, PositionError, Positions};
 use crate::sets::DisjointSets;
+use classes::Classes;
+pub use closed::ClosedSeams;
+use sides::{Sides, joined};
 use spots::Spots;
 
 /// The seams of a mesh whose two sides coincide and are not sewn: see the [module](self).
@@ -88,10 +96,6 @@ impl LeftApart {
     }
 }
 
-/// The largest number of boundary edges at one place that are compared one by one. Where more meet, all
-/// are left apart.
-const CROWD: usize = 16;
-
 /// A part of the size of the boundary. Sides that are apart by less are counted as near misses.
 const NEAR: f64 = 1e-6;
 
@@ -125,28 +129,24 @@ impl UnsewnSeams {
         if boundary.is_empty() {
             return seams;
         }
-        let reach = NEAR * size(mesh, place, &boundary);
-        let sides = Sides::of(
-            mesh,
-            &Spots::new(mesh, place, &boundary, distance),
-            boundary,
-        );
+        let spots = Spots::new(mesh, place, &boundary, distance);
+        let sides = Sides::of(mesh, &spots, &boundary);
         seams.edges = sides.edges;
+        let mut enclosed = BTreeSet::new();
         if let Some(classes) = seams.leave_apart(mesh) {
             let left = [&sides.crowded, &sides.same_direction, &sides.alone];
-            seams.add_enclosed(mesh, classes, left.into_iter().flatten());
+            enclosed = seams.add_enclosed(mesh, classes, left.into_iter().flatten());
         }
-        let mut sewn = seams.edges.as_flattened().to_vec();
-        sewn.sort_unstable();
         let left = |half_edges: &[HalfEdgeId]| {
-            let left = half_edges.iter().filter(|h| sewn.binary_search(h).is_err());
+            let left = half_edges.iter().filter(|h| !enclosed.contains(h));
             left.count()
         };
         seams.left.crowded = left(&sides.crowded);
         seams.left.same_direction = left(&sides.same_direction);
         if distance == 0.0 {
+            let reach = NEAR * size(mesh, place, &boundary);
             let near = Spots::new(mesh, place, &sides.alone, reach);
-            seams.near_misses = Sides::of(mesh, &near, sides.alone).edges.len();
+            seams.near_misses = Sides::of(mesh, &near, &sides.alone).edges.len();
         }
         seams
     }
@@ -274,29 +274,30 @@ impl UnsewnSeams {
     }
 
     /// Adds the edges that the seams leave with two sides between the same vertices: more than two sides meet
-    /// at that place, but now it is clear which two belong together.
+    /// at that place, but now it is clear which two belong together. Returns their half-edges.
     fn add_enclosed<'h>(
         &mut self,
         mesh: &Mesh,
         mut classes: Classes,
         left: impl Iterator<Item = &'h HalfEdgeId>,
-    ) {
-        let roots = classes.of.leaders();
-        let root = |v: VertexId| roots[v.index()];
+    ) -> BTreeSet<HalfEdgeId> {
         let mut enclosed: Vec<([u32; 2], HalfEdgeId)> = Vec::new();
         for &h in left {
-            let [a, b] = [mesh.origin(h), mesh.target(h)].map(root);
-            if [a, b].iter().any(|&root| classes.is_joined[root as usize]) {
+            let [a, b] = [mesh.origin(h), mesh.target(h)].map(|v| classes.root(v));
+            if classes.is_joined(a) || classes.is_joined(b) {
                 enclosed.push(([a.min(b), a.max(b)], h));
             }
         }
         enclosed.sort_unstable();
+        let mut added = BTreeSet::new();
         for group in enclosed.chunk_by(|a, b| a.0 == b.0) {
             if let &[(_, h), (_, g)] = group {
                 self.edges.push([h, g]);
+                added.extend([h, g]);
             }
         }
         self.edges.sort_unstable();
+        added
     }
 
     /// Leaves connected seams apart that would not be manifold. Returns the classes of vertices that the
@@ -308,13 +309,14 @@ impl UnsewnSeams {
             if bad.is_empty() {
                 return Some(classes);
             }
+            let mut connected = classes.connected(mesh, &self.edges);
             let mut is_bad = vec![false; mesh.vertex_count()];
             for class in bad {
-                is_bad[classes.connected.leader(class) as usize] = true;
+                is_bad[connected.leader(class) as usize] = true;
             }
             let before = self.edges.len();
             self.edges.retain(|&[h, _]| {
-                let seam = classes.connected.leader(mesh.origin(h).to_u32());
+                let seam = connected.leader(mesh.origin(h).to_u32());
                 !is_bad[seam as usize]
             });
             let apart = before - self.edges.len();
@@ -322,85 +324,6 @@ impl UnsewnSeams {
             self.left.not_manifold += 2 * apart;
         }
         None
-    }
-}
-
-/// Boundary half-edges, sorted by what coincides with them.
-#[derive(Default)]
-struct Sides {
-    /// Each other's only partners, the smaller half-edge first; ascending.
-    edges: Vec<[HalfEdgeId; 2]>,
-    crowded: Vec<HalfEdgeId>,
-    same_direction: Vec<HalfEdgeId>,
-    alone: Vec<HalfEdgeId>,
-}
-
-impl Sides {
-    fn of<P: Place + ?Sized>(
-        mesh: &Mesh,
-        spots: &Spots<'_, P>,
-        mut half_edges: Vec<HalfEdgeId>,
-    ) -> Sides {
-        let mut sides = Sides::default();
-        let ends = |h: HalfEdgeId| [mesh.origin(h), mesh.target(h)].map(|v| spots.of_vertex(v));
-        let lies_at = |h: HalfEdgeId| {
-            let [from, to] = ends(h);
-            [from.min(to), from.max(to)]
-        };
-        let is_ahead = |h: HalfEdgeId| ends(h)[0] < ends(h)[1];
-        half_edges.sort_unstable_by_key(|&h| (lies_at(h), is_ahead(h), h));
-        for at_one_place in half_edges.chunk_by(|&a, &b| lies_at(a) == lies_at(b)) {
-            let [from, to] = ends(at_one_place[0]);
-            if from == to || at_one_place.len() == 1 {
-                sides.alone.extend(at_one_place);
-            } else if at_one_place.len() > CROWD {
-                sides.crowded.extend(at_one_place);
-            } else {
-                let back = at_one_place.partition_point(|&h| !is_ahead(h));
-                let (back, ahead) = at_one_place.split_at(back);
-                sides.compare(mesh, spots, back, ahead);
-                sides.compare(mesh, spots, ahead, back);
-            }
-        }
-        sides.edges.sort_unstable();
-        sides
-    }
-
-    /// Sorts half-edges that run one way between two places by those that run the other way.
-    fn compare<P: Place + ?Sized>(
-        &mut self,
-        mesh: &Mesh,
-        spots: &Spots<'_, P>,
-        one_way: &[HalfEdgeId],
-        other_way: &[HalfEdgeId],
-    ) {
-        // A face with two corners at one place has no side to be sewn.
-        let is_thin = |h: HalfEdgeId| {
-            let ends = [mesh.origin(h), mesh.target(h)].map(|v| spots.of_vertex(v));
-            ends.contains(&spots.of_opposite(mesh, h))
-        };
-        let partners = |h: HalfEdgeId, among: &[HalfEdgeId]| {
-            let is_partner = |&g: &HalfEdgeId| {
-                !is_thin(h) && !is_thin(g) && !spots.have_same_opposite(mesh, h, g)
-            };
-            among
-                .iter()
-                .copied()
-                .filter(is_partner)
-                .collect::<Vec<HalfEdgeId>>()
-        };
-        for &h in one_way {
-            match partners(h, other_way)[..] {
-                [g] if partners(g, one_way)[..] == [h] => {
-                    if h < g {
-                        self.edges.push([h, g]);
-                    }
-                }
-                [] if partners(h, one_way).is_empty() => self.alone.push(h),
-                [] => self.same_direction.push(h),
-                _ => self.crowded.push(h),
-            }
-        }
     }
 }
 
@@ -414,176 +337,12 @@ fn size(mesh: &Mesh, place: &(impl Place + ?Sized), half_edges: &[HalfEdgeId]) -
     max_abs(high - low)
 }
 
-/// The vertices that a seam edge joins.
-fn joined(mesh: &Mesh, [h, g]: [HalfEdgeId; 2]) -> [[VertexId; 2]; 2] {
-    [
-        [mesh.origin(h), mesh.target(g)],
-        [mesh.target(h), mesh.origin(g)],
-    ]
-}
-
 /// Roots that are roots of themselves, of numbers that name smaller ones.
 fn settled(mut roots: Vec<u32>) -> Vec<u32> {
     for v in 0..roots.len() {
         roots[v] = roots[roots[v] as usize];
     }
     roots
-}
-
-/// The vertices of a mesh as they would be one with all seams closed.
-struct Classes {
-    of: DisjointSets,
-    /// By the smallest vertex of a class, whether a seam joins it.
-    is_joined: Vec<bool>,
-    /// Classes that seams connect, by their smallest vertices.
-    connected: DisjointSets,
-}
-
-impl Classes {
-    fn of(mesh: &Mesh, edges: &[[HalfEdgeId; 2]]) -> Classes {
-        let count = mesh.vertex_count() as u32;
-        let mut of = DisjointSets::new(count);
-        if mesh.is_torn() {
-            for (root, v) in mesh.roots().into_iter().zip(0..) {
-                of.join(root, v);
-            }
-        }
-        let pairs = edges.iter().flat_map(|&edge| joined(mesh, edge));
-        pairs.for_each(|[a, b]| of.join(a.to_u32(), b.to_u32()));
-        let mut connected = of.clone();
-        let mut is_joined = vec![false; count as usize];
-        for &[h, _] in edges {
-            let ends = [mesh.origin(h), mesh.target(h)].map(VertexId::to_u32);
-            connected.join(ends[0], ends[1]);
-            for end in ends {
-                is_joined[of.leader(end) as usize] = true;
-            }
-        }
-        Classes {
-            of,
-            is_joined,
-            connected,
-        }
-    }
-
-    /// The classes at which the closed mesh would have a face with one vertex twice, a directed edge
-    /// twice, or two faces with the same vertices.
-    fn defects(&mut self, mesh: &Mesh) -> Vec<u32> {
-        let roots = self.of.leaders();
-        let mut bad = Vec::new();
-        let (mut edges, mut faces) = (Vec::new(), Vec::new());
-        for face in mesh.indices().as_chunks::<3>().0 {
-            let [a, b, c] = face.map(|v| roots[v as usize]);
-            if ![a, b, c].iter().any(|&root| self.is_joined[root as usize]) {
-                continue;
-            }
-            if a == b || b == c || c == a {
-                bad.extend([a, b, c]);
-            }
-            edges.extend([[a, b], [b, c], [c, a]]);
-            let mut corners = [a, b, c];
-            corners.sort_unstable();
-            faces.push(corners);
-        }
-        edges.sort_unstable();
-        faces.sort_unstable();
-        let twice = edges.windows(2).filter(|two| two[0] == two[1]);
-        bad.extend(twice.flat_map(|two| two[0]));
-        let twice = faces.windows(2).filter(|two| two[0] == two[1]);
-        bad.extend(twice.flat_map(|two| two[0]));
-        bad.retain(|&root| self.is_joined[root as usize]);
-        bad
-    }
-}
-
-/// Seams that are closed for a while, so that a cut can cross them: see [`UnsewnSeams::close`].
-///
-/// It follows the log of the mesh. Replay every edit on it before the seams are reopened.
-#[derive(Clone, Debug)]
-pub struct ClosedSeams {
-    /// By vertex: vertices that are one but for tears have the same. Seams do not matter. Empty if there
-    /// are none.
-    classes: Vec<u32>,
-    next: u32,
-    seen: Cursor,
-}
-
-impl ClosedSeams {
-    /// Sets the place in the mesh's log at which the seams were closed. The default is [`Cursor::START`].
-    #[must_use]
-    pub fn starting_at(self, seen: Cursor) -> ClosedSeams {
-        ClosedSeams { seen, ..self }
-    }
-
-    /// Removes the links that [`UnsewnSeams::close`] added, and those of the parts into which they
-    /// were divided since. Linear.
-    ///
-    /// # Panics
-    ///
-    /// If this has not followed all edits of the mesh.
-    pub fn reopen(self, mesh: &mut Mesh) {
-        if self.classes.is_empty() {
-            return;
-        }
-        let count = mesh.vertex_count();
-        assert_eq!(
-            self.classes.len(),
-            count,
-            "the seams have followed the mesh"
-        );
-        let class = |v: VertexId| self.classes[v.index()];
-        mesh.open_seams(|mesh, h, g| {
-            let pairs = joined(mesh, [h, g]);
-            pairs.into_iter().any(|[a, b]| class(a) != class(b))
-        });
-    }
-
-    fn push_class(&mut self) {
-        self.classes.push(self.next);
-        self.next += 1;
-    }
-
-    /// Whether two points are on the two sides of an edge that is torn without any seam closed.
-    fn are_twins(&self, one: &InsertedPoint, other: &InsertedPoint) -> bool {
-        let (Mix::Between { ends, t }, Mix::Between { ends: across, t: u }) = (one.at, other.at)
-        else {
-            return false;
-        };
-        let class = |v: VertexId| self.classes[v.index()];
-        t == u && ends.map(class) == across.map(class)
-    }
-}
-
-impl Follower for ClosedSeams {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
-        if self.classes.is_empty() {
-            return;
-        }
-        match edit {
-            Edit::Split(split) => self.classes.push(self.classes[split.old.index()]),
-            Edit::Insert(insert) => {
-                let mut before: Option<&InsertedPoint> = None;
-                for point in insert.points {
-                    match before.filter(|one| self.are_twins(one, point)) {
-                        Some(one) => {
-                            self.classes.push(self.classes[one.vertex.index()]);
-                            before = None;
-                        }
-                        None => {
-                            self.push_class();
-                            before = Some(point);
-                        }
-                    }
-                }
-            }
-            Edit::Merge(merge) => _ = self.classes.swap_remove(merge.gone.index()),
-            Edit::Slide(_) => {}
-        }
-    }
 }
 
 /// Builds a mesh from an engine's vertex and index buffers, in which vertices are repeated along texture

@@ -177,7 +177,7 @@ fn one_file_tears_links_and_one_sews_them() {
         ("tear", "split"),
         ("sew swap_remove_vertex", "mend"),
         ("link unlink", "insert mesh/torn"),
-        ("close_seams open_seams", "unsewn"),
+        ("close_seams open_seams", "unsewn unsewn/closed"),
         ("push_face", "insert"),
         ("push_vertex", "split insert"),
         ("set_origin set_half_edge_of", "split mend insert"),

@@ -86,7 +86,7 @@ impl Mesh {
     }
 
     /// Links boundary half-edges as ghost pairs: the two sides of a seam that is not sewn. The caller
-    /// answers for the invariants. For `unsewn.rs` alone.
+    /// answers for the invariants. For `unsewn` alone.
     ///
     /// # Panics
     ///
@@ -99,7 +99,7 @@ impl Mesh {
         }
     }
 
-    /// Removes the ghost pairs that are seams. For `unsewn.rs` alone.
+    /// Removes the ghost pairs that are seams. For `unsewn` alone.
     pub(crate) fn open_seams(&mut self, is_seam: impl Fn(&Mesh, HalfEdgeId, HalfEdgeId) -> bool) {
         for h in self.half_edges() {
             if let Some(g) = self.ghost_pair(h)

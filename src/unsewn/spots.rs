@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::groups::for_each_group;
 use crate::geometry::{Point, length};
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
@@ -21,6 +22,7 @@ pub(super) struct Spots<'p, P: ?Sized> {
     distance: f64,
     /// By vertex.
     of: Vec<u32>,
+    count: usize,
 }
 
 impl<'p, P: Place + ?Sized> Spots<'p, P> {
@@ -43,18 +45,24 @@ impl<'p, P: Place + ?Sized> Spots<'p, P> {
             }
         }
         let at = |v: VertexId| coordinates(place.at(v));
-        order.sort_unstable_by(|&a, &b| compare(at(a), at(b)).then(a.cmp(&b)));
-        let mut count = 0;
-        let mut before = None;
-        order.retain(|&v| {
-            let is_first = before != Some(at(v));
-            before = Some(at(v));
-            count += u32::from(is_first);
-            of[v.index()] = count - 1;
-            is_first
-        });
+        let mut firsts = Vec::new();
+        let cells = order.len().next_power_of_two();
+        for_each_group(
+            &order,
+            cells,
+            |v| hash(at(v)) as usize % cells,
+            |alike| {
+                alike.sort_unstable_by(|&a, &b| compare(at(a), at(b)).then(a.cmp(&b)));
+                for equal in alike.chunk_by(|&a, &b| at(a) == at(b)) {
+                    equal
+                        .iter()
+                        .for_each(|v| of[v.index()] = firsts.len() as u32);
+                    firsts.push(equal[0]);
+                }
+            },
+        );
         if distance > 0.0 {
-            let merged = merged(&order, at, distance);
+            let merged = merged(&firsts, at, distance);
             for spot in of.iter_mut().filter(|spot| **spot != NONE) {
                 *spot = merged[*spot as usize];
             }
@@ -63,7 +71,13 @@ impl<'p, P: Place + ?Sized> Spots<'p, P> {
             place,
             distance,
             of,
+            count: firsts.len(),
         }
+    }
+
+    /// The number of places.
+    pub(super) fn count(&self) -> usize {
+        self.count
     }
 
     /// The number of the place of a vertex of the boundary.
@@ -71,21 +85,29 @@ impl<'p, P: Place + ?Sized> Spots<'p, P> {
         self.of[v.index()]
     }
 
-    /// The same for the vertex opposite to a half-edge. It need not be on the boundary.
-    pub(super) fn of_opposite(&self, mesh: &Mesh, h: HalfEdgeId) -> u32 {
-        self.of_vertex(mesh.origin(h.prev()))
-    }
-
-    /// Whether the faces of two half-edges have their third vertices at one place.
-    pub(super) fn have_same_opposite(&self, mesh: &Mesh, h: HalfEdgeId, g: HalfEdgeId) -> bool {
-        let [p, q] = [h, g].map(|h| self.place.at(mesh.origin(h.prev())));
-        p == q || length(q - p) <= self.distance
+    /// Whether the faces of two half-edges that run between the same places continue each other: each has
+    /// three places, and not the same three.
+    pub(super) fn are_partners(&self, mesh: &Mesh, h: HalfEdgeId, g: HalfEdgeId) -> bool {
+        let ends = [mesh.origin(h), mesh.target(h)].map(|v| self.of_vertex(v));
+        let opposite = [h, g].map(|h| mesh.origin(h.prev()));
+        let is_thin = |v: VertexId| ends.contains(&self.of_vertex(v));
+        let [p, q] = opposite.map(|v| self.place.at(v));
+        let is_same = || p == q || length(q - p) <= self.distance;
+        !opposite.into_iter().any(is_thin) && !is_same()
     }
 }
 
 /// The coordinates of a point, with 0 for −0.
 fn coordinates(p: Point) -> [f64; 3] {
     [p.x, p.y, p.z].map(|x| x + 0.0)
+}
+
+/// A number that is the same for equal points, and seldom for others.
+fn hash(p: [f64; 3]) -> u64 {
+    let mixed = p.iter().fold(0, |hash: u64, x| {
+        (hash.rotate_left(23) ^ x.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+    });
+    mixed ^ mixed >> 32
 }
 
 fn compare(p: [f64; 3], q: [f64; 3]) -> Ordering {
@@ -98,7 +120,10 @@ fn compare(p: [f64; 3], q: [f64; 3]) -> Ordering {
 fn merged(vertices: &[VertexId], at: impl Fn(VertexId) -> [f64; 3], distance: f64) -> Vec<u32> {
     let count = vertices.len() as u32;
     let at = |i: u32| at(vertices[i as usize]);
-    let cell = |i: u32| at(i).map(|x| (x / distance).floor());
+    let cell: Vec<[f64; 3]> = (0..count)
+        .map(|i| at(i).map(|x| (x / distance).floor()))
+        .collect();
+    let cell = |i: u32| cell[i as usize];
     let far = |i: u32, j: u32| length(Point::from(at(j)) - Point::from(at(i)));
     let mut cells: Vec<u32> = (0..count).collect();
     cells.sort_unstable_by(|&i, &j| compare(cell(i), cell(j)).then(i.cmp(&j)));
