@@ -18,9 +18,9 @@
 //!       d
 //! ```
 //!
-//! Where the closed mesh would not be an oriented 2-manifold, because a face would have one vertex
-//! twice (I3) or an edge a third face (I11), the whole connected seam there is left apart, and counted.
-//! So are edges at which more than two sides meet.
+//! Where the closed mesh would not be an oriented 2-manifold, because an edge would have a third face
+//! (I11), the whole connected seam there is left apart, and counted. So are edges at which more than two
+//! sides meet.
 //!
 //! The cost is linear in the mesh, plus the time to sort the seams. A mesh without a boundary is
 //! only looked through.

@@ -4,6 +4,7 @@
 //! building the mesh anew from triangles and roots.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
 
 use tearmesh::unsewn::UnsewnSeams;
 use tearmesh::{
@@ -153,6 +154,7 @@ fn wholes(random: &mut Random) -> Vec<Surface> {
         surface(&shapes::torus(7, 5)),
         doubled(&surface(&shapes::grid(3, 3))),
         pillow(random),
+        slit(random),
         with_copies(&sphere(1), random),
         surface(&shapes::fan(9, true)),
     ]
@@ -218,6 +220,32 @@ fn pillow(random: &mut Random) -> Surface {
     both.faces.truncate(front.faces.len());
     both.faces.extend(backward);
     both
+}
+
+/// A round sheet with a slit from its rim. It ends at a face with two corners at one place, or at one that
+/// lies on another; sewn, the edge between the two would have a third face.
+fn slit(random: &mut Random) -> Surface {
+    let sides = 4 + random.below(4) as u32;
+    let mut sheet = Surface::default();
+    sheet.points.push([0.0; 3]);
+    for ring in [1, 2] {
+        for i in 0..=sides {
+            let angle = TAU * f64::from(i % sides) / f64::from(sides);
+            sheet
+                .points
+                .push([angle.cos(), angle.sin(), 0.2].map(|x| x * f64::from(ring)));
+        }
+    }
+    let [inner, outer] = [1, 2 + sides];
+    for i in 0..sides {
+        let [a, b, c, d] = [inner + i, inner + i + 1, outer + i, outer + i + 1];
+        sheet.faces.extend([[0, a, b], [a, c, b], [c, d, b]]);
+    }
+    let over = sheet.points[inner as usize + 1];
+    sheet.points.push(over);
+    let over = [inner, outer + sides + 1][random.below(2)];
+    sheet.faces.push([0, inner + sides, over]);
+    sheet
 }
 
 /// A surface, and loose copies of a few of its faces, so that three sides meet at their edges.

@@ -47,12 +47,15 @@ impl Classes {
         self.is_joined[root as usize]
     }
 
-    /// The classes joined by seams at which the closed mesh would have a face with one vertex twice, or a
-    /// directed edge twice. (Two faces with the same vertices, I13, are not joined with each other, but
-    /// each with a neighbour, which runs along an edge as the other one does.)
+    /// The classes joined by seams at which the closed mesh would have a directed edge twice (I11).
+    ///
+    /// It has one wherever it would have a face with one vertex twice (I3) or two faces with the same
+    /// vertices (I13). Classes are joined along edges, so such a face has neighbours, and one of them has
+    /// the directed edge that is there twice.
     pub(super) fn defects(&mut self, mesh: &Mesh) -> Vec<u32> {
         let roots = self.of.leaders();
         let root = |h: HalfEdgeId| roots[mesh.origin(h).index()];
+        // An edge between such a class and another one is seen at the former.
         let mut corners = Vec::new();
         for (v, &root) in mesh.vertices().zip(roots) {
             if self.is_joined[root as usize] {
@@ -67,10 +70,9 @@ impl Classes {
             let at = root(at_root[0]);
             let is_bad = |&h: &HalfEdgeId| {
                 let [next, last] = [h.next(), h.prev()].map(root);
-                let is_thin = next == at || last == at || next == last;
                 let was_next = std::mem::replace(&mut seen[next as usize][0], at);
                 let was_last = std::mem::replace(&mut seen[last as usize][1], at);
-                is_thin || was_next == at || was_last == at
+                was_next == at || was_last == at
             };
             if at_root.iter().any(is_bad) {
                 bad.push(at);
