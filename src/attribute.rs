@@ -1,20 +1,20 @@
-//! Data kept beside the mesh: one value for each vertex, corner or face.
+//! Data kept beside the mesh: one value for each vertex or corner.
 //!
 //! A split duplicates a vertex and moves corners. What belongs to the vertex is copied to the new
 //! one ([`PerVertex`]). What belongs to the corner, such as a texture coordinate, stays with it
 //! ([`PerCorner`]): a split never makes a texture seam. Where a vertex is inserted, values are
 //! interpolated corner by corner, so a texture seam stays a seam. Where two vertices are merged,
-//! their values are averaged by weight ([`Blend`]). What belongs to a face ([`PerFace`]) is copied
-//! to its children.
+//! their values are averaged by weight ([`Blend`]).
 //!
 //! Each of these lists carries its place in the log. A list of any other type can follow a log too:
-//! see [`Edits::replay_vertices`](crate::Edits::replay_vertices).
+//! see [`Edits::replay_vertices`](crate::Edits::replay_vertices), and for values of faces, of which
+//! children get copies, [`Edits::replay_faces`](crate::Edits::replay_faces).
 
 use std::marker::PhantomData;
 
 use crate::edit::{Cursor, Edit, Follower, Mix};
 use crate::geometry::{Point, Vector, between};
-use crate::id::{FaceId, HalfEdgeId, VertexId};
+use crate::id::{HalfEdgeId, VertexId};
 
 /// A value that can be interpolated.
 ///
@@ -130,26 +130,7 @@ pub type PerVertex<T> = Values<VertexId, T>;
 /// ```
 pub type PerCorner<T> = Values<HalfEdgeId, T>;
 
-/// One value for each face, such as a material. Where a face is divided, each of its children gets
-/// a copy. No other edit changes a face.
-///
-/// ```
-/// use tearmesh::{shapes, insert::Plan, Edits, PerFace};
-///
-/// let (mut mesh, _) = shapes::grid(1, 1);
-/// let mut materials = PerFace::new(vec!["silk", "wool"]);
-/// let mut plan = Plan::new();
-/// plan.on_edge(mesh.half_edge(0), 0.5);
-/// let mut edits = Edits::new();
-/// plan.apply(&mut mesh, &mut edits)?;
-/// edits.replay(&mut materials);
-/// assert_eq!(materials.as_slice(), ["silk", "wool", "silk"]);
-/// # Ok::<(), tearmesh::InsertRefusal>(())
-/// ```
-pub type PerFace<T> = Values<FaceId, T>;
-
-/// One value for each id of a kind, and their place in the log: see [`PerVertex`], [`PerCorner`] and
-/// [`PerFace`].
+/// One value for each id of a kind, and their place in the log: see [`PerVertex`] and [`PerCorner`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Values<I, T> {
     values: Vec<T>,
@@ -216,18 +197,6 @@ impl<T> Values<HalfEdgeId, T> {
     }
 }
 
-impl<T> Values<FaceId, T> {
-    /// Returns the value of the face `f`.
-    ///
-    /// # Panics
-    ///
-    /// If `f` is not a face of the list.
-    #[must_use]
-    pub fn at(&self, f: FaceId) -> &T {
-        f.of(&self.values)
-    }
-}
-
 impl<T: Blend> Follower for PerVertex<T> {
     fn cursor(&mut self) -> &mut Cursor {
         &mut self.seen
@@ -247,15 +216,5 @@ impl<T: Blend> Follower for PerCorner<T> {
 
     fn follow(&mut self, edit: &Edit<'_>) {
         edit.apply_to_corners(&mut self.values, T::blend);
-    }
-}
-
-impl<T: Clone> Follower for PerFace<T> {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
-        edit.apply_to_faces(&mut self.values);
     }
 }

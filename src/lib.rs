@@ -119,7 +119,7 @@ mod undo;
 pub mod unsewn;
 pub mod unshare;
 
-pub use attribute::{Blend, PerCorner, PerFace, PerVertex, Values};
+pub use attribute::{Blend, PerCorner, PerVertex, Values};
 pub use edit::{
     ChildFace, Cursor, Edit, Edits, Follower, Followers, Insert, InsertedPoint, Merge, Mix,
     Renumbered, Slide, Split, TornLink, VertexOp,
@@ -131,8 +131,8 @@ pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
 pub use mesh::{
-    BuildError, Components, Corner, Corners, Defect, DerivedMesh, Faces, Fans, Invariant, Listed,
-    Mesh, TornError, Violation,
+    BuildError, Components, Corners, Defect, DerivedMesh, Faces, Fans, Invariant, Listed, Mesh,
+    TornError, Violation,
 };
 /// The linear algebra crate that defines [`Point`] and [`Vector`], in the version used by this
 /// crate.

@@ -20,7 +20,6 @@
 
 mod build;
 mod check;
-mod corner;
 mod defect;
 mod diagnose;
 mod pieces;
@@ -31,7 +30,6 @@ mod well_formed;
 use std::iter::FusedIterator;
 
 pub use check::{Invariant, Violation};
-pub use corner::Corner;
 pub use defect::{BuildError, Defect, Faces, Fans, Listed};
 pub use pieces::DerivedMesh;
 pub use torn::TornError;

@@ -7,8 +7,8 @@ mod values;
 use tearmesh::engine::DrawBuffers;
 use tearmesh::script::{Script, Step, World};
 use tearmesh::{
-    Blend, Cursor, Edit, Edits, Follower, HalfEdgeId, Masses, Mesh, Mix, PerCorner, PerFace,
-    PerVertex, Positions, shapes, slide, split,
+    Blend, Cursor, Edit, Edits, Follower, HalfEdgeId, Masses, Mesh, Mix, PerCorner, PerVertex,
+    Positions, shapes, slide, split,
 };
 
 use crate::foreign::panic_of;
@@ -46,7 +46,7 @@ fn mixed(mix: Mix<&Value>) -> Value {
 /// in the log.
 struct Beside {
     plain: Values,
-    lists: (PerVertex<Value>, PerCorner<Value>, PerFace<u16>),
+    lists: (PerVertex<Value>, PerCorner<Value>),
     positions: Positions,
     own: Option<([Cursor; 3], Values)>,
     /// As it was before it was cleared.
@@ -61,7 +61,6 @@ impl Beside {
             lists: (
                 PerVertex::new(plain.vertices.clone()),
                 PerCorner::new(plain.corners.clone()),
-                PerFace::new(plain.faces.clone()),
             ),
             positions: Positions::new(plain.vertices.iter().map(point)).expect("finite"),
             plain,
@@ -74,12 +73,11 @@ impl Beside {
 
     fn replay(&mut self) {
         let log = &self.log;
-        let (vertices, corners, faces) = &mut self.lists;
-        log.replay(&mut ((vertices, corners, faces), &mut self.positions));
-        let (vertices, corners, faces) = &self.lists;
+        let (vertices, corners) = &mut self.lists;
+        log.replay(&mut ((vertices, corners), &mut self.positions));
+        let (vertices, corners) = &self.lists;
         assert_eq!(vertices.as_slice(), self.plain.vertices, "vertices");
         assert_eq!(corners.as_slice(), self.plain.corners, "corners");
-        assert_eq!(faces.as_slice(), self.plain.faces, "faces");
         let points = self.positions.as_slice().iter().map(|p| [p.x, p.y]);
         assert!(points.eq(self.plain.vertices.iter().copied()), "positions");
         if let Some(([vertices, corners, faces], own)) = &mut self.own {
