@@ -3,12 +3,12 @@
 //! * [`DrawBuffers`] turns a mesh into an engine's buffers, with what changed since they were last asked.
 //!   [`unsewn::weld`](crate::unsewn::weld) builds a mesh from such buffers.
 //! * [`pick`] finds the face that a ray meets first.
-//! * [`Normals`] are those of the vertices, for smooth shading, made anew only where something changed.
+//! * [`normals`] are those of the corners, for shading with creases.
 
 mod draw;
 mod normals;
 pub mod pick;
 
 pub use draw::{DrawBuffers, DrawChanges};
-pub use normals::Normals;
+pub use normals::normals;
 pub use pick::RayHit;

@@ -1,119 +1,104 @@
-//! The normals of vertices, for smooth shading.
+//! The normals of corners, for shading.
 
-use crate::edit::{Cursor, Edit, Follower};
-use crate::geometry::{Vector, cross, length, scaled};
-use crate::id::VertexId;
+use crate::geometry::{Vector, cross, dot, length, max_abs};
+use crate::id::HalfEdgeId;
 use crate::mesh::Mesh;
 use crate::place::Place;
 
-/// The unit normal of each vertex: the mean of its faces' normals, weighted by area. They are a
-/// [`Follower`] of the mesh's log.
+/// Returns the unit normal of each corner, indexed by half-edge: the mean of the normals of the faces
+/// that are one smooth surface with it, weighted by area.
 ///
-/// The sides of a tear have normals of their own, so a torn surface may bend apart there. A vertex
-/// whose faces have no area, or that has no faces, has the normal zero.
+/// Two faces that share an untorn edge are one smooth surface at its ends if the cosine of the angle
+/// between their normals is at least `crease`. Below −1 there is no crease, and 1 makes nearly every
+/// edge one. The sides of a tear have normals of their own, so a torn surface may bend apart there. A
+/// corner whose faces have no area has the normal zero.
+///
+/// Corners of one vertex that are one smooth surface have equal normals, so
+/// [`DrawBuffers`](super::DrawBuffers) give them one slot. The cost is a walk round each vertex.
+///
+/// # Panics
+///
+/// If `place` does not store the position of a vertex that has a face.
 ///
 /// ```
-/// use tearmesh::engine::Normals;
-/// use tearmesh::{CutMethod, Plane, Point, Scissor, Sheet, Vector, shapes};
+/// use tearmesh::engine::{DrawBuffers, normals};
+/// use tearmesh::{Mesh, Positions, Vector};
 ///
-/// let (mesh, positions) = shapes::grid(4, 4);
-/// let normals = Normals::new(&mesh, &positions);
-/// assert_eq!(normals.as_slice()[12], Vector::z());
-///
-/// let mut sheet = Sheet::new(mesh, positions).with(normals);
-/// let plane = Plane::new(Point::new(0.4, 0.0, 0.0), Vector::new(1.0, 0.2, 0.0))?;
-/// sheet.cut(CutMethod::Exact, &Scissor::by_plane(plane))?;
-///
-/// let (mesh, positions) = (sheet.mesh().clone(), sheet.positions().clone());
-/// let changed = sheet.values_mut().update(&mesh, &positions);
-/// assert!(changed.len() < mesh.vertex_count());
-/// assert_eq!(sheet.values().as_slice(), Normals::new(&mesh, &positions).as_slice());
+/// // A square that is folded upright along its diagonal.
+/// let positions = Positions::new([[0., 0., 0.], [1., 0., 0.], [0., 1., 0.], [0., 0., 1.]])?;
+/// let mesh = Mesh::build(4, &[[0, 1, 2], [0, 3, 1]])?;
+/// let [smooth, sharp] = [-2.0, 0.5].map(|crease| normals(&mesh, &positions, crease));
+/// assert_eq!((smooth[0], sharp[0]), (smooth[3], Vector::z()));
+/// assert_eq!([smooth, sharp].map(|normals| DrawBuffers::new(&mesh, normals).len()), [4, 6]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
-pub struct Normals {
-    normals: Vec<Vector>,
-    /// The vertices that moved, or whose faces are others than they were.
-    touched: Vec<VertexId>,
-    seen: Cursor,
-}
-
-impl Normals {
-    /// Creates the normals of a mesh. They have seen no edit yet. The cost is a walk round each vertex.
-    ///
-    /// # Panics
-    ///
-    /// If `place` does not store the position of a vertex.
-    #[must_use]
-    pub fn new(mesh: &Mesh, place: &(impl Place + ?Sized)) -> Normals {
-        Normals {
-            normals: mesh.vertices().map(|v| normal(mesh, place, v)).collect(),
-            touched: Vec::new(),
-            seen: Cursor::ASSUMED,
+#[must_use]
+pub fn normals(mesh: &Mesh, place: &(impl Place + ?Sized), crease: f64) -> Vec<Vector> {
+    let faces = FaceNormals::of(mesh, place);
+    let mut normals = vec![Vector::zeros(); mesh.half_edge_count()];
+    for first in mesh.vertices().flat_map(|v| mesh.fans(v)) {
+        let fan = faces.fan(mesh, first, crease);
+        for part in fan.chunk_by(|&one, &next| faces.are_smooth(one, next, crease)) {
+            let mean = faces.mean(part);
+            part.iter().for_each(|h| normals[h.index()] = mean);
         }
     }
+    normals
+}
 
-    /// Returns the normals of all vertices, indexed by vertex, as they were when they were last updated.
-    #[must_use]
-    pub fn as_slice(&self) -> &[Vector] {
-        &self.normals
-    }
+/// The normals of faces.
+struct FaceNormals {
+    /// As long as twice the area of the face, of which the largest is about 1.
+    spanned: Vec<Vector>,
+    units: Vec<Vector>,
+}
 
-    /// Notes that vertices moved, for the next [`update`](Normals::update). Edits of the log are noted
-    /// by themselves. Where all vertices moved, as in a step of a simulation, make new normals instead.
-    pub fn touch(&mut self, moved: impl IntoIterator<Item = VertexId>) {
-        self.touched.extend(moved);
-    }
-
-    /// Computes the normals anew of the vertices that moved or that edits touched, and of their
-    /// neighbours, and returns these vertices in ascending order.
-    ///
-    /// # Panics
-    ///
-    /// If `place` does not store the position of one of them.
-    pub fn update(&mut self, mesh: &Mesh, place: &(impl Place + ?Sized)) -> Vec<VertexId> {
-        let is_left = |v: &VertexId| v.index() < mesh.vertex_count();
-        let touched = self.touched.drain(..).filter(is_left);
-        let with_neighbours = |v| {
-            let around = mesh.faces_of(v).flat_map(|f| mesh.face_vertices(f));
-            around.chain([v])
+impl FaceNormals {
+    fn of(mesh: &Mesh, place: &(impl Place + ?Sized)) -> FaceNormals {
+        let spanned = |f| {
+            let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
+            cross(b - a, c - a)
         };
-        let mut stale: Vec<VertexId> = touched.flat_map(with_neighbours).collect();
-        stale.sort_unstable();
-        stale.dedup();
-        self.normals.resize(mesh.vertex_count(), Vector::zeros());
-        for &v in &stale {
-            self.normals[v.index()] = normal(mesh, place, v);
+        let mut spanned: Vec<Vector> = mesh.faces().map(spanned).collect();
+        let units = spanned.iter().map(|&n| unit(n).unwrap_or_default());
+        let units = units.collect();
+        let largest = spanned.iter().map(|&n| max_abs(n)).fold(0.0, f64::max);
+        // So that no product of tiny or huge ones is lost.
+        if largest > 0.0 && largest.is_finite() {
+            spanned.iter_mut().for_each(|n| *n /= largest);
         }
-        stale
+        FaceNormals { spanned, units }
+    }
+
+    /// Whether two faces at a vertex are one smooth surface.
+    fn are_smooth(&self, one: HalfEdgeId, next: HalfEdgeId, crease: f64) -> bool {
+        let [one, next] = [one, next].map(|h| self.units[h.face().index()]);
+        dot(one, next) >= crease
+    }
+
+    /// The corners of a fan in order; a closed one begins at a crease, if it has one.
+    fn fan(&self, mesh: &Mesh, first: HalfEdgeId, crease: f64) -> Vec<HalfEdgeId> {
+        let mut fan: Vec<HalfEdgeId> = mesh.fan(first).collect();
+        let is_closed = mesh.pair(first).is_some();
+        let is_crease = |&i: &usize| !self.are_smooth(fan[i - 1], fan[i], crease);
+        if let Some(at) = (1..fan.len()).find(is_crease).filter(|_| is_closed) {
+            fan.rotate_left(at);
+        }
+        fan
+    }
+
+    /// The mean normal of the faces of corners, by area.
+    fn mean(&self, corners: &[HalfEdgeId]) -> Vector {
+        let faces = corners.iter().map(|h| h.face().index());
+        let sum = faces.fold(Vector::zeros(), |sum, f| sum + self.spanned[f]);
+        unit(sum).unwrap_or(self.units[corners[0].face().index()])
     }
 }
 
-impl Follower for Normals {
-    fn cursor(&mut self) -> &mut Cursor {
-        &mut self.seen
-    }
-
-    fn follow(&mut self, edit: &Edit<'_>) {
-        match edit {
-            Edit::Split(split) => self.touch([split.old, split.new]),
-            Edit::Merge(merge) => {
-                self.touch([merge.kept]);
-                self.touch(merge.renumbered.map(|renumbered| renumbered.to));
-            }
-            Edit::Insert(insert) => self.touch(insert.points.iter().map(|point| point.vertex)),
-            Edit::Slide(slide) => self.touch([slide.vertex]),
-        }
-    }
-}
-
-fn normal(mesh: &Mesh, place: &(impl Place + ?Sized), v: VertexId) -> Vector {
-    let spanned = mesh.faces_of(v).map(|f| {
-        let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
-        cross(b - a, c - a)
-    });
-    match scaled(spanned.sum()) {
-        Some(sum) => sum / length(sum),
-        None => Vector::zeros(),
-    }
+/// A vector of length one; `None` for zero, and for one that is too long.
+fn unit(v: Vector) -> Option<Vector> {
+    let largest = max_abs(v);
+    let scaled = v / largest;
+    let length = length(scaled);
+    (largest > 0.0 && length.is_finite()).then(|| scaled / length)
 }

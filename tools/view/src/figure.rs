@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use tearmesh::geometry::{cross, dot, length, max_abs, sine_and_cosine};
-use tearmesh::{HalfEdgeId, Mesh, Place, Point, Vector, VertexId};
+use tearmesh::geometry::{cross, dot, length, sine_and_cosine};
+use tearmesh::{HalfEdgeId, Mesh, Place, Point, Vector, VertexId, engine};
 
 use crate::camera::unit;
 use crate::palette::{self, Color};
@@ -67,12 +67,16 @@ impl Figure {
             colors: numbers.into_iter().map(palette::piece).collect(),
             ..Figure::default()
         };
-        let normals = Normals::new(mesh, place);
+        let normals = engine::normals(mesh, place, crease);
+        let normal = |h: HalfEdgeId| normals[h.index()];
         for v in mesh.vertices() {
             for first in mesh.fans(v) {
-                let fan = normals.fan(mesh, first, crease);
-                for part in fan.chunk_by(|&one, &next| normals.go_on(one, next, crease)) {
-                    figure.add_corners(place.at(v), normals.mean(part), part, texture);
+                let mut fan: Vec<HalfEdgeId> = mesh.fan(first).collect();
+                // A closed fan begins at a crease, if it has one.
+                let crease = (1..fan.len()).find(|&i| normal(fan[i - 1]) != normal(fan[i]));
+                fan.rotate_left(crease.filter(|_| mesh.pair(first).is_some()).unwrap_or(0));
+                for part in fan.chunk_by(|&one, &next| normal(one) == normal(next)) {
+                    figure.add_corners(place.at(v), normal(part[0]), part, texture);
                 }
             }
         }
@@ -243,55 +247,6 @@ impl Figure {
 /// The part of the way from a flat face to the tangent planes of its corners; 3/4 is Boubekeur's and
 /// Alexa's.
 const BENT: f64 = 0.75;
-
-/// The faces' normals, of which those of corners are means.
-struct Normals {
-    /// As long as twice the area of the face, of which the largest is about 1.
-    spanned: Vec<Vector>,
-    units: Vec<Vector>,
-}
-
-impl Normals {
-    fn new(mesh: &Mesh, place: &(impl Place + ?Sized)) -> Normals {
-        let spanned = |f| {
-            let [a, b, c] = mesh.face_vertices(f).map(|v| place.at(v));
-            cross(b - a, c - a)
-        };
-        let mut spanned: Vec<Vector> = mesh.faces().map(spanned).collect();
-        let units = spanned.iter().map(|&n| unit(n).unwrap_or_default());
-        let units = units.collect();
-        let largest = spanned.iter().map(|&n| max_abs(n)).fold(0.0, f64::max);
-        // So that no product of tiny or huge ones is lost.
-        if largest > 0.0 && largest.is_finite() {
-            spanned.iter_mut().for_each(|n| *n /= largest);
-        }
-        Normals { spanned, units }
-    }
-
-    /// Whether two faces at a vertex are one smooth surface.
-    fn go_on(&self, one: HalfEdgeId, next: HalfEdgeId, crease: f64) -> bool {
-        let [one, next] = [one, next].map(|h| self.units[h.face().index()]);
-        dot(one, next) >= crease
-    }
-
-    /// The corners of a fan in order; a closed one begins at a crease, if it has one.
-    fn fan(&self, mesh: &Mesh, first: HalfEdgeId, crease: f64) -> Vec<HalfEdgeId> {
-        let mut fan: Vec<HalfEdgeId> = mesh.fan(first).collect();
-        let is_closed = mesh.pair(first).is_some();
-        let crease = |&i: &usize| !self.go_on(fan[i - 1], fan[i], crease);
-        if let Some(at) = (1..fan.len()).find(crease).filter(|_| is_closed) {
-            fan.rotate_left(at);
-        }
-        fan
-    }
-
-    /// The mean normal of the faces of corners, by area.
-    fn mean(&self, corners: &[HalfEdgeId]) -> Vector {
-        let faces = corners.iter().map(|h| h.face().index());
-        let sum = faces.fold(Vector::zeros(), |sum, f| sum + self.spanned[f]);
-        unit(sum).unwrap_or(self.units[corners[0].face().index()])
-    }
-}
 
 /// The edges that are drawn, by a half-edge of each.
 fn lines<'m>(
