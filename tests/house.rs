@@ -130,6 +130,29 @@ fn imports_of_the_kernel_run_downward() {
     assert_eq!(up, ["mesh/walk uses crate::scissor of scissor"]);
 }
 
+/// The imports of the command that go from verb to verb, or to a verb from what verbs share, each told.
+fn imports_of_verbs(files: &Files) -> Vec<String> {
+    let name = |file: usize| files.names[file].trim_end_matches(".rs");
+    let verb = |file: usize| name(file).strip_prefix("verbs/")?.split('/').next();
+    let is_wrong = |&(&(from, to), _): &(&(usize, usize), &String)| {
+        let begins = ["lib", "verbs"].contains(&name(from));
+        verb(to).is_some() && verb(from) != verb(to) && !begins
+    };
+    let told = |(&(from, to), path)| format!("{} uses {path} of {}", name(from), name(to));
+    files.edges.iter().filter(is_wrong).map(told).collect()
+}
+
+#[test]
+fn no_verb_uses_a_file_of_another() {
+    let of = |planted| files_of("tools/cli/src", "lib.rs", planted);
+    assert_eq!(imports_of_verbs(&of(None)), [""; 0]);
+    for file in ["verbs/play.rs", "say.rs"] {
+        let planted = "\nfn planted() { crate::verbs::cut::run(); }";
+        let wrong = imports_of_verbs(&of(Some((file, planted))));
+        assert_eq!(wrong.len(), 1, "{wrong:?}");
+    }
+}
+
 /// Shows the files of the kernel, by their paths without `.rs`, but for the first, and their words.
 fn for_kernel(check: impl Fn(&str, &[String])) {
     let files = files_of("src", "lib.rs", None);

@@ -5,21 +5,20 @@
 //! [`guide`] is the guide to the command: how to cut a file, all codes, and all keys of its report and
 //! of scene files.
 //!
-//! Map: `args` defines the arguments, `choice` the words in them, `rays` reads rays, and `scene` reads scenes. `cut`,
-//! `tear`, `mend`, `check`, `render`, `view`, `play` and `chart` carry out the verbs, and `shell` prints completions and manual
-//! pages. `session` is shared by the verbs that change a mesh, `report` is their JSON report, and `picture`
-//! and `page` show their results. `weld` warns of seams that are not sewn, and sews them. `defects` describes the defects of a mesh, `measure` measures it, and
-//! `say` prints diagnostics. `output` writes files atomically, and `files` checks their paths. `bug` writes
-//! a reproducer if an invariant is violated. `streams` holds the streams of a run, and `exit` its status.
+//! Map, from above: `verbs` carry out what is typed, each in a file of its own that no other one uses. `args`
+//! defines the arguments, and `choice` the words in them. The rest is shared by the verbs. `session` is for those
+//! that change a mesh, `report` is their JSON report, and `picture` and `page` show their results. `rays` reads rays,
+//! `cuts` makes scissors of them, `scene` reads scenes, and `simulation` begins to play them. `weld` warns of seams
+//! that are not sewn, and sews them. `defects` describes the defects of a mesh, `measure` measures it, and `say`
+//! prints diagnostics. `output` writes files atomically, and `files` checks their paths. `bug` writes a reproducer if
+//! an invariant is violated. `streams` holds the streams of a run, and `exit` its status.
 
 #![forbid(unsafe_code)]
 
 mod args;
 mod bug;
-mod chart;
-mod check;
 mod choice;
-mod cut;
+mod cuts;
 mod defects;
 mod exit;
 mod files;
@@ -27,21 +26,17 @@ pub mod guide;
 mod input;
 mod interrupt;
 mod measure;
-mod mend;
 mod output;
 mod page;
 mod picture;
-mod play;
 mod rays;
-mod render;
 mod report;
 mod say;
 mod scene;
 mod session;
-mod shell;
+mod simulation;
 mod streams;
-mod tear;
-mod view;
+mod verbs;
 mod weld;
 
 use std::ffi::OsString;
@@ -51,7 +46,7 @@ pub use interrupt::interrupt;
 pub use output::abandon as abandon_output;
 pub use streams::Streams;
 
-use args::{Args, Verb};
+use args::Args;
 use say::Color;
 
 /// Runs the command with these arguments, the first of which is the name of the program. Returns the exit
@@ -59,22 +54,7 @@ use say::Color;
 pub fn run(args: impl IntoIterator<Item = OsString>, mut streams: Streams<'_>) -> Exit {
     let args: Vec<OsString> = args.into_iter().collect();
     match Args::read(&args).map(|args| args.verb) {
-        Ok(Verb::Cut(cut)) => cut::run(&cut, &args, &mut streams),
-        Ok(Verb::Tear(tear)) => tear::run(&tear, &args, &mut streams),
-        Ok(Verb::Mend(mend)) => mend::run(&mend, &args, &mut streams),
-        Ok(Verb::Render(args)) => args.look.run(&mut streams, |faults, streams| {
-            render::run(&args, faults, streams)
-        }),
-        Ok(Verb::View(args)) => args.look.run(&mut streams, |faults, streams| {
-            view::run(&args, faults, streams)
-        }),
-        Ok(Verb::Play(args)) => args.look.run(&mut streams, |faults, streams| {
-            play::run(&args, faults, streams)
-        }),
-        Ok(Verb::Check(check)) => check::run(&check, &mut streams),
-        Ok(Verb::Chart(chart)) => chart::run(&chart, &args, &mut streams),
-        Ok(Verb::Completions(shell)) => shell::complete(&shell, &mut streams),
-        Ok(Verb::Man(man)) => shell::man(&man, &mut streams),
+        Ok(verb) => verbs::run(&verb, &args, &mut streams),
         Err(answer) => {
             let is_help = !answer.use_stderr();
             let is_terminal = match is_help {

@@ -1,11 +1,8 @@
 //! The verb `cut`.
 
 mod map;
-pub(crate) mod no_op;
 mod pieces;
-pub(crate) mod scissors;
 mod seam;
-pub(crate) mod summary;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -18,11 +15,12 @@ use tearmesh::{
 use tearmesh_obj::TornDocument;
 
 use self::map::Map;
-use self::no_op::NoOpReason;
 use self::pieces::Pieces;
-use self::scissors::{Along, no_plane};
 use crate::args::{CutArgs, Gap, Mass};
 use crate::choice::Choice as _;
+use crate::cuts::no_op::{self, NoOpReason};
+use crate::cuts::scissors::{self, Along, no_plane};
+use crate::cuts::summary;
 use crate::exit::{Exit, Stop};
 use crate::files::Names;
 use crate::measure::{Bounds, Edges, written_area};

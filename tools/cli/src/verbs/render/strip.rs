@@ -8,8 +8,8 @@ use crate::exit::{Exit, Stop};
 use crate::picture::{Texture, no_camera, with_bodies};
 use crate::scene::SceneFile;
 use crate::session::Opened;
+use crate::simulation;
 use crate::streams::Streams;
-use crate::tear;
 
 /// Plays a scene and draws so many moments of it, at equal times: from the step before the first tear, or the
 /// beginning if nothing tears, to the end.
@@ -26,7 +26,7 @@ pub(super) fn draw(
     let begin = || {
         let mut scene = source.scene(&frame, None)?;
         scene.duration_s = args.seconds.unwrap_or(scene.duration_s);
-        tear::begin(scene, opened, &frame, &source)
+        simulation::begin(scene, opened, &frame, &source)
     };
     let mut run = begin()?;
     // It is played twice.
@@ -80,5 +80,5 @@ const BAR: &str = "{bar:40} {percent} %, {eta} left";
 /// Takes a step that has to be good.
 fn step(run: &mut Run) -> Result<(), Stop> {
     let stepped = run.step().map(|_| ());
-    stepped.map_err(|error| Stop::new(Exit::Simulation, tear::advice::failure(&error, run)))
+    stepped.map_err(|error| Stop::new(Exit::Simulation, simulation::failure(&error, run)))
 }

@@ -12,7 +12,7 @@ use crate::picture::no_camera;
 use crate::say::{Fault, count, shown};
 use crate::session;
 use crate::streams::Streams;
-use crate::{files, output, page, play};
+use crate::{files, output, page};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -22,21 +22,6 @@ pub(crate) fn run(
 ) -> Result<String, Stop> {
     // What was typed is refused before large files are read.
     let inputs = inputs(args)?;
-    if args.play {
-        let [input] = &inputs[..] else {
-            let message = "a page to play on has one mesh";
-            return Err(Stop::usage(message, "name one file, or leave out --play"));
-        };
-        let args = PlayArgs {
-            weld: None,
-            input: Some(input.clone()),
-            scene: "rip".to_owned(),
-            up: None,
-            output: args.output.clone(),
-            look: args.look.clone(),
-        };
-        return play::run(&args, faults, streams);
-    }
     let unnamed = || named_like(&args.inputs[0]);
     let output = page::place(args.output.as_ref(), unnamed, &inputs)?;
     let options = match session::repair(args.look.repair, args.look.separate_fans) {
@@ -76,6 +61,22 @@ pub(crate) fn run(
     let (pieces, output) = (count(pieces, "piece", "pieces"), shown(&output));
     let words = format!("view: {moments}{vertices}, {faces}, {pieces} · wrote {output}");
     Ok(words)
+}
+
+/// The arguments of a page to play on.
+pub(super) fn to_play(args: &ViewArgs) -> Result<PlayArgs, Stop> {
+    let [input] = &inputs(args)?[..] else {
+        let message = "a page to play on has one mesh";
+        return Err(Stop::usage(message, "name one file, or leave out --play"));
+    };
+    Ok(PlayArgs {
+        weld: None,
+        input: Some(input.clone()),
+        scene: "rip".to_owned(),
+        up: None,
+        output: args.output.clone(),
+        look: args.look.clone(),
+    })
 }
 
 /// The files that are shown.

@@ -24,7 +24,7 @@ pub(crate) enum NoOpReason {
 ///
 /// Cuts without the snap, and beyond the rays, are tried on a copy, so that the advice to make one
 /// works.
-pub(super) fn reason(
+pub(crate) fn reason(
     (scissor, method, snap): (&Scissor, CutMethod, f64),
     through: bool,
     (mesh, positions): (&Mesh, &Positions),

@@ -1,7 +1,7 @@
 //! The verb `tear`.
 
-pub(crate) mod advice;
-pub(crate) mod check;
+mod advice;
+mod check;
 mod frames;
 mod precision;
 mod recorder;
@@ -14,9 +14,9 @@ use std::io::Write;
 use std::time::Instant;
 
 use indicatif::ProgressBar;
-use tearmesh::{Cursor, CutReport, Scissor, VertexId};
+use tearmesh::{Cursor, CutReport, Scissor};
 use tearmesh_cloth::scene::ensemble::Subject;
-use tearmesh_cloth::scene::{Frame, Region, Run, Scene, TearLog, TimedCut};
+use tearmesh_cloth::scene::{Frame, Run, Scene, TearLog, TimedCut};
 use tearmesh_cloth::{StepError, Tearing, Threshold};
 use tearmesh_obj::TornDocument;
 
@@ -25,16 +25,15 @@ use self::precision::Precision;
 use self::recorder::Recorder;
 use self::still::Still;
 use crate::args::{Format, TearArgs};
-use crate::cut::no_op::NoOpReason;
+use crate::cuts::no_op::NoOpReason;
 use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::measure::Piece;
 use crate::picture::{Texture, with_bodies};
-use crate::say::Fault;
 use crate::scene::SceneFile;
 use crate::session::{Opened, Session, milliseconds};
 use crate::streams::Streams;
-use crate::{files, output, report, weld};
+use crate::{cuts, files, output, report, simulation, weld};
 
 /// Simulates, says what was done, and gives the exit status. `typed` is for the reproducer.
 pub(crate) fn run(args: &TearArgs, typed: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -61,16 +60,16 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
     let mut scene = source.scene(&frame, args.solver.as_ref())?;
     settle(args, cuts, &mut scene);
-    check::tearing(args.threshold_newton.is_some(), &scene, &source)?;
+    simulation::tearing(args.threshold_newton.is_some(), &scene, &source)?;
     check::known_forces(args, &scene)?;
-    let run = begin(scene, &opened, &frame, &source)?;
+    let run = simulation::begin(scene, &opened, &frame, &source)?;
     check::points_stay(args, &run, &source)?;
     let precision = Precision::new(args.cache_origin, &opened.mesh, &opened.positions);
     if args.cache.is_some() {
         let name = |v| format!("vertex {}", opened.document.number_of_vertex(v));
         precision.check(|| opened.positions.as_slice().iter().copied(), name)?;
     }
-    record_seams(&run, &mut opened, &source)?;
+    simulation::record_seams(&run, &mut opened, &source)?;
     session.faults.extend(check::moved(&opened));
     let number = |v| opened.document.number_of_vertex(v);
     session.faults.extend(advice::before(&run, &frame, &number));
@@ -85,35 +84,6 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         guard: Guard::new(),
     };
     play.perform(run, session)
-}
-
-/// A scene that is about to begin, or why it cannot.
-pub(crate) fn begin(
-    mut scene: Scene,
-    opened: &Opened,
-    frame: &Frame,
-    source: &SceneFile,
-) -> Result<Run, Stop> {
-    name_vertices(&mut scene, opened);
-    scene.rest = check::rest(opened, source)?;
-    let run = Run::new(opened.mesh.clone(), &opened.positions, scene, frame);
-    run.map_err(|error| check::refused(&error, opened, source))
-}
-
-/// Has the record of the file that is written say which vertices are copies of one that is sewn.
-pub(crate) fn record_seams(run: &Run, opened: &mut Opened, source: &SceneFile) -> Result<(), Stop> {
-    if run.scene().seams.is_empty() {
-        return Ok(());
-    }
-    if opened.document.has_record() {
-        let message = "a file that was torn has no panels to be sewn";
-        let help = "sew the panels in the file from before it was torn";
-        return Err(check::clash(source, ("seam", 0, ""), message, help));
-    }
-    let torn = opened.document.clone().torn_from(&run.mesh().roots());
-    let torn = torn.map_err(|error| Fault::error("E-SCENE-SEAM", error.to_string()));
-    opened.document = torn?.0;
-    Ok(())
 }
 
 /// Puts what was typed in the place of what the scene says.
@@ -131,29 +101,6 @@ fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
     }
     if !cuts.is_empty() {
         scene.cuts = cuts;
-    }
-}
-
-/// A scene names vertices by their numbers in the file, among which copies for fans may be. A number
-/// that no `v` has stays one that no vertex has.
-fn name_vertices(scene: &mut Scene, opened: &Opened) {
-    let holds = scene.holds.iter_mut().map(|hold| &mut hold.region);
-    let strengths = scene.strengths.iter_mut().map(|(region, _)| region);
-    let named = holds.chain(strengths).filter_map(|region| match region {
-        Region::Vertices(named) => Some(named),
-        _ => None,
-    });
-    let sides = scene.seams.iter_mut();
-    let sides = sides.flat_map(|seam| [&mut seam.one, &mut seam.other]);
-    for vertex in named.chain(sides).flatten() {
-        let known = match &opened.welded {
-            Some(welded) => welded.get(vertex.index()).copied(),
-            None => {
-                let known = opened.document.vertex_of_number(vertex.index() + 1);
-                known.and_then(VertexId::new)
-            }
-        };
-        *vertex = known.unwrap_or(*vertex);
     }
 }
 
@@ -284,7 +231,7 @@ impl Play<'_> {
             exit => exit,
         };
         if let Err(error) = ended {
-            session.faults.push(advice::failure(&error, &run));
+            session.faults.push(simulation::failure(&error, &run));
             if tally.steps == 0 && run.edits().cursor() == Cursor::START {
                 session.words.clear();
                 return self.finish(records, &run, session);
@@ -404,10 +351,10 @@ impl Play<'_> {
         let entry = report::Cut::new(Some(&cut.rays), &scissor, how, done, None);
         let many = (scene.cuts.len() > 1).then_some(number + 1);
         let at = crate::say::short(cut.at_s);
-        let line = crate::cut::summary::cut(many, done);
+        let line = cuts::summary::cut(many, done);
         session.words.push(format!("{line} · at {at} s"));
         // The cloth has moved since, and there is no snap to choose.
-        let warnings = crate::cut::summary::warnings(many, &entry, NoOpReason::Unknown, None);
+        let warnings = cuts::summary::warnings(many, &entry, NoOpReason::Unknown, None);
         session.faults.extend(warnings);
         session.report.cuts.push(entry);
     }

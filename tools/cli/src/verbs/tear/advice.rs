@@ -1,14 +1,14 @@
-//! The table of the warnings and errors of a simulation: before its first step, at its end, and where
-//! it failed. [`Warning`] documents the subject of each warning, and when it is due.
+//! The table of the warnings of a simulation: before its first step, and at its end. [`Warning`] documents the
+//! subject of each warning, and when it is due.
 
-use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{EnergyGain, Frame, Run, Warning};
-use tearmesh_cloth::{BlowUpSite, Method, Softness, StepError, StepLimit};
+use tearmesh_cloth::{Method, Softness};
 
 use super::frames::RATE_PER_S;
 use super::summary::has_limited;
 use crate::args::TearArgs;
 use crate::say::{Fault, count, short, three_digits, two_digits};
+use crate::simulation::state_kept;
 
 /// What is known before the first step. `number` is that of a vertex in its file.
 pub(crate) fn before(run: &Run, frame: &Frame, number: &dyn Fn(usize) -> usize) -> Vec<Fault> {
@@ -231,10 +231,6 @@ pub(super) fn has_exploded(run: &Run) -> bool {
     run.energy_gain().is_some_and(is_absurd) && !has_limited(run)
 }
 
-fn state_kept(run: &Run) -> String {
-    format!("the state after {} s is kept", short(run.elapsed_s()))
-}
-
 /// How many steps were taken; where they were divided, and the method had each part, how many parts.
 fn of_steps(run: &Run) -> String {
     let substeps = run.cloth().system().counters().substeps;
@@ -273,104 +269,6 @@ pub(super) fn times(run: &Run, args: &TearArgs) -> Vec<Fault> {
         faults.push(Fault::warning("W-FRAMES-FEW", message).help(help));
     }
     faults
-}
-
-/// Why the simulation failed, with vertices counted as in OBJ, and what would help.
-pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
-    let edge = |[a, b]: [usize; 2]| format!(" at edge {}-{}", a + 1, b + 1);
-    let half = two_digits(run.step_s() / 2.0);
-    // What is torn later may need still shorter steps.
-    let part = if run.elapsed_s() > 0.0 { 0.5 } else { 1.0 };
-    let (message, help) = match *error {
-        StepError::Unstable {
-            given_s,
-            limit_s,
-            by,
-        } => {
-            let is_verlet = matches!(run.scene().solver, Method::Verlet);
-            let (why, or) = match by {
-                StepLimit::Springs(frequency) => {
-                    let at = frequency.ends.map(edge).unwrap_or_default();
-                    let omega = short(frequency.omega_rad_per_s.round());
-                    let or = if is_verlet {
-                        ""
-                    } else {
-                        ", or --solver verlet"
-                    };
-                    (format!("bound of frequencies {omega} rad/s{at}"), or)
-                }
-                StepLimit::Air(rate) => {
-                    let (vertex, per_s) = (rate.particle + 1, short(rate.rate_per_s.round()));
-                    let why = format!("the air slows vertex {vertex} at a rate of {per_s} /s");
-                    (why, "")
-                }
-            };
-            let limit = two_digits(limit_s);
-            (
-                format!("dt {given_s} s exceeds the stability limit {limit} s ({why})"),
-                format!("--dt {}{or}", two_digits(limit_s * part)),
-            )
-        }
-        StepError::Implicit { error, .. } => {
-            let (why, or) = unsolved(&error);
-            let message = format!("an implicit step of {} s {why}", short(run.step_s()));
-            (message, format!("--dt {half}, --solver verlet{or}"))
-        }
-        _ => {
-            let message = match *error {
-                StepError::BlowUp { at, .. } => format!("the simulation blew up{}", place(at)),
-                ref other => other.to_string(),
-            };
-            let help = match run.scene().step_s {
-                Some(_) => format!("--dt {half}, or --solver implicit"),
-                None => "--solver implicit".to_owned(),
-            };
-            (message, help)
-        }
-    };
-    let after = match run.elapsed_s() {
-        0.0 => String::new(),
-        _ => format!("; {}", state_kept(run)),
-    };
-    Fault::error(error.code(), message + &after).help(help)
-}
-
-/// Where a simulation blew up.
-fn place(at: BlowUpSite) -> String {
-    let (place, ratio) = match at {
-        BlowUpSite::Constraint([a, b], stretch_ratio) => {
-            (format!("edge {}-{}", a + 1, b + 1), stretch_ratio)
-        }
-        BlowUpSite::Bend([a, b], stretch_ratio) => {
-            let place = format!("the bend between the vertices {} and {}", a + 1, b + 1);
-            (place, stretch_ratio)
-        }
-        BlowUpSite::Particle(particle) | BlowUpSite::Beyond(particle) => {
-            return format!(": vertex {} has no finite position", particle + 1);
-        }
-        _ => return String::new(),
-    };
-    let ratio = short(ratio);
-    format!(" at {place}, which is {ratio} times its rest length")
-}
-
-/// What an implicit step left undone, and which key of a scene file can help beside a shorter step.
-fn unsolved(error: &implicit::StepError) -> (String, &'static str) {
-    match error {
-        implicit::StepError::NotConverged {
-            residual,
-            limit,
-            solver_iterations,
-        } => {
-            let (error, limit) = (short(*residual), short(*limit));
-            let why = format!(
-                "leaves an error of {error} m/s after {solver_iterations} iterations of the linear solver, \
-                 and the tolerance allows {limit} m/s"
-            );
-            (why, ", or a larger `tolerance` in [solver] of a scene file")
-        }
-        _ => (format!("failed: {error}"), ""),
-    }
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ impl Along {
 }
 
 /// What was given for each cut.
-pub(super) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Along>, Stop> {
+pub(crate) fn cuts(args: &CutArgs, streams: &mut Streams<'_>) -> Result<Vec<Along>, Stop> {
     if !args.plane.is_empty() {
         let planes = args.plane.iter().map(|text| rays::plane(text, "--plane"));
         return planes.map(|plane| Ok(Along::Plane(plane?))).collect();
@@ -87,7 +87,7 @@ fn seen(args: &CameraArgs, look: [Point; 2]) -> Result<Vec<Pair>, Fault> {
 const POINTS_HELP: &str = "write both in pixels from the top left, as in --points 200,300 600,250";
 
 /// Says that two rays make no scissor, and what would.
-pub(super) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
+pub(crate) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
     if error == ScissorError::NoLength {
         return Fault::error("E-RAY-SHORT", error.to_string()).help(SHORT_HELP);
     }
@@ -100,7 +100,7 @@ pub(super) fn no_plane(pair: &Pair, error: ScissorError) -> Fault {
 const SHORT_HELP: &str = "leave out one of the points, or cut with a smaller --snap";
 
 /// Says why a mesh is not cut; the number is that of the cut, where there are several.
-pub(super) fn refused(number: Option<usize>, error: CutError, positions: &Positions) -> Fault {
+pub(crate) fn refused(number: Option<usize>, error: CutError, positions: &Positions) -> Fault {
     let at = |p: Point| place(p.into());
     let (code, message, help) = match error {
         CutError::RaysCross { at: crossing } => {

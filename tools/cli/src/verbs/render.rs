@@ -8,7 +8,7 @@ use tearmesh::{Ray, Scissor};
 use tearmesh_view::{Camera, RenderOptions, fit, write_drawn};
 
 use crate::args::RenderArgs;
-use crate::cut::scissors::of_rays;
+use crate::cuts::scissors::of_rays;
 use crate::exit::Stop;
 use crate::picture::Texture;
 use crate::say::{Fault, count, shown};

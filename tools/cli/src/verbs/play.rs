@@ -14,7 +14,7 @@ use crate::say::{Fault, count, printable, shown};
 use crate::scene::SceneFile;
 use crate::session::{self, Opened};
 use crate::streams::Streams;
-use crate::{output, page, tear, weld};
+use crate::{output, page, simulation, weld};
 
 /// Makes what is shown, and gives the summary; none if the page is on standard output.
 pub(crate) fn run(
@@ -45,9 +45,9 @@ pub(crate) fn run(
         if is_file {
             let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
             let scene = source.scene(&frame, None)?;
-            tear::check::tearing(false, &scene, &source)?;
-            let run = tear::begin(scene, &opened, &frame, &source)?;
-            tear::record_seams(&run, &mut opened, &source)?;
+            simulation::tearing(false, &scene, &source)?;
+            let run = simulation::begin(scene, &opened, &frame, &source)?;
+            simulation::record_seams(&run, &mut opened, &source)?;
             faults.extend(left(run.scene()));
             made.plan = Some(serde_json::to_string(run.scene()).expect("a scene is data"));
         }
