@@ -37,77 +37,43 @@
 
 pub use tearmesh;
 
-pub mod air;
-mod balance;
-mod bend;
-mod blow_up;
-mod body;
-mod collide;
-mod constraint;
-mod contact;
-mod crush;
-mod damping;
+mod cloth;
 #[cfg(feature = "serde")]
 mod data;
-pub mod energy;
-mod fabric;
-mod follow;
-pub mod force;
-mod guard;
 pub mod guide;
-mod held_set;
-pub mod implicit;
-mod incidence;
-mod load;
-mod mass_scaling;
-mod matrix;
 mod method;
-mod motion;
-mod pair;
-mod path;
-mod provot;
 pub mod scene;
-mod seam;
-mod sheet;
 mod simulation;
-mod solver;
-mod spring;
-mod stability;
 pub mod statistics;
-mod step;
 mod system;
-mod tearing;
-mod triangle;
-mod verlet;
-mod weave;
-mod xpbd;
 
-pub use air::AirRate;
-pub use balance::{Balance, EnergyBalance};
-pub use bend::Buckling;
-pub use blow_up::BlowUpSite;
-pub use body::{Body, BodyError};
-pub use constraint::{Constraint, ConstraintId, Constraints};
-pub use fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};
-pub use guard::Frequency;
-pub use implicit::Implicit;
-pub use load::{Collider, ColliderShape, Loads, Wind};
+pub use cloth::fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};
+pub use cloth::seam::{Seam, SeamError, SeamFault};
+pub use cloth::tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
+pub use cloth::{Cloth, ClothError};
+pub use method::implicit::{self, Implicit};
+pub use method::provot::{Limiter, Provot};
+pub use method::solver::{Abilities, Failure, LimiterStats, Quality, Solver, StepError, StepLimit};
+pub use method::stability::{frequency_bound, recommended_step_s, stable_step_s};
+pub use method::verlet::Verlet;
+pub use method::xpbd::{Pbd, Xpbd};
 pub use method::{FRAME_S, Method, Softness};
-pub use path::{Path, Pose, RigidMotion};
-pub use provot::{Limiter, Provot};
-pub use seam::{Seam, SeamError, SeamFault};
-pub use sheet::{Cloth, ClothError};
 pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
     Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
 };
-pub use solver::{Abilities, Failure, LimiterStats, Quality, Solver, StepError, StepLimit};
-pub use stability::{frequency_bound, recommended_step_s, stable_step_s};
+pub use system::air::{self, AirRate};
+pub use system::balance::{Balance, EnergyBalance};
+pub use system::bend::Buckling;
+pub use system::blow_up::BlowUpSite;
+pub use system::body::{Body, BodyError};
+pub use system::constraint::{Constraint, ConstraintId, Constraints};
+pub use system::guard::Frequency;
+pub use system::load::{Collider, ColliderShape, Loads, Wind};
+pub use system::path::{Path, Pose, RigidMotion};
+pub use system::triangle::Triangle;
 pub use system::{Counters, FeatureVisits, SettingError, System, SystemError, Unstable, Visits};
-pub use tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
-pub use triangle::Triangle;
-pub use verlet::Verlet;
-pub use xpbd::{Pbd, Xpbd};
+pub use system::{energy, force};
 
 /// The library's example in the README is a test.
 #[cfg(doctest)]

@@ -1,15 +1,25 @@
 //! The methods that advance a cloth, as data with their settings; the step that suits each, and how soft
 //! those that sweep leave a cloth at a step.
 
-use crate::fabric::Fabric;
-use crate::guard::Guard;
-use crate::implicit::{Implicit, Settings};
-use crate::provot::{Limiter, Provot};
-use crate::solver::Solver;
-use crate::stability::whole_step_s;
+pub mod implicit;
+pub(crate) mod motion;
+pub(crate) mod provot;
+pub(crate) mod solver;
+mod spring;
+pub(crate) mod stability;
+mod step;
+pub(crate) mod verlet;
+pub(crate) mod xpbd;
+
+use self::implicit::{Implicit, Settings};
+use self::provot::{Limiter, Provot};
+use self::solver::Solver;
+use self::stability::whole_step_s;
+use self::verlet::Verlet;
+use self::xpbd::{Pbd, Xpbd};
+use crate::cloth::fabric::Fabric;
 use crate::system::System;
-use crate::verlet::Verlet;
-use crate::xpbd::{Pbd, Xpbd};
+use crate::system::guard::Guard;
 
 /// A method that advances a cloth, with its settings.
 ///

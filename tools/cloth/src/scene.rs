@@ -22,11 +22,11 @@ pub use warning::Warning;
 use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, Scissor, ScissorError, VertexId};
 
-use crate::fabric::Fabric;
-use crate::load::{Collider, Loads, Wind};
+use crate::cloth::fabric::Fabric;
+use crate::cloth::seam::Seam;
 use crate::method::Method;
-use crate::seam::Seam;
 use crate::system::error::SettingError;
+use crate::system::load::{Collider, Loads, Wind};
 
 /// The plan of a simulation: the fabric, the method, and the timed events.
 #[must_use]

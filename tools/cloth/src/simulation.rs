@@ -35,13 +35,13 @@ use self::hand::Hands;
 use self::heal::Healing;
 use self::log::Record;
 use self::seams::Seams;
-use crate::balance::Balance;
-use crate::held_set::HeldSet;
-use crate::load::{Loads, Wind};
+use crate::cloth::held_set::HeldSet;
+use crate::cloth::tearing::{Tear, TearReport};
+use crate::cloth::{Cloth, ClothError};
+use crate::method::solver::{Solver, StepError};
 use crate::method::speed_m_per_s;
-use crate::sheet::{Cloth, ClothError};
-use crate::solver::{Solver, StepError};
-use crate::tearing::{Tear, TearReport};
+use crate::system::balance::Balance;
+use crate::system::load::{Loads, Wind};
 
 /// A cloth with its mesh, in motion.
 ///

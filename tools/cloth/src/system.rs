@@ -5,9 +5,29 @@
 //! triangles of particles that resist stretch and shear. A chain, a net or a cloth is one. Units
 //! are SI throughout: metres, kilograms, seconds, newtons.
 
+pub mod air;
+pub(crate) mod balance;
+pub(crate) mod bend;
+pub(crate) mod blow_up;
+pub(crate) mod body;
+pub(crate) mod collide;
+pub(crate) mod constraint;
+pub(crate) mod contact;
 pub(crate) mod counters;
+pub(crate) mod crush;
+mod damping;
+pub mod energy;
 pub(crate) mod error;
+pub mod force;
+pub(crate) mod guard;
+pub(crate) mod incidence;
+pub(crate) mod load;
+pub(crate) mod mass_scaling;
+pub(crate) mod matrix;
 pub(crate) mod model;
+pub(crate) mod pair;
+pub(crate) mod path;
+pub(crate) mod triangle;
 
 pub use counters::{Counters, FeatureVisits, Visits};
 pub use error::{SettingError, SystemError};
@@ -16,15 +36,14 @@ pub(crate) use model::{Model, Recorded};
 use tearmesh::Mix;
 use tearmesh::geometry::{Point, Vector, check_point};
 
-use crate::bend::Buckling;
-use crate::constraint::{Constraint, ConstraintId, Constraints};
-use crate::contact::{Contact, Looks, Pressed};
-use crate::guard::Guard;
-use crate::incidence::room_for;
-use crate::load::Loads;
-use crate::pair;
-use crate::path::Path;
-use crate::triangle::Triangle;
+use self::bend::Buckling;
+use self::constraint::{Constraint, ConstraintId, Constraints};
+use self::contact::{Contact, Looks, Pressed};
+use self::guard::Guard;
+use self::incidence::room_for;
+use self::load::Loads;
+use self::path::Path;
+use self::triangle::Triangle;
 
 /// A mass-spring system: particles, constraints, triangles and loads.
 ///

@@ -3,9 +3,9 @@
 use tearmesh::geometry::{Ray, Vector};
 
 use super::{Axis, Frame, HeldVertices, Region, Scene, SwayingWind, TimedCut};
-use crate::fabric::Fabric;
-use crate::load::Wind;
+use crate::cloth::fabric::Fabric;
 use crate::method::Method;
+use crate::system::load::Wind;
 use crate::{Tearing, Threshold};
 
 /// A built-in scene, for a mesh with a frame.

@@ -20,16 +20,16 @@ use tearmesh::{Cursor, CutReport, Edits, Mesh, PositionError, Positions, VertexI
 use self::gain::Watch;
 use self::held::Held;
 use super::{Frame, Scene, SwayingWind};
-use crate::balance::{Balance, EnergyBalance};
-use crate::blow_up::BlowUpSite;
-use crate::energy::{elastic_j, kinetic_j, potential_j};
+use crate::cloth::Cloth;
+use crate::cloth::tearing::TearReport;
 use crate::method::Softness;
-use crate::path::Path;
-use crate::sheet::Cloth;
+use crate::method::solver::{Quality, Solver, StepError};
 use crate::simulation::{InputError, Simulation, SimulationDef, SimulationError};
-use crate::solver::{Quality, Solver, StepError};
+use crate::system::balance::{Balance, EnergyBalance};
+use crate::system::blow_up::BlowUpSite;
+use crate::system::energy::{elastic_j, kinetic_j, potential_j};
+use crate::system::path::Path;
 use crate::system::{SettingError, Unstable};
-use crate::tearing::TearReport;
 
 /// A scene in progress, with its mesh and its cloth.
 ///

@@ -7,10 +7,10 @@ use tearmesh::{HalfEdgeId, Point, VertexId};
 
 use super::HeldVertices;
 use super::run::Run;
-use crate::balance::AIR_S;
-use crate::force;
+use crate::cloth::tearing::TearReport;
 use crate::method::{FRAME_S, Method};
-use crate::tearing::TearReport;
+use crate::system::balance::AIR_S;
+use crate::system::force;
 
 /// A step in which something tore.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,11 +2,11 @@
 
 use super::run::EnergyGain;
 use super::{Frame, Run};
-use crate::guard::Frequency;
-use crate::load::ColliderShape;
+use crate::method::solver::{LimiterStats, Quality};
+use crate::method::stability::frequency_bound;
 use crate::method::{Method, Softness, speed_m_per_s};
-use crate::solver::{LimiterStats, Quality};
-use crate::stability::frequency_bound;
+use crate::system::guard::Frequency;
+use crate::system::load::ColliderShape;
 
 /// A reason to doubt what a run shows of its cloth.
 ///

@@ -2,12 +2,12 @@
 
 use tearmesh::{Point, Vector};
 
-use crate::fabric::Fabric;
-use crate::load::Loads;
+use crate::cloth::fabric::Fabric;
+use crate::cloth::seam::Seam;
+use crate::cloth::tearing::Tearing;
 use crate::method::Method;
-use crate::seam::Seam;
 use crate::system::Unstable;
-use crate::tearing::Tearing;
+use crate::system::load::Loads;
 
 /// The definition of a simulation beside its mesh.
 #[derive(Clone, Debug)]

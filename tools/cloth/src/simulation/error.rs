@@ -7,11 +7,11 @@ use tearmesh::{CutError, PositionError, VertexId};
 
 use super::hand::HandId;
 use super::report::CutId;
-use crate::seam::SeamError;
-use crate::sheet::ClothError;
-use crate::solver::StepError;
+use crate::cloth::ClothError;
+use crate::cloth::seam::SeamError;
+use crate::cloth::tearing::TearingError;
+use crate::method::solver::StepError;
 use crate::system::SettingError;
-use crate::tearing::TearingError;
 
 /// The reason why a simulation was refused.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,9 +9,9 @@
 use tearmesh::geometry::{Point, length};
 use tearmesh::{Edit, VertexId};
 
-use crate::held_set::HeldSet;
+use crate::cloth::held_set::HeldSet;
 use crate::method::FRAME_S;
-use crate::path::Path;
+use crate::system::path::Path;
 
 /// The id of a hand of a [`Simulation`](super::Simulation). No two hands of a simulation have the same, at
 /// whatever times they hold.

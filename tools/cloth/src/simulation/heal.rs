@@ -13,10 +13,10 @@ use tearmesh::{Edit, HalfEdgeId, Mesh, VertexId};
 
 use super::hand::Hands;
 use super::report::CutId;
-use crate::held_set::now;
-use crate::sheet::Cloth;
+use crate::cloth::Cloth;
+use crate::cloth::held_set::now;
+use crate::cloth::tearing::Threshold;
 use crate::system::System;
-use crate::tearing::Threshold;
 
 /// The wounds that are to heal: see [`Simulation::heal`](super::Simulation::heal).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use tearmesh::{Cut, Edit, HalfEdgeId, Insert, Mesh};
 
 use super::error::{InputError, SimulationError};
 use super::report::CutId;
-use crate::follow::lies_on;
-use crate::seam::{Seam, joined};
+use crate::cloth::follow::lies_on;
+use crate::cloth::seam::{Seam, joined};
 
 /// Which cut tore each link, and of which seam it is.
 #[derive(Clone, Debug)]

@@ -3,15 +3,15 @@
 use tearmesh::geometry::{Point, Vector};
 
 use super::counters::Counters;
-use crate::blow_up::BlowUpSite;
-use crate::constraint::Constraints;
-use crate::crush::Crush;
-use crate::load::Loads;
-use crate::mass_scaling::MassScaling;
-use crate::matrix::{Hessian, Weights};
-use crate::pair::{self, Pull};
-use crate::path::Path;
-use crate::triangle::Triangles;
+use crate::system::blow_up::BlowUpSite;
+use crate::system::constraint::Constraints;
+use crate::system::crush::Crush;
+use crate::system::load::Loads;
+use crate::system::mass_scaling::MassScaling;
+use crate::system::matrix::{Hessian, Weights};
+use crate::system::pair::{self, Pull};
+use crate::system::path::Path;
+use crate::system::triangle::Triangles;
 
 /// All but positions and velocities.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +23,7 @@ pub(crate) struct Model {
     pub(crate) stretch: Constraints,
     pub(crate) bend: Constraints,
     pub(crate) triangles: Triangles,
-    /// The time τ of the damping of stretch constraints ([`damping`](crate::damping)).
+    /// The time τ of the damping of stretch constraints ([`damping`](crate::system::damping)).
     pub(crate) damping_s: f64,
     /// Whether the method of the last step damps.
     pub(crate) is_damped: bool,

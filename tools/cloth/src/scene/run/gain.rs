@@ -8,9 +8,9 @@
 //! 16.6 J, and all others lost 1.4 J. With half the step it was 12 that turned.) So the balance of
 //! energy is judged at every frame of 1/60 s; see [`EnergyBalance`].
 
-use crate::balance::EnergyBalance;
 use crate::method::FRAME_S;
 use crate::system::System;
+use crate::system::balance::EnergyBalance;
 
 /// The energy that a method made out of nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

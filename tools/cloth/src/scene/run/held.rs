@@ -8,11 +8,11 @@ use tearmesh::geometry::Point;
 use tearmesh::{Edit, Mesh, VertexId};
 
 use super::error::RunError;
-use crate::balance::Balance;
-use crate::held_set::HeldSet;
-use crate::path::Path;
+use crate::cloth::held_set::HeldSet;
 use crate::scene::{Frame, HeldVertices, Region};
 use crate::system::System;
+use crate::system::balance::Balance;
+use crate::system::path::Path;
 
 /// A hold, and its vertices.
 #[derive(Clone, Debug)]

@@ -12,10 +12,10 @@
 
 use tearmesh::geometry::Vector;
 
-use crate::constraint::ConstraintId;
-use crate::motion;
-use crate::pair;
+use crate::method::motion;
 use crate::system::System;
+use crate::system::constraint::ConstraintId;
+use crate::system::pair;
 
 /// Returns the force in a stretch constraint as the method of the last step exerted it, in newtons.
 /// Tension is positive. For methods with physical stiffness, and before any step, it is computed

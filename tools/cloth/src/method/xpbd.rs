@@ -24,11 +24,11 @@
 
 use tearmesh::geometry::{Vector, length};
 
-use crate::collide;
-use crate::motion::{finish, force_scale, predict};
-use crate::pair;
-use crate::solver::{Abilities, Failure, Quality, Solver};
-use crate::spring::{self, Correction};
+use crate::method::motion::{finish, force_scale, predict};
+use crate::method::solver::{Abilities, Failure, Quality, Solver};
+use crate::method::spring::{self, Correction};
+use crate::system::collide;
+use crate::system::pair;
 use crate::system::{Recorded, SettingError, System};
 
 /// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at

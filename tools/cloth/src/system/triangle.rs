@@ -27,11 +27,11 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
-use crate::crush::Crush;
-use crate::damping;
-use crate::incidence::Incidence;
-use crate::matrix::{Block, Hessian, outer};
-use crate::pair::Pull;
+use crate::system::crush::Crush;
+use crate::system::damping;
+use crate::system::incidence::Incidence;
+use crate::system::matrix::{Block, Hessian, outer};
+use crate::system::pair::Pull;
 
 /// A triangle that resists stretch and shear.
 #[derive(Clone, Copy, Debug, PartialEq)]

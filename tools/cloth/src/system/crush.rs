@@ -13,8 +13,8 @@
 //! **Why it is stable.** Let A = Δt² M⁻¹ K and the damping B ≤ θ A, taken in by the velocities of
 //! the middle of the step before. With the change δ of positions in a step and δ′ in the next,
 //! |δ′|² − ½ δ′Bδ′ + x′Ax changes by −½ (δ′ + δ) B (δ′ + δ), so it never grows, and it is positive
-//! where A (1 + 2θ) ≤ 4. [`mass_scaling`](crate::mass_scaling) keeps A within 2.6, which makes that 3.9. That is
-//! the linear theory; for what is not linear, the table of [`verlet`](crate::verlet) is the evidence.
+//! where A (1 + 2θ) ≤ 4. [`mass_scaling`](crate::system::mass_scaling) keeps A within 2.6, which makes that 3.9. That is
+//! the linear theory; for what is not linear, the table of [`verlet`](crate::method::verlet) is the evidence.
 //!
 //! At rest it is zero, so it is no part of any tension. It fades with Δt and is physical nowhere:
 //! what it takes from the motion is the method's loss.

@@ -7,10 +7,10 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
-use crate::bend::{Axial, Buckling};
-use crate::constraint::{Constraint, Constraints};
-use crate::crush::Crush;
-use crate::matrix::{Block, Hessian, outer};
+use crate::system::bend::{Axial, Buckling};
+use crate::system::constraint::{Constraint, Constraints};
+use crate::system::crush::Crush;
+use crate::system::matrix::{Block, Hessian, outer};
 
 /// What a pass over forces finds.
 #[derive(Clone, Copy, Debug)]

@@ -29,7 +29,7 @@
 
 use std::ops::{AddAssign, Mul};
 
-use crate::incidence::room_for;
+use crate::system::incidence::room_for;
 
 /// What particles weigh in a step.
 #[derive(Clone, Debug, Default)]

@@ -3,16 +3,16 @@
 //! [`System::step`] is the only way to advance a system. It checks the stability limit of an
 //! explicit method before the step and looks for blow-up after it. If anything fails, the last good
 //! state is kept. Nothing is copied for that as a step begins: explicit methods write where particles
-//! go beside where they were ([`kick_and_drift`](crate::motion::kick_and_drift)), and for all others, whoever
+//! go beside where they were ([`kick_and_drift`](crate::method::motion::kick_and_drift)), and for all others, whoever
 //! changes the state first copies it ([`System::keep`]).
 
 use tearmesh::geometry::{Point, Vector};
 
-use crate::balance::Balance;
-use crate::blow_up::{BlowUpSite, first, is_beyond};
-use crate::collide;
-use crate::solver::{Failure, Solver, StepError};
-use crate::stability::admit;
+use crate::method::solver::{Failure, Solver, StepError};
+use crate::method::stability::admit;
+use crate::system::balance::Balance;
+use crate::system::blow_up::{BlowUpSite, first, is_beyond};
+use crate::system::collide;
 use crate::system::{Model, Recorded, SettingError, System};
 
 impl System {

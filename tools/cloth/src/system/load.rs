@@ -8,9 +8,9 @@ use std::sync::Arc;
 use tearmesh::geometry::{Plane, Point, Vector, cross, dot, length, sine_and_cosine};
 use tearmesh::shapes;
 
-use crate::body::Body;
-use crate::path::{Pose, RigidMotion};
+use crate::system::body::Body;
 use crate::system::error::SettingError;
+use crate::system::path::{Pose, RigidMotion};
 
 /// The external loads on the particles. By default there are none.
 ///

@@ -3,8 +3,8 @@
 
 use tearmesh::geometry::{Point, Vector};
 
-use crate::collide::move_out;
-use crate::crush::Crush;
+use crate::system::collide::move_out;
+use crate::system::crush::Crush;
 use crate::system::{Model, System};
 
 /// Takes the accelerations now, with wind at the velocities of now or at those that were

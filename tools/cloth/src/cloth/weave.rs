@@ -14,9 +14,9 @@
 use tearmesh::geometry::{Point, Vector, cross, dot, length};
 use tearmesh::{FaceId, HalfEdgeId};
 
-use crate::fabric::Weave;
-use crate::sheet::{Cloth, ClothError};
-use crate::triangle::Triangle;
+use crate::cloth::fabric::Weave;
+use crate::cloth::{Cloth, ClothError};
+use crate::system::triangle::Triangle;
 
 impl Cloth {
     /// Makes a triangle for each face, if the fabric asks for them.

@@ -5,10 +5,10 @@ use tearmesh::{Cursor, Edit, Edits, Follower, HalfEdgeId, Mesh, PerVertex, Verte
 
 use super::load::{find_stretched, strain};
 use super::{Tearing, TearingError};
-use crate::fabric::Stretch;
-use crate::force;
-use crate::incidence::room_for;
-use crate::sheet::Cloth;
+use crate::cloth::Cloth;
+use crate::cloth::fabric::Stretch;
+use crate::system::force;
+use crate::system::incidence::room_for;
 
 /// The state of tearing of a cloth: the strength of each vertex, and the tips of its tears.
 ///

@@ -1,5 +1,12 @@
 //! A cloth: a system that is made from a mesh, and follows the mesh's log while the mesh tears.
 
+pub(crate) mod fabric;
+pub(crate) mod follow;
+pub(crate) mod held_set;
+pub(crate) mod seam;
+pub(crate) mod tearing;
+mod weave;
+
 use std::fmt;
 
 use tearmesh::geometry::{Point, Vector, cross, dot, length};
@@ -8,10 +15,10 @@ use tearmesh::{
     VertexId,
 };
 
-use crate::constraint::{Constraint, ConstraintId};
-use crate::fabric::{Bending, Fabric, Stretch};
-use crate::incidence::room_for;
-use crate::solver::{Solver, StepError};
+use self::fabric::{Bending, Fabric, Stretch};
+use crate::method::solver::{Solver, StepError};
+use crate::system::constraint::{Constraint, ConstraintId};
+use crate::system::incidence::room_for;
 use crate::system::{SettingError, System};
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and

@@ -4,10 +4,10 @@ use tearmesh::geometry::{Vector, cross, dot};
 use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
-use crate::constraint::ConstraintId;
-use crate::fabric::Weave;
-use crate::force;
-use crate::sheet::Cloth;
+use crate::cloth::Cloth;
+use crate::cloth::fabric::Weave;
+use crate::system::constraint::ConstraintId;
+use crate::system::force;
 use crate::system::{Recorded, System};
 
 impl Threshold {

@@ -7,10 +7,10 @@ use tearmesh::{
     VertexId, VertexOp,
 };
 
-use crate::constraint::Constraint;
-use crate::fabric::{Stretch, Unbend};
-use crate::sheet::{Cloth, NO_BEND, Piece, weight};
+use crate::cloth::fabric::{Stretch, Unbend};
+use crate::cloth::{Cloth, NO_BEND, Piece, weight};
 use crate::system::System;
+use crate::system::constraint::Constraint;
 
 impl Follower for Cloth {
     fn cursor(&mut self) -> &mut Cursor {
@@ -305,7 +305,7 @@ impl Cloth {
 }
 
 /// Whether a corner of a child lies on this edge of its parent.
-pub(super) fn lies_on(source: &Mix<HalfEdgeId>, h: HalfEdgeId) -> bool {
+pub(crate) fn lies_on(source: &Mix<HalfEdgeId>, h: HalfEdgeId) -> bool {
     match *source {
         Mix::Copy(corner) => corner == h || corner == h.next(),
         Mix::Between { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),

@@ -29,9 +29,9 @@
 
 use tearmesh::geometry::{Vector, dot};
 
-use crate::energy;
-use crate::force;
 use crate::system::System;
+use crate::system::energy;
+use crate::system::force;
 
 /// How far apart the work of wind and drag is sampled, in seconds of the simulation; a longer step is
 /// one sample.

@@ -8,14 +8,14 @@
 //! ```
 //!
 //! with r₉₀ such that no more than a tenth of the free particles have a larger one: those are
-//! carried by their neighbours ([`mass_scaling`](crate::mass_scaling)). On even sheets that is .34 to .41 h/c, on
+//! carried by their neighbours ([`mass_scaling`](crate::system::mass_scaling)). On even sheets that is .34 to .41 h/c, on
 //! uneven ones .24. A step up to twice as long is admitted whole, with many more that are carried:
 //! it is as stable, and exact at rest, but errs by some per cent in motion.
 //!
-//! Material damping counts as stiffness in a step ([`damping`](crate::damping)): with the sum C of the
+//! Material damping counts as stiffness in a step ([`damping`](crate::system::damping)): with the sum C of the
 //! dampers at a particle, Δt² S becomes Δt² S + 2Δt C/(1 + 2θ).
 //!
-//! μ leaves room for the damping of what is crushed ([`crush`](crate::crush)), 4μ(1 + 2θ) = 3.9 of
+//! μ leaves room for the damping of what is crushed ([`crush`](crate::system::crush)), 4μ(1 + 2θ) = 3.9 of
 //! 4, and what wind slows takes its part of it: with λ the rate of wind μ(1 − λΔt), so that the sum
 //! stays within the limit of springs and air together ([`air`](crate::air)).
 //!
@@ -34,7 +34,7 @@
 //!
 //! A bend that buckles counts as a spring with the largest stiffness that it has at any length. A
 //! triangle's shear gets stiffer as it is stretched, so with shear all of this holds as long as no
-//! triangle is stretched beyond a *reach* ([`triangle`](crate::triangle)); where a step finds that one
+//! triangle is stretched beyond a *reach* ([`triangle`](crate::system::triangle)); where a step finds that one
 //! is, the reach is doubled and the sums are made anew.
 //!
 //! Where neighbours are both carried, stability is not proven, and λ is measured by power iteration
@@ -47,12 +47,12 @@
 
 use tearmesh::geometry::Point;
 
-use crate::damping;
-use crate::incidence::room_for;
-use crate::mass_scaling::MassScaling;
-use crate::pair;
 use crate::system::counters::Counters;
+use crate::system::damping;
+use crate::system::incidence::room_for;
+use crate::system::mass_scaling::MassScaling;
 use crate::system::model::Model;
+use crate::system::pair;
 
 /// μ: a quarter of the largest Δt² λ.
 const SHARE: f64 = 0.65;

@@ -5,7 +5,7 @@
 
 use tearmesh::geometry::{Point, Vector, dot};
 
-use crate::constraint::Colour;
+use crate::system::constraint::Colour;
 
 /// How a sweep corrects the errors of constraints.
 #[derive(Clone, Copy, Debug)]

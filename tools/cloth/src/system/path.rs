@@ -6,7 +6,7 @@ use tearmesh::geometry::{Point, Vector, check_point, cross, length};
 use tearmesh::nalgebra::Matrix3x4;
 use tearmesh::{Blend as _, Mix};
 
-use crate::bend::sinc_of_root;
+use crate::system::bend::sinc_of_root;
 
 /// The path of a grabbed particle: straight from point to point, at rest before the first time and
 /// after the last.

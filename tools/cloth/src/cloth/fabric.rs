@@ -4,7 +4,7 @@
 use tearmesh::geometry::Vector;
 use tearmesh::{HalfEdgeId, Mesh};
 
-use crate::bend::Buckling;
+use crate::system::bend::Buckling;
 use crate::system::error::SettingError;
 
 /// The material of a cloth, and the rules for its constraints when it tears.
@@ -151,7 +151,7 @@ impl Fabric {
         if is_half { 0.5 } else { 1.0 }
     }
 
-    pub(super) fn check(&self) -> Result<(), SettingError> {
+    pub(crate) fn check(&self) -> Result<(), SettingError> {
         if let Some(weave) = self.weave {
             SettingError::unless_above_0("weave.warp_n_per_m", weave.warp_n_per_m)?;
             SettingError::unless_above_0("weave.weft_n_per_m", weave.weft_n_per_m)?;

@@ -5,9 +5,9 @@
 //! Two things make velocity Verlet unfit for cloth as it stands in textbooks, and each has a guard:
 //!
 //! * One light particle shortens the stable step of all. It is *carried* by its neighbours
-//!   ([`mass_scaling`](crate::mass_scaling)), and the step that suits most particles serves all
+//!   ([`mass_scaling`](crate::system::mass_scaling)), and the step that suits most particles serves all
 //!   ([`recommended_step_s`](crate::recommended_step_s)).
-//! * Crushed springs make energy below every limit. They are damped ([`crush`](crate::crush)).
+//! * Crushed springs make energy below every limit. They are damped ([`crush`](crate::system::crush)).
 //!
 //! Where nothing is carried and nothing is crushed, the guards change no bit.
 //!
@@ -51,11 +51,11 @@
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
 
-use crate::collide;
-use crate::motion::{accelerate, kick, kick_and_drift};
-use crate::solver::{Abilities, Failure, Quality, Solver};
-use crate::stability::weigh_for;
+use crate::method::motion::{accelerate, kick, kick_and_drift};
+use crate::method::solver::{Abilities, Failure, Quality, Solver};
+use crate::method::stability::weigh_for;
 use crate::system::System;
+use crate::system::collide;
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///

@@ -62,11 +62,11 @@ pub(crate) mod settings;
 use tearmesh::geometry::{Point, Vector, dot, length};
 
 pub use self::settings::{Method, Settings, Stats, StepError};
-use crate::blow_up::{first, is_beyond};
-use crate::collide;
-use crate::contact::Pressed;
-use crate::matrix::{Hessian, Pcg, Solution, Weights};
-use crate::solver::{Abilities, Failure, Quality, Solver};
+use crate::method::solver::{Abilities, Failure, Quality, Solver};
+use crate::system::blow_up::{first, is_beyond};
+use crate::system::collide;
+use crate::system::contact::Pressed;
+use crate::system::matrix::{Hessian, Pcg, Solution, Weights};
 use crate::system::{Model, SettingError, System};
 
 /// Linearised implicit steps of a system: backward Euler or BDF2. They are stable at any step for

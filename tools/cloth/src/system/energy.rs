@@ -2,7 +2,7 @@
 
 use tearmesh::geometry::dot;
 
-use crate::pair;
+use crate::system::pair;
 use crate::system::{Recorded, System};
 
 /// Returns the elastic energy of all constraints and triangles, in joules.

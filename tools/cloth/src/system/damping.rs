@@ -14,16 +14,16 @@
 //! on fine meshes most springs are at the cap.
 //!
 //! **Why it is stable.** It acts by the velocities of the middle of the step before. With A = Δt² M⁻¹ K
-//! and B = Δt M⁻¹ C, the energy of that scheme ([`crush`](crate::crush)) never grows, and is positive where
+//! and B = Δt M⁻¹ C, the energy of that scheme ([`crush`](crate::system::crush)) never grows, and is positive where
 //! A (1 + 2θ) + 2 B ≤ 4. So c counts as a spring of the stiffness 2 c / (Δt (1 + 2θ)) wherever steps and
-//! masses are chosen ([`guard`](crate::guard)).
+//! masses are chosen ([`guard`](crate::system::guard)).
 //!
 //! A triangle is damped as three springs are: along warp, along weft and in shear
-//! ([`triangle`](crate::triangle)), each with the reduced mass of its corners in that mode.
+//! ([`triangle`](crate::system::triangle)), each with the reduced mass of its corners in that mode.
 //!
 //! Thresholds of force do not see this force; a hand that holds or leads a particle does.
 
-use crate::crush::Crush;
+use crate::system::crush::Crush;
 
 /// ζ.
 const RATIO_MAX: f64 = 0.1;

@@ -5,12 +5,12 @@ use std::fmt;
 
 use tearmesh::CutError;
 
-use crate::air::AirRate;
-use crate::blow_up::{BlowUpSite, Digits};
-use crate::guard::Frequency;
-use crate::implicit::settings as implicit;
+use crate::method::implicit::settings as implicit;
 use crate::system::System;
+use crate::system::air::AirRate;
+use crate::system::blow_up::{BlowUpSite, Digits};
 use crate::system::error::SettingError;
+use crate::system::guard::Frequency;
 
 /// A method that advances a system.
 ///

@@ -1,8 +1,8 @@
 //! The stability limit of a step of an explicit method, given by springs and air.
 
-use crate::air::{self, AirRate};
-use crate::guard::{Frequency, Guard};
-use crate::solver::{Abilities, Solver, StepError, StepLimit};
+use crate::method::solver::{Abilities, Solver, StepError, StepLimit};
+use crate::system::air::{self, AirRate};
+use crate::system::guard::{Frequency, Guard};
 use crate::system::{System, Unstable};
 
 /// What the air takes of a step: the rate at which it slows, and one over the longest step in seconds that is

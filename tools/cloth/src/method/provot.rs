@@ -10,9 +10,9 @@
 //! tears: the limiter leaves where it began behind in the system ([`System::unlimited_ratio`]), and
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
-use crate::motion::{accelerate, force_scale, kick_and_drift};
-use crate::solver::{Abilities, Failure, LimiterStats, Quality, Solver};
-use crate::spring;
+use crate::method::motion::{accelerate, force_scale, kick_and_drift};
+use crate::method::solver::{Abilities, Failure, LimiterStats, Quality, Solver};
+use crate::method::spring;
 use crate::system::{Recorded, SettingError, System};
 
 /// Provot's mass-spring model: a step of symplectic Euler, and then a limiter of stretch. It is of

@@ -9,9 +9,9 @@
 //! All data of the constraints is stored here in columns, including what a step leaves behind in
 //! them. It stays with its constraint when constraints are added or removed, or get another end.
 
-use crate::bend::Buckling;
-use crate::damping;
-use crate::incidence::{Incidence, room_for};
+use crate::system::bend::Buckling;
+use crate::system::damping;
+use crate::system::incidence::{Incidence, room_for};
 
 /// The id of a constraint within its family. It is stable until the constraint is removed; a later
 /// constraint may then reuse it.

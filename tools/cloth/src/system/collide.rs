@@ -20,13 +20,13 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
-use crate::body::Body;
-use crate::contact::{Contact, Corners, Look, Looks, Pressed};
-use crate::energy;
-use crate::load::{Collider, ColliderShape};
-use crate::path::Pose;
-use crate::solver::Failure;
+use crate::method::solver::Failure;
 use crate::system::System;
+use crate::system::body::Body;
+use crate::system::contact::{Contact, Corners, Look, Looks, Pressed};
+use crate::system::energy;
+use crate::system::load::{Collider, ColliderShape};
+use crate::system::path::Pose;
 
 /// The particles that were in contact in the last substep, with the normals of obstacles.
 pub(crate) fn touching(system: &System) -> impl Iterator<Item = (usize, Vector)> + '_ {
