@@ -1,6 +1,6 @@
-//! The rules of the house, so that they stay true: no files use each other in a circle, the kernel's
-//! imports run downward, the floors below know no float, the kernel reads no file and knows no cloth,
-//! and one file alone tears a link.
+//! The rules of the house, so that they stay true: no files use each other in a circle, the imports of the
+//! kernel and of the cloth run downward, those of the cloth from the file that defines a thing, the kernel's
+//! floors below know no float, the kernel reads no file and knows no cloth, and one file alone tears a link.
 
 mod crates;
 
@@ -99,8 +99,18 @@ const FLOORS: [&str; 5] = [
     "sheet script",
 ];
 
-fn floor(module: &str) -> usize {
-    let known = FLOORS.iter().position(|floor| has(floor, module));
+/// The floors of the rooms of `tools/cloth`, from below, and of the files that stand beside them.
+const CLOTH_FLOORS: [&str; 6] = [
+    "system statistics",
+    "method",
+    "cloth",
+    "simulation",
+    "scene",
+    "data guide",
+];
+
+fn floor(floors: &[&str], module: &str) -> usize {
+    let known = floors.iter().position(|floor| has(floor, module));
     known.unwrap_or_else(|| panic!("`{module}` has no floor here"))
 }
 
@@ -109,12 +119,12 @@ fn has(list: &str, word: &str) -> bool {
     list.split(' ').any(|listed| listed == word)
 }
 
-/// The imports of the kernel that go up, each told.
-fn upward_imports(files: &Files) -> Vec<String> {
+/// The imports of a crate with such floors that go up, each told.
+fn upward_imports(files: &Files, floors: &[&str]) -> Vec<String> {
     let name = |file: usize| files.names[file].trim_end_matches(".rs");
     let module = |file: usize| name(file).split('/').next().expect("a module");
     let goes_up = |&(&(from, to), _): &(&(usize, usize), &String)| {
-        module(from) != "lib" && floor(module(to)) > floor(module(from))
+        module(from) != "lib" && floor(floors, module(to)) > floor(floors, module(from))
     };
     let told = |(&(from, to), path)| format!("{} uses {path} of {}", name(from), name(to));
     files.edges.iter().filter(goes_up).map(told).collect()
@@ -123,10 +133,11 @@ fn upward_imports(files: &Files) -> Vec<String> {
 #[test]
 fn imports_of_the_kernel_run_downward() {
     let none: [String; 0] = [];
-    assert_eq!(upward_imports(&files_of("src", "lib.rs", None)), none);
+    let files = files_of("src", "lib.rs", None);
+    assert_eq!(upward_imports(&files, &FLOORS), none);
     let planted = "\nfn planted() { use crate::scissor; scissor::Scissor::SNAP; }";
     let files = files_of("src", "lib.rs", Some(("mesh/walk.rs", planted)));
-    let up = upward_imports(&files);
+    let up = upward_imports(&files, &FLOORS);
     assert_eq!(up, ["mesh/walk uses crate::scissor of scissor"]);
 }
 
@@ -151,6 +162,26 @@ fn no_verb_uses_a_file_of_another() {
         let wrong = imports_of_verbs(&of(Some((file, planted))));
         assert_eq!(wrong.len(), 1, "{wrong:?}");
     }
+}
+
+#[test]
+fn imports_of_the_cloth_run_downward_from_where_things_are_defined() {
+    let (none, cloth): ([String; 0], _) = ([], "tools/cloth/src");
+    let files = files_of(cloth, "lib.rs", None);
+    assert_eq!(upward_imports(&files, &CLOTH_FLOORS), none);
+    assert_eq!(files.detours, none);
+    let planted = "\nuse crate::method::solver::Failure; use crate::{Tear, scene::Frame}; type T = crate::System;";
+    let files = files_of(cloth, "lib.rs", Some(("system/pair.rs", planted)));
+    let up = upward_imports(&files, &CLOTH_FLOORS);
+    let arrows = [
+        "crate::Tear of cloth/tearing/apply",
+        "crate::method::solver::Failure of method/solver",
+        "crate::scene::Frame of scene",
+    ];
+    assert_eq!(up, arrows.map(|arrow| format!("system/pair uses {arrow}")));
+    let detours = ["crate::Tear", "crate::scene::Frame", "crate::System"];
+    let told = detours.map(|path| format!("system/pair.rs uses {path}"));
+    assert_eq!(files.detours, told);
 }
 
 /// Shows the files of the kernel, by their paths without `.rs`, but for the first, and their words.

@@ -18,6 +18,8 @@ pub(crate) struct Files {
     pub(crate) names: Vec<String>,
     /// From a file to another, with a path that leads there.
     pub(crate) edges: BTreeMap<(usize, usize), String>,
+    /// The paths that reach what they name through a `pub use` of another file, each told.
+    pub(crate) detours: Vec<String>,
     /// The names, signs and literals of each file's code, without its tests.
     pub(crate) words: Vec<Vec<String>>,
 }
@@ -32,10 +34,17 @@ impl Files {
         let handed_on =
             handed_on.filter_map(|path| Some((path.words.last()?.clone(), path.clone())));
         let handed_on: BTreeMap<String, Path> = handed_on.collect();
-        let mut edges = BTreeMap::new();
+        let (mut edges, mut detours) = (BTreeMap::new(), Vec::new());
         for (from, code) in codes.iter().enumerate() {
             for path in &code.paths {
                 let mut words = whole(path, &places[from], code);
+                let is_detour = |n: &usize| {
+                    let place = places.iter().position(|place| place == &words[..*n]);
+                    place.is_some_and(|to| to != from && codes[to].hands_on(words.get(*n)))
+                };
+                if from != 0 && !words.is_empty() && (0..words.len()).any(|n| is_detour(&n)) {
+                    detours.push(format!("{} uses {}", names[from], path.words.join("::")));
+                }
                 if let [first] = &words[..] {
                     words = handed_on
                         .get(first)
@@ -60,6 +69,7 @@ impl Files {
         Files {
             names,
             edges,
+            detours,
             words,
         }
     }
@@ -212,6 +222,12 @@ impl Code {
             }
             at += 1;
         }
+    }
+
+    /// Whether a `pub use` of the file hands on what has this name.
+    fn hands_on(&self, name: Option<&String>) -> bool {
+        let mut doors = self.paths.iter().filter(|path| path.is_door);
+        doors.any(|path| path.words.last() == name)
     }
 
     /// How often a name stands in the code.

@@ -17,9 +17,10 @@ use tearmesh::{
 
 use self::fabric::{Bending, Fabric, Stretch};
 use crate::method::solver::{Solver, StepError};
+use crate::system::System;
 use crate::system::constraint::{Constraint, ConstraintId};
+use crate::system::error::SettingError;
 use crate::system::incidence::room_for;
-use crate::system::{SettingError, System};
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
 /// with a [`Weave`](crate::Weave) a triangle for each face.
@@ -491,7 +492,7 @@ pub(crate) struct Piece {
 pub enum ClothError {
     /// The masses were refused.
     Mass(MassError),
-    /// A number of the [`Fabric`](crate::Fabric) cannot be used, or would make a bend too stiff.
+    /// A number of the [`Fabric`] cannot be used, or would make a bend too stiff.
     Number(SettingError),
     /// Two vertices that a constraint joins are at the same place, or have coordinates that are not
     /// finite.

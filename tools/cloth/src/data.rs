@@ -7,8 +7,12 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use tearmesh::Point;
 
+use crate::cloth::fabric::Fabric;
+use crate::cloth::tearing::Tearing;
+use crate::method::Method;
 use crate::scene::Scene;
-use crate::{Fabric, Method, Path, SettingError, Tearing};
+use crate::system::error::SettingError;
+use crate::system::path::Path;
 
 /// What is read field by field, and is then refused for what a check says.
 macro_rules! checked {

@@ -49,7 +49,8 @@ mod system;
 
 pub use cloth::fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};
 pub use cloth::seam::{Seam, SeamError, SeamFault};
-pub use cloth::tearing::{Tear, TearReport, Tearing, TearingError, Threshold};
+pub use cloth::tearing::apply::{Tear, TearReport};
+pub use cloth::tearing::{Tearing, TearingError, Threshold};
 pub use cloth::{Cloth, ClothError};
 pub use method::implicit::{self, Implicit};
 pub use method::provot::{Limiter, Provot};
@@ -68,11 +69,13 @@ pub use system::bend::Buckling;
 pub use system::blow_up::BlowUpSite;
 pub use system::body::{Body, BodyError};
 pub use system::constraint::{Constraint, ConstraintId, Constraints};
+pub use system::counters::{Counters, FeatureVisits, Visits};
+pub use system::error::{SettingError, SystemError};
 pub use system::guard::Frequency;
 pub use system::load::{Collider, ColliderShape, Loads, Wind};
 pub use system::path::{Path, Pose, RigidMotion};
 pub use system::triangle::Triangle;
-pub use system::{Counters, FeatureVisits, SettingError, System, SystemError, Unstable, Visits};
+pub use system::{System, Unstable};
 pub use system::{energy, force};
 
 /// The library's example in the README is a test.

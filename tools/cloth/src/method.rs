@@ -11,13 +11,13 @@ mod step;
 pub(crate) mod verlet;
 pub(crate) mod xpbd;
 
-use self::implicit::{Implicit, Settings};
+use self::implicit::Implicit;
+use self::implicit::settings::Settings;
 use self::provot::{Limiter, Provot};
 use self::solver::Solver;
 use self::stability::whole_step_s;
 use self::verlet::Verlet;
 use self::xpbd::{Pbd, Xpbd};
-use crate::cloth::fabric::Fabric;
 use crate::system::System;
 use crate::system::guard::Guard;
 
@@ -199,11 +199,6 @@ const LONGEST_S: f64 = FRAME_S / 2.0;
 /// all but unstable errs by half.
 const OF_SPRINGS: f64 = 0.925;
 const OF_WIND: f64 = 0.7;
-
-/// The speed at which a pull travels through a fabric of this areal density, c = √(k/ρ), in m/s.
-pub(crate) fn speed_m_per_s(fabric: &Fabric, density_kg_per_m2: f64) -> f64 {
-    (fabric.stretch_n_per_m() / density_kg_per_m2).sqrt()
-}
 
 /// How far a pull travels in `sweeps` sweeps without a step in between, as a multiple of a sweep
 /// that corrects everything: each makes good but a part of what the one before left, as in

@@ -15,7 +15,9 @@ mod warning;
 
 pub use frame::{Axis, Frame};
 pub use presets::Preset;
-pub use run::{EnergyGain, Run, RunError, RunTally};
+pub use run::error::RunError;
+pub use run::gain::EnergyGain;
+pub use run::{Run, RunTally};
 pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
 pub use warning::Warning;
 
@@ -24,6 +26,7 @@ use tearmesh::{Mesh, Scissor, ScissorError, VertexId};
 
 use crate::cloth::fabric::Fabric;
 use crate::cloth::seam::Seam;
+use crate::cloth::tearing::Tearing;
 use crate::method::Method;
 use crate::system::error::SettingError;
 use crate::system::load::{Collider, Loads, Wind};
@@ -64,7 +67,7 @@ pub struct Scene {
     /// The cuts, in ascending order of their times.
     pub cuts: Vec<TimedCut>,
     /// The rule by which edges tear; `None` if they never tear by themselves.
-    pub tearing: Option<crate::Tearing>,
+    pub tearing: Option<Tearing>,
     /// Regions with a strength, as a multiple of the tearing threshold. The strength is 1
     /// elsewhere. If regions overlap, the last one counts.
     pub strengths: Vec<(Region, f64)>,

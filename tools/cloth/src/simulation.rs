@@ -9,8 +9,8 @@
 //! came decide every byte of the result.
 
 mod buffers;
-mod definition;
-mod error;
+pub(crate) mod definition;
+pub(crate) mod error;
 mod hand;
 mod heal;
 mod log;
@@ -36,10 +36,9 @@ use self::heal::Healing;
 use self::log::Record;
 use self::seams::Seams;
 use crate::cloth::held_set::HeldSet;
-use crate::cloth::tearing::{Tear, TearReport};
+use crate::cloth::tearing::apply::{Tear, TearReport};
 use crate::cloth::{Cloth, ClothError};
 use crate::method::solver::{Solver, StepError};
-use crate::method::speed_m_per_s;
 use crate::system::balance::Balance;
 use crate::system::load::{Loads, Wind};
 
@@ -141,7 +140,7 @@ impl Simulation {
         let set = system.set_loads(def.loads);
         set.map_err(SimulationError::Loads)?;
         system.when_unstable(def.when_unstable);
-        let speed_m_per_s = speed_m_per_s(&def.fabric, def.density_kg_per_m2);
+        let speed_m_per_s = def.fabric.speed_m_per_s(def.density_kg_per_m2);
         let step_s = def.step_s;
         let step_s = step_s.unwrap_or_else(|| def.method.default_step_s(system, speed_m_per_s));
         if !(step_s > 0.0 && step_s.is_finite()) {

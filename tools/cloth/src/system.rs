@@ -29,19 +29,18 @@ pub(crate) mod pair;
 pub(crate) mod path;
 pub(crate) mod triangle;
 
-pub use counters::{Counters, FeatureVisits, Visits};
-pub use error::{SettingError, SystemError};
-pub(crate) use model::{Model, Recorded};
-
 use tearmesh::Mix;
 use tearmesh::geometry::{Point, Vector, check_point};
 
 use self::bend::Buckling;
 use self::constraint::{Constraint, ConstraintId, Constraints};
 use self::contact::{Contact, Looks, Pressed};
+use self::counters::Counters;
+use self::error::{SettingError, SystemError};
 use self::guard::Guard;
 use self::incidence::room_for;
 use self::load::Loads;
+use self::model::{Model, Recorded};
 use self::path::Path;
 use self::triangle::Triangle;
 

@@ -136,6 +136,11 @@ impl Fabric {
         }
     }
 
+    /// The speed at which a pull travels through the fabric with this areal density, c = √(k/ρ), in m/s.
+    pub(crate) fn speed_m_per_s(&self, density_kg_per_m2: f64) -> f64 {
+        (self.stretch_n_per_m() / density_kg_per_m2).sqrt()
+    }
+
     /// Whether the two constraints of a torn edge have half its stiffness each.
     pub(super) fn halves_copies(&self) -> bool {
         let halved = Copies::Halved;

@@ -58,11 +58,12 @@
 //! assert!(cloth.masses().ledger().is_balanced());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! [`Tear`]: crate::Tear
+//! [`TearReport::cap_hit`]: crate::TearReport::cap_hit
 
-mod apply;
+pub(crate) mod apply;
 mod load;
-
-pub use apply::{Tear, TearReport};
 
 use std::fmt;
 

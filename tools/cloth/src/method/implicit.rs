@@ -63,11 +63,13 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 pub use self::settings::{Method, Settings, Stats, StepError};
 use crate::method::solver::{Abilities, Failure, Quality, Solver};
+use crate::system::System;
 use crate::system::blow_up::{first, is_beyond};
 use crate::system::collide;
 use crate::system::contact::Pressed;
+use crate::system::error::SettingError;
 use crate::system::matrix::{Hessian, Pcg, Solution, Weights};
-use crate::system::{Model, SettingError, System};
+use crate::system::model::Model;
 
 /// Linearised implicit steps of a system: backward Euler or BDF2. They are stable at any step for
 /// springs, triangles, bends and drag. Backward Euler evaluates wind where a step begins, and is

@@ -3,36 +3,9 @@
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::system::System;
 use crate::system::collide::move_out;
-use crate::system::crush::Crush;
-use crate::system::{Model, System};
-
-/// Takes the accelerations now, with wind at the velocities of now or at those that were
-/// predicted: in a step of `dt_s` seconds with the guards of
-/// [`Verlet`](crate::Verlet), or without any. False where a constraint is longer than the system's
-/// largest stretch ratio.
-#[must_use]
-pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Option<f64>) -> bool {
-    let (model, scratch) = (&system.model, &mut system.scratch);
-    let (positions, velocities) = (&system.positions, &system.velocities);
-    scratch.is_fresh = false;
-    let accelerations = &mut scratch.accelerations;
-    accelerations.resize(positions.len(), Vector::zeros());
-    let crush = guarded_s.map(|dt_s| Crush { velocities, dt_s });
-    let winds = match is_predicted {
-        true => &scratch.predicted,
-        false => velocities,
-    };
-    system.counters.force_evaluations += 1;
-    model.count_visits(1, &mut system.counters);
-    accelerations.fill(Vector::zeros());
-    let pull = model.add_forces(positions, crush, accelerations);
-    model.blow(positions, winds, accelerations, &mut system.counters);
-    model.weigh(guarded_s.map(|_| &system.guard.carry), accelerations);
-    scratch.guarded_s = guarded_s.unwrap_or(0.0);
-    scratch.damped_w = pull.damped_w;
-    pull.is_sane
-}
+use crate::system::model::Model;
 
 /// Speeds the free particles up for `kick_s` seconds, with drag by the velocities afterwards, which
 /// divides them; then all fly for `dt_s` seconds.

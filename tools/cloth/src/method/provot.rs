@@ -10,10 +10,13 @@
 //! tears: the limiter leaves where it began behind in the system ([`System::unlimited_ratio`]), and
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
-use crate::method::motion::{accelerate, force_scale, kick_and_drift};
+use crate::method::motion::{force_scale, kick_and_drift};
 use crate::method::solver::{Abilities, Failure, LimiterStats, Quality, Solver};
 use crate::method::spring;
-use crate::system::{Recorded, SettingError, System};
+use crate::system::System;
+use crate::system::error::SettingError;
+use crate::system::force::accelerate;
+use crate::system::model::Recorded;
 
 /// Provot's mass-spring model: a step of symplectic Euler, and then a limiter of stretch. It is of
 /// first order and takes one force evaluation per step. Springs are stable up to ω Δt = 2, and wind

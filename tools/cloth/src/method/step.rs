@@ -10,10 +10,12 @@ use tearmesh::geometry::{Point, Vector};
 
 use crate::method::solver::{Failure, Solver, StepError};
 use crate::method::stability::admit;
+use crate::system::System;
 use crate::system::balance::Balance;
 use crate::system::blow_up::{BlowUpSite, first, is_beyond};
 use crate::system::collide;
-use crate::system::{Model, Recorded, SettingError, System};
+use crate::system::error::SettingError;
+use crate::system::model::{Model, Recorded};
 
 impl System {
     /// Advances the system by `dt_s` seconds, and returns the number of substeps into which the stability check
@@ -131,7 +133,9 @@ fn advance(
     collide::begin(system, substep_s);
     solver.advance(system, substep_s)?;
     collide::push_out(system);
-    collide::check(system)?;
+    if let Some(particle) = collide::too_far(system) {
+        return Err(Failure::TooFar { particle });
+    }
     Failure::unless(is_finite(system))?;
     if let Some(balance) = balance {
         // Methods without a stability limit move particles by the forces at the end of a substep.

@@ -27,9 +27,11 @@ use tearmesh::geometry::{Vector, length};
 use crate::method::motion::{finish, force_scale, predict};
 use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::method::spring::{self, Correction};
+use crate::system::System;
 use crate::system::collide;
+use crate::system::error::SettingError;
+use crate::system::model::Recorded;
 use crate::system::pair;
-use crate::system::{Recorded, SettingError, System};
 
 /// Extended position based dynamics (XPBD), with small substeps. Constraints and drag are stable at
 /// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2

@@ -13,7 +13,10 @@ use std::num::NonZero;
 use tearmesh::geometry::Vector;
 use tearmesh::{Mesh, Positions, VertexId};
 
-use super::{Frame, Run, Scene, TearLog};
+use super::Scene;
+use super::frame::Frame;
+use super::run::Run;
+use super::tear_log::TearLog;
 use crate::statistics::Random;
 
 /// The largest random displacement of a vertex from its starting position along each axis, in

@@ -2,11 +2,12 @@
 
 use tearmesh::geometry::{Ray, Vector};
 
-use super::{Axis, Frame, HeldVertices, Region, Scene, SwayingWind, TimedCut};
+use super::frame::{Axis, Frame};
+use super::{HeldVertices, Region, Scene, SwayingWind, TimedCut};
 use crate::cloth::fabric::Fabric;
+use crate::cloth::tearing::{Tearing, Threshold};
 use crate::method::Method;
 use crate::system::load::Wind;
-use crate::{Tearing, Threshold};
 
 /// A built-in scene, for a mesh with a frame.
 pub type Preset = fn(&Frame) -> Scene;

@@ -5,31 +5,33 @@
 //! too far; whoever else follows the mesh replays [`Run::edits`] after it. Times of a scene are
 //! rounded to whole steps. Nothing here reads a clock, so the same scene gives the same bytes.
 
-mod error;
-mod gain;
+pub(super) mod error;
+pub(super) mod gain;
 mod held;
-
-pub use self::error::RunError;
-pub use self::gain::EnergyGain;
 
 use std::num::NonZero;
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 use tearmesh::{Cursor, CutReport, Edits, Mesh, PositionError, Positions, VertexId};
 
-use self::gain::Watch;
+use self::error::RunError;
+use self::gain::{EnergyGain, Watch};
 use self::held::Held;
-use super::{Frame, Scene, SwayingWind};
+use super::frame::Frame;
+use super::{Scene, SwayingWind};
 use crate::cloth::Cloth;
-use crate::cloth::tearing::TearReport;
+use crate::cloth::tearing::apply::TearReport;
 use crate::method::Softness;
 use crate::method::solver::{Quality, Solver, StepError};
-use crate::simulation::{InputError, Simulation, SimulationDef, SimulationError};
+use crate::simulation::Simulation;
+use crate::simulation::definition::SimulationDef;
+use crate::simulation::error::{InputError, SimulationError};
+use crate::system::Unstable;
 use crate::system::balance::{Balance, EnergyBalance};
 use crate::system::blow_up::BlowUpSite;
 use crate::system::energy::{elastic_j, kinetic_j, potential_j};
+use crate::system::error::SettingError;
 use crate::system::path::Path;
-use crate::system::{SettingError, Unstable};
 
 /// A scene in progress, with its mesh and its cloth.
 ///

@@ -7,7 +7,7 @@ use tearmesh::{HalfEdgeId, Point, VertexId};
 
 use super::HeldVertices;
 use super::run::Run;
-use crate::cloth::tearing::TearReport;
+use crate::cloth::tearing::apply::TearReport;
 use crate::method::{FRAME_S, Method};
 use crate::system::balance::AIR_S;
 use crate::system::force;

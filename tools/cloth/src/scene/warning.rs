@@ -1,10 +1,11 @@
 //! Reasons to doubt a run: what is known before its first step, and what showed in the steps that it took.
 
-use super::run::EnergyGain;
-use super::{Frame, Run};
+use super::frame::Frame;
+use super::run::Run;
+use super::run::gain::EnergyGain;
 use crate::method::solver::{LimiterStats, Quality};
 use crate::method::stability::frequency_bound;
-use crate::method::{Method, Softness, speed_m_per_s};
+use crate::method::{Method, Softness};
 use crate::system::guard::Frequency;
 use crate::system::load::ColliderShape;
 
@@ -140,7 +141,7 @@ impl Warning {
         let softness = softness.filter(|softness| softness.extra > Softness::TOLERABLE);
         warnings.extend(softness.map(Warning::Soft));
         if matches!(scene.solver, Method::Pbd(_)) {
-            let speed_m_per_s = speed_m_per_s(&scene.fabric, scene.areal_density_kg_per_m2);
+            let speed_m_per_s = scene.fabric.speed_m_per_s(scene.areal_density_kg_per_m2);
             let system = run.cloth().system();
             let wanted_s = scene.solver.wanted_step_s(system, speed_m_per_s);
             let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s);

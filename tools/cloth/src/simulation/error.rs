@@ -11,7 +11,7 @@ use crate::cloth::ClothError;
 use crate::cloth::seam::SeamError;
 use crate::cloth::tearing::TearingError;
 use crate::method::solver::StepError;
-use crate::system::SettingError;
+use crate::system::error::SettingError;
 
 /// The reason why a simulation was refused.
 #[derive(Clone, Debug, PartialEq)]

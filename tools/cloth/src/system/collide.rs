@@ -20,7 +20,6 @@
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
-use crate::method::solver::Failure;
 use crate::system::System;
 use crate::system::body::Body;
 use crate::system::contact::{Contact, Corners, Look, Looks, Pressed};
@@ -45,10 +44,9 @@ pub(crate) fn begin(system: &mut System, substep_s: f64) {
     }
 }
 
-/// Fails if a particle went so far in the last substep that it may have passed through a body.
-pub(crate) fn check(system: &System) -> Result<(), Failure> {
-    let too_far = system.scratch.looks.too_far;
-    too_far.map_or(Ok(()), |particle| Err(Failure::TooFar { particle }))
+/// A particle that went so far in the last substep that it may have passed through a body.
+pub(crate) fn too_far(system: &System) -> Option<usize> {
+    system.scratch.looks.too_far
 }
 
 /// Moves the particles out of the colliders if that was not done yet in this substep, and takes their

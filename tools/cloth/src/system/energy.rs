@@ -2,8 +2,9 @@
 
 use tearmesh::geometry::dot;
 
+use crate::system::System;
+use crate::system::model::Recorded;
 use crate::system::pair;
-use crate::system::{Recorded, System};
 
 /// Returns the elastic energy of all constraints and triangles, in joules.
 #[must_use]

@@ -1,4 +1,4 @@
-//! The forces in constraints, and the force that is needed to hold a particle.
+//! The forces in constraints, the accelerations of particles, and the force that is needed to hold one.
 //!
 //! With a method that has physical stiffness, the force of a spring follows from its length.
 //! [`Pbd`] and [`Xpbd`] move particles instead, and their force is the multiplier that they
@@ -12,9 +12,9 @@
 
 use tearmesh::geometry::Vector;
 
-use crate::method::motion;
 use crate::system::System;
 use crate::system::constraint::ConstraintId;
+use crate::system::crush::Crush;
 use crate::system::pair;
 
 /// Returns the force in a stretch constraint as the method of the last step exerted it, in newtons.
@@ -79,9 +79,36 @@ pub fn reaction_n(system: &System, particle: usize) -> Vector {
 /// zero. Counts as a force evaluation. Returns false if a constraint is stretched beyond
 /// [`System::set_stretch_ratio_max`].
 pub fn accelerations(system: &mut System, accelerations: &mut Vec<Vector>) -> bool {
-    let is_sane = motion::accelerate(system, false, None);
+    let is_sane = accelerate(system, false, None);
     system.scratch.accelerations.clone_into(accelerations);
     is_sane
+}
+
+/// Takes the accelerations now, with wind at the velocities of now or at those that were
+/// predicted: in a step of `dt_s` seconds with the guards of
+/// [`Verlet`](crate::Verlet), or without any. False where a constraint is longer than the system's
+/// largest stretch ratio.
+#[must_use]
+pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Option<f64>) -> bool {
+    let (model, scratch) = (&system.model, &mut system.scratch);
+    let (positions, velocities) = (&system.positions, &system.velocities);
+    scratch.is_fresh = false;
+    let accelerations = &mut scratch.accelerations;
+    accelerations.resize(positions.len(), Vector::zeros());
+    let crush = guarded_s.map(|dt_s| Crush { velocities, dt_s });
+    let winds = match is_predicted {
+        true => &scratch.predicted,
+        false => velocities,
+    };
+    system.counters.force_evaluations += 1;
+    model.count_visits(1, &mut system.counters);
+    accelerations.fill(Vector::zeros());
+    let pull = model.add_forces(positions, crush, accelerations);
+    model.blow(positions, winds, accelerations, &mut system.counters);
+    model.weigh(guarded_s.map(|_| &system.guard.carry), accelerations);
+    scratch.guarded_s = guarded_s.unwrap_or(0.0);
+    scratch.damped_w = pull.damped_w;
+    pull.is_sane
 }
 
 /// The force of constraints, their damping, triangles and gravity on a particle, in newtons.

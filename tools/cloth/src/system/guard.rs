@@ -12,8 +12,8 @@
 //! uneven ones .24. A step up to twice as long is admitted whole, with many more that are carried:
 //! it is as stable, and exact at rest, but errs by some per cent in motion.
 //!
-//! Material damping counts as stiffness in a step ([`damping`](crate::system::damping)): with the sum C of the
-//! dampers at a particle, Δt² S becomes Δt² S + 2Δt C/(1 + 2θ).
+//! Material damping counts as stiffness in a step ([`damping`]): with the sum C of the dampers
+//! at a particle, Δt² S becomes Δt² S + 2Δt C/(1 + 2θ).
 //!
 //! μ leaves room for the damping of what is crushed ([`crush`](crate::system::crush)), 4μ(1 + 2θ) = 3.9 of
 //! 4, and what wind slows takes its part of it: with λ the rate of wind μ(1 − λΔt), so that the sum

@@ -6,9 +6,10 @@ use tearmesh::{HalfEdgeId, Mesh};
 use super::Threshold;
 use crate::cloth::Cloth;
 use crate::cloth::fabric::Weave;
+use crate::system::System;
 use crate::system::constraint::ConstraintId;
 use crate::system::force;
-use crate::system::{Recorded, System};
+use crate::system::model::Recorded;
 
 impl Threshold {
     /// Returns the load of a link in a system without a mesh. The link tears at 1 or more. The load

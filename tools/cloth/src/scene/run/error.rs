@@ -4,7 +4,7 @@ use std::fmt;
 
 use tearmesh::{ScissorError, VertexId};
 
-use crate::simulation::SimulationError;
+use crate::simulation::error::SimulationError;
 use crate::system::error::SettingError;
 
 /// The reason why a scene was refused.

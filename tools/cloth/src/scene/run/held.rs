@@ -9,7 +9,8 @@ use tearmesh::{Edit, Mesh, VertexId};
 
 use super::error::RunError;
 use crate::cloth::held_set::HeldSet;
-use crate::scene::{Frame, HeldVertices, Region};
+use crate::scene::frame::Frame;
+use crate::scene::{HeldVertices, Region};
 use crate::system::System;
 use crate::system::balance::Balance;
 use crate::system::path::Path;
