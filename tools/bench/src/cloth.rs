@@ -11,9 +11,10 @@ mod shares;
 mod sheet;
 mod splits;
 
+use tearmesh_cloth::statistics::median;
 use tearmesh_cloth::{Cloth, Pbd, Solver, Xpbd};
 
-use crate::measure::{median, timed_on_cpu};
+use crate::measure::timed_on_cpu;
 use crate::options::Options;
 use crate::table::{line, table};
 use bullet::{Bullet, Order, Program};
@@ -130,13 +131,13 @@ fn ours<'c, S: Solver>(
     let run = move |longer, steps| {
         let (mut cloth, mut solver) = (cloth.clone(), solver(longer));
         let before = cloth.system().counters().visits.project;
-        let ((), time) = timed_on_cpu(|| {
+        let ((), seconds) = timed_on_cpu(|| {
             for _ in 0..steps {
                 cloth.step(&mut solver, STEP_S).expect("a step");
             }
         });
         Run {
-            seconds: time.as_secs_f64(),
+            seconds,
             projections: cloth.system().counters().visits.project - before,
             positions: cloth.positions().to_vec(),
         }
@@ -197,7 +198,7 @@ fn tabulated(contestants: &[Contestant<'_>], all: &[Times]) -> String {
     ])];
     for (contestant, times) in contestants.iter().zip(all) {
         let name = contestant.name;
-        let (step, projection) = (median(&times.step_s), median(&times.projection_s));
+        let [step, projection] = [&times.step_s, &times.projection_s].map(|s| median(s.clone()));
         let Some((step_s, projection_s)) = step.zip(projection) else {
             if contestant.run.is_none() {
                 lines.push(line([name, "", "", "", "", "", "", &contestant.note]));
@@ -208,9 +209,9 @@ fn tabulated(contestants: &[Contestant<'_>], all: &[Times]) -> String {
         lines.push(line([
             name,
             &format!("{:.3}", step_s * 1e3),
-            &part(step, median(&bullet.step_s)),
+            &part(step, median(bullet.step_s.clone())),
             &format!("{:.2}", projection_s * 1e9),
-            &part(projection, median(&bullet.projection_s)),
+            &part(projection, median(bullet.projection_s.clone())),
             &format!("{rms:.4}"),
             &format!("{longest:.3}"),
             &contestant.note,

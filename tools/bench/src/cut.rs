@@ -7,18 +7,20 @@ mod rival;
 mod tables;
 mod ways;
 
-use crate::irregular::{self, Sheet};
-use crate::measure::{Contestant, median_seconds, rounds, timed_on_cpu};
+use tearmesh_cloth::statistics::median;
+use tearmesh_lab::sheet::through;
+
+use crate::measure::{Contestant, median_of, rounds, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
-use facts::{Facts, mean_edge};
+use facts::{Facts, Sheet, mean_edge, sheet};
 use rival::{Handover, Rival};
 use ways::{Form, WAYS, time};
 
 /// The contest on a tenth of the faces and on all, and the tables.
 pub(crate) fn run(options: &Options) -> String {
     let sheets = [options.faces.div_ceil(10), options.faces].map(|faces| {
-        let sheet = irregular::sheet(faces);
+        let sheet = sheet(faces);
         contest(&sheet, options)
     });
     format!("{}\n{}", sheets.join("\n"), tables::run(options))
@@ -71,7 +73,7 @@ impl Elsewhere {
 fn contest(sheet: &Sheet, options: &Options) -> String {
     let (mesh, positions) = sheet;
     // Oblique, and through no vertex.
-    let scissor = irregular::through([0.503, 0.471], 1.1);
+    let scissor = through([0.503, 0.471], 1.1);
     let handover = Handover::new(mesh, positions, &scissor.plane()).expect("a folder for files");
     let rivals = RIVALS.map(|rival| {
         let started = Rival::start(rival.name, &options.python, &handover);
@@ -111,7 +113,7 @@ fn contest(sheet: &Sheet, options: &Options) -> String {
     let fastest = results
         .iter()
         .filter(|(contestant, _)| is_rival(contestant.name))
-        .filter_map(|(_, times)| median_seconds(times))
+        .filter_map(|(_, times)| median(times.clone()))
         .reduce(f64::min);
 
     let mean_edge = mean_edge((mesh, positions));
@@ -139,13 +141,14 @@ fn contest(sheet: &Sheet, options: &Options) -> String {
             speeds.push(line([name, "", "", "", &missing]));
             continue;
         }
-        let median = median_seconds(times).expect("there is a round");
+        let median = median_of(times, |seconds| *seconds);
+        let least = times.iter().copied().fold(f64::INFINITY, f64::min);
         let ratio = fastest.map_or(String::new(), |time| format!("{:.2}", time / median));
         let note = match rival {
             Some((_, Some(rival))) => format!("{}: {}", rival.version(), contestant.note),
             _ => contestant.note.to_owned(),
         };
-        let [ms, least] = [median, times[0].as_secs_f64()].map(|s| format!("{:.2}", s * 1e3));
+        let [ms, least] = [median, least].map(|s| format!("{:.2}", s * 1e3));
         speeds.push(line([name, &ms, &least, &ratio, &note]));
         if let Some((_, Some(rival))) = rival {
             looks.push(look_of_rival(name, rival, mean_edge));

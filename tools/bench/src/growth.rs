@@ -1,13 +1,11 @@
 //! `growth`: what each stage of a cut costs a face as meshes grow, on sheets and on fans of one vertex.
 
-use std::time::Duration;
-
 use tearmesh::{
     CutMethod, Edits, Mesh, Plane, Point, Positions, Scissor, Vector, gap, mend, shapes,
 };
 use tearmesh_obj::{Document, TornDocument};
 
-use crate::measure::{median, timed_on_cpu};
+use crate::measure::{median_of, timed_on_cpu};
 use crate::options::Options;
 use crate::sheet::{Dialect, Sheet};
 use crate::table::table;
@@ -57,7 +55,7 @@ pub(crate) fn run(options: &Options) -> String {
 fn grown(
     names: &[&str],
     sizes: impl Iterator<Item = usize>,
-    times: impl Fn(usize) -> Vec<Duration>,
+    times: impl Fn(usize) -> Vec<f64>,
     rounds: usize,
 ) -> String {
     let mut rows = vec![vec![String::new()]];
@@ -67,10 +65,9 @@ fn grown(
         rows[0].push(faces.to_string());
         // A small mesh is over in no time: as many rounds as take as long as one of a large mesh.
         let rounds = (SIZES[2] / faces).clamp(1, 20) * rounds.min(3);
-        let all: Vec<Vec<Duration>> = (0..rounds).map(|_| times(faces)).collect();
+        let all: Vec<Vec<f64>> = (0..rounds).map(|_| times(faces)).collect();
         for (i, row) in rows[1..].iter_mut().enumerate() {
-            let a_face = |times: &Vec<Duration>| times[i].as_secs_f64() * 1e9 / faces as f64;
-            let cost = median(&all.iter().map(a_face).collect::<Vec<f64>>()).unwrap_or(0.0);
+            let cost = median_of(&all, |times| times[i] * 1e9 / faces as f64);
             row.push(format!("{cost:.1}"));
             costs[i].push(cost);
         }
@@ -85,8 +82,8 @@ fn grown(
     table(&rows)
 }
 
-/// How long each stage of the command takes that cuts this file by a plane, and mends the cut.
-fn stages(text: &str) -> Vec<Duration> {
+/// How many seconds each stage of the command takes that cuts this file by a plane, and mends the cut.
+fn stages(text: &str) -> Vec<f64> {
     let (document, read) = timed_on_cpu(|| Document::read(text.as_bytes()).expect("readable"));
     let (mesh, build) = timed_on_cpu(|| document.mesh().expect("a mesh"));
     let (violations, check) = timed_on_cpu(|| mesh.check());
@@ -114,8 +111,8 @@ fn stages(text: &str) -> Vec<Duration> {
     vec![read, build, check, cut, report, mend, write]
 }
 
-/// How long one option takes at a fan.
-fn option(name: &str, faces: usize) -> Duration {
+/// How many seconds one option takes at a fan.
+fn option(name: &str, faces: usize) -> f64 {
     let fan = shapes::fan(faces as u32, true);
     let by = |method, slides| {
         let copy = fan.clone();

@@ -45,7 +45,6 @@
 mod cloth;
 mod cut;
 mod growth;
-mod irregular;
 mod measure;
 mod options;
 mod process;

@@ -1,8 +1,33 @@
 //! Rivals that are processes of their own: asked a line, they answer a line.
 
 use std::cell::RefCell;
-use std::io::{BufRead, BufReader, Write};
+use std::fs;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::PathBuf;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+/// A folder of this process for files, which is removed in the end.
+pub(crate) struct Folder(PathBuf);
+
+impl Folder {
+    pub(crate) fn new() -> io::Result<Folder> {
+        let folder = std::env::temp_dir().join(format!("tearmesh-bench-{}", std::process::id()));
+        fs::create_dir_all(&folder)?;
+        Ok(Folder(folder))
+    }
+
+    /// The path of a file in it.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed is the system's to clear away.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
 
 /// A rival that is ready.
 pub(crate) struct Process {

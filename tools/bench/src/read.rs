@@ -1,7 +1,5 @@
 //! `read`: OBJ bytes in memory to a document in memory.
 
-use std::time::Duration;
-
 use tearmesh_obj::Document;
 
 use crate::measure::{Contestant, contest, timed_on_cpu};
@@ -123,12 +121,12 @@ const READERS: [Contestant<'_, Sheet>; 7] = [
     },
 ];
 
-/// How long it takes to read a sheet, whole.
+/// How many seconds it takes to read a sheet, whole.
 fn read<T>(
     sheet: &Sheet,
     reader: impl FnOnce(&[u8]) -> T,
     counts: impl FnOnce(&T) -> (usize, usize),
-) -> Option<Duration> {
+) -> Option<f64> {
     let (result, time) = timed_on_cpu(|| reader(sheet.text.as_bytes()));
     assert_eq!(
         counts(&result),

@@ -5,13 +5,15 @@ use std::io;
 use std::path::Path;
 use std::process::Command;
 
+use tearmesh_lab::experiment::processor;
+
 /// The lines above a table.
 pub(crate) fn heading(subcommand: &str) -> String {
     format!(
         "tearmesh-bench {subcommand}\ncommit    {}\ncompiler  {}\nCPU       {}\n",
         commit(),
         said_by("rustc", &["--version"]),
-        cpu()
+        processor()
     )
 }
 
@@ -19,7 +21,7 @@ pub(crate) fn heading(subcommand: &str) -> String {
 pub(crate) fn keep(subcommand: &str, report: &str) -> io::Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("record")
-        .join(folder_name(&cpu()));
+        .join(folder_name(&processor()));
     fs::create_dir_all(&folder)?;
     fs::write(folder.join(format!("{subcommand}.txt")), report)
 }
@@ -41,15 +43,6 @@ fn commit() -> String {
 }
 
 const UNKNOWN: &str = "unknown";
-
-fn cpu() -> String {
-    let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|line| {
-        let (name, value) = line.split_once(':')?;
-        (name.trim() == "model name").then(|| value.trim().to_owned())
-    });
-    model.unwrap_or_else(|| UNKNOWN.to_owned())
-}
 
 /// What a program prints, or `unknown` if it cannot be run.
 fn said_by(program: &str, arguments: &[&str]) -> String {

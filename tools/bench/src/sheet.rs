@@ -33,6 +33,11 @@ impl Dialect {
     }
 }
 
+/// How many cells a side has of a square sheet of about so many faces.
+pub(crate) fn cells(faces: usize, per_cell: usize) -> usize {
+    ((faces as f64 / per_cell as f64).sqrt().round() as usize).max(1)
+}
+
 /// A generated file.
 pub(crate) struct Sheet {
     pub(crate) dialect: Dialect,
@@ -46,7 +51,7 @@ impl Sheet {
     /// A square sheet of about so many faces.
     pub(crate) fn new(dialect: Dialect, faces: usize) -> Sheet {
         let per_cell = if dialect == Dialect::Quads { 1 } else { 2 };
-        let cells = ((faces as f64 / per_cell as f64).sqrt().round() as usize).max(1);
+        let cells = cells(faces, per_cell);
         let mut text = String::from("o sheet\n");
         let points =
             || (0..=cells).flat_map(move |row| (0..=cells).map(move |column| (row, column)));

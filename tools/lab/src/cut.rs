@@ -11,12 +11,12 @@ use std::f64::consts::PI;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
-use tearmesh::{CutMethod, CutReport, Edits, Masses, Mesh, Point, Positions, Ray, Scissor, Vector};
+use tearmesh::{CutMethod, CutReport, Edits, Masses, Mesh, Positions, Scissor};
 use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
 use crate::experiment::{Bounds, Experiment, Status};
-use crate::sheet::{DENSITY_KG_PER_M2, SEED, delaunay};
+use crate::sheet::{DENSITY_KG_PER_M2, SEED, through, wavy};
 
 /// The experiment on cut methods.
 #[derive(Clone, Debug)]
@@ -149,25 +149,8 @@ struct WavySheet {
 }
 
 impl WavySheet {
-    /// The Delaunay triangles of a grid whose inner points are moved at random, as a wave.
     fn new(cells: u32) -> WavySheet {
-        let mut random = Random::new(SEED);
-        let width = cells + 1;
-        let points = (0..width * width).map(|i| {
-            let place = [i % width, i / width];
-            let is_inner = place.iter().all(|i| ![0, cells].contains(i));
-            let mut moved = || match is_inner {
-                true => 0.8 * random.next() - 0.4,
-                false => 0.0,
-            };
-            place.map(|i| (f64::from(i) + moved()) / f64::from(cells))
-        });
-        let points: Vec<[f64; 2]> = points.collect();
-        let cell = 1.0 / f64::from(cells);
-        let mesh = delaunay(&points, 1e-9 * cell * cell);
-        let wave = points.iter();
-        let wave = wave.map(|&[x, y]| Point::new(x, y, 0.1 * (9.0 * x + 4.0 * y).sin()));
-        let positions = Positions::new(wave).expect("a sheet's coordinates are finite");
+        let (mesh, positions) = wavy(cells);
         WavySheet {
             step_s: step_s(&mesh, &positions),
             mesh,
@@ -198,17 +181,11 @@ impl WavySheet {
     }
 }
 
-/// The scissor that cuts a sheet through from above, along a random line.
+/// The scissor that cuts a sheet through along a random line.
 fn scissor(line: u32) -> Scissor {
     let mut random = Random::new(SEED + 1000 * u64::from(line));
-    let [x, y] = [0, 1].map(|_| 0.25 + 0.5 * random.next());
-    let (sin, cos) = (PI * random.next()).sin_cos();
-    let ray = |along: f64| {
-        let origin = Point::new(x + along * cos, y + along * sin, 5.0);
-        Ray::new(origin, -Vector::z()).expect("the z axis is a direction")
-    };
-    let scissor = Scissor::new(ray(-2.0), ray(2.0)).expect("the rays are on two lines");
-    scissor.through(true)
+    let at = [0, 1].map(|_| 0.25 + 0.5 * random.next());
+    through(at, PI * random.next())
 }
 
 /// The longest stable step by velocity Verlet of springs along the edges, in seconds.

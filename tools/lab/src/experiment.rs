@@ -126,6 +126,16 @@ pub fn workers() -> NonZero<usize> {
     thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN)
 }
 
+/// Returns the name of the processor if the system has one, or else its architecture.
+#[must_use]
+pub fn processor() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let mut lines = text.lines().filter(|line| line.starts_with("model name"));
+    let named = lines.next().and_then(|line| line.split_once(':'));
+    let named = named.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
+    named.to_owned()
+}
+
 /// Does `work` for each job on up to `workers` threads, and returns the results. Jobs are begun in their order.
 /// `watch` is called on this thread after each job, with its index.
 ///

@@ -6,7 +6,7 @@
 //! [`fig7`] measures the time to split vertices, as Figure 7 of the paper does.
 //!
 //! Every experiment has the same shape ([`experiment`]): a plan of runs, a table with a row for each, and a
-//! figure of that table ([`plot`]). Nothing here reads a file or a clock: a clock is an argument. So the same
+//! figure of that table ([`plot`]). No experiment reads a file or a clock: a clock is an argument. So the same
 //! experiment gives the same bytes.
 
 #![forbid(unsafe_code)]

@@ -1,7 +1,8 @@
-//! Sheets: a grid whose diagonals lie at random, and Delaunay triangles of as many random points.
+//! Sheets: a grid whose diagonals lie at random, and Delaunay triangles of as many random points; and wavy sheets of
+//! irregular triangles, which are cut through.
 
 use serde::{Deserialize, Serialize};
-use tearmesh::{Masses, Mesh, Point, Positions, Vector, shapes};
+use tearmesh::{Masses, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 use tearmesh_cloth::System;
 use tearmesh_cloth::statistics::Random;
 
@@ -129,6 +130,51 @@ fn scattered(cells: u32, side_m: f64, random: &mut Random) -> (Mesh, Positions) 
     let points = points.map(|&[x, y]| Point::new(x * side_m, y * side_m, 0.0));
     let positions = Positions::new(points).expect("a sheet's coordinates are finite");
     (mesh, positions)
+}
+
+/// Returns a wavy sheet over the unit square: the Delaunay triangles of a grid of `cells` × `cells` cells, whose inner
+/// points are moved at random by up to 0.4 cells along each axis.
+///
+/// # Panics
+///
+/// If `cells` is 0 or more than a mesh can have.
+#[must_use]
+pub fn wavy(cells: u32) -> (Mesh, Positions) {
+    let mut random = Random::new(SEED);
+    let width = cells + 1;
+    let points = (0..width * width).map(|i| {
+        let place = [i % width, i / width];
+        let is_inner = place.iter().all(|i| ![0, cells].contains(i));
+        let mut moved = || match is_inner {
+            true => 0.8 * random.next() - 0.4,
+            false => 0.0,
+        };
+        place.map(|i| (f64::from(i) + moved()) / f64::from(cells))
+    });
+    let points: Vec<[f64; 2]> = points.collect();
+    let cell = 1.0 / f64::from(cells);
+    let mesh = delaunay(&points, 1e-9 * cell * cell);
+    let wave = points.iter();
+    let wave = wave.map(|&[x, y]| Point::new(x, y, 0.1 * (9.0 * x + 4.0 * y).sin()));
+    let positions = Positions::new(wave).expect("a sheet's coordinates are finite");
+    (mesh, positions)
+}
+
+/// Returns the scissor that cuts a [`wavy`] sheet through from above, along the line through a point of the unit
+/// square at this angle in radians.
+///
+/// # Panics
+///
+/// If a coordinate or the angle is not finite.
+#[must_use]
+pub fn through([x, y]: [f64; 2], angle_rad: f64) -> Scissor {
+    let (sin, cos) = angle_rad.sin_cos();
+    let ray = |along: f64| {
+        let origin = Point::new(x + along * cos, y + along * sin, 5.0);
+        Ray::new(origin, -Vector::z()).expect("the z axis is a direction")
+    };
+    let scissor = Scissor::new(ray(-2.0), ray(2.0)).expect("the rays are on two lines");
+    scissor.through(true)
 }
 
 /// A system at rest of points with masses, tied by springs: their two ends and their rest length in metres.

@@ -1,7 +1,6 @@
 //! Bullet's soft body, in a process of its own: `rivals/bullet.cpp`.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -10,12 +9,10 @@ use tearmesh::Point;
 use tearmesh_cloth::System;
 
 use super::sheet::{GRAVITY_M_PER_S2, Run, STEP_S};
-use crate::process::Process;
+use crate::process::{Folder, Process};
 
-/// The program, compiled against the library that is installed. Removed in the end.
-pub(super) struct Program {
-    folder: PathBuf,
-}
+/// The folder of the program, which is compiled against the library that is installed.
+pub(super) struct Program(Folder);
 
 impl Program {
     /// Compiles it; or why that cannot be.
@@ -25,9 +22,7 @@ impl Program {
             return Err("not installed (libbullet-dev, pkg-config)".to_owned());
         };
         let flags = String::from_utf8_lossy(&flags.stdout).into_owned();
-        let folder = std::env::temp_dir().join(format!("tearmesh-bench-{}", std::process::id()));
-        fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        let program = Program { folder };
+        let program = Program(Folder::new().map_err(|error| error.to_string())?);
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("rivals/bullet.cpp");
         let mut compiler = Command::new("c++");
         compiler.args(["-std=c++17", "-O3"]).arg(source);
@@ -44,14 +39,7 @@ impl Program {
     }
 
     fn path(&self) -> PathBuf {
-        self.folder.join("bullet")
-    }
-}
-
-impl Drop for Program {
-    fn drop(&mut self) {
-        // What cannot be removed is the system's to clear away.
-        let _ = fs::remove_dir_all(&self.folder);
+        self.0.path("bullet")
     }
 }
 

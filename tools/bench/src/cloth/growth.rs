@@ -6,7 +6,7 @@ use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd, frequency_bound
 
 use super::bullet::{Bullet, Order, Program};
 use super::sheet::{STEP_S, hanging, woven};
-use crate::measure::{median, timed_on_cpu};
+use crate::measure::{median_of, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
 
@@ -154,11 +154,10 @@ fn rounds(
             measured.push(measure(i));
         }
     }
-    let of = |measured: &[(f64, f64)], part: fn(&(f64, f64)) -> f64| {
-        let parts: Vec<f64> = measured.iter().map(part).collect();
-        median(&parts).expect("there is a round")
-    };
-    all.map(|measured| (of(&measured, |both| both.0), of(&measured, |both| both.1)))
+    all.map(|measured| {
+        let of = |part: fn(&(f64, f64)) -> f64| median_of(&measured, part);
+        (of(|both| both.0), of(|both| both.1))
+    })
 }
 
 fn row(name: &str, medians: [f64; SIDES.len()], note: &str) -> Vec<String> {
@@ -191,12 +190,12 @@ fn nanoseconds(method: &Method, cloth: &Cloth, edges: usize) -> (f64, f64) {
     }
     let steps = steps(edges, method.weight);
     let before = cloth.system().counters().matrix_products;
-    let ((), time) = timed_on_cpu(|| {
+    let ((), seconds) = timed_on_cpu(|| {
         for _ in 0..steps {
             cloth.step(&mut *solver, step_s).expect("a step");
         }
     });
     let products = cloth.system().counters().matrix_products - before;
-    let an_edge = time.as_secs_f64() * 1e9 / edges as f64;
+    let an_edge = seconds * 1e9 / edges as f64;
     (an_edge / steps as f64, an_edge / products as f64)
 }

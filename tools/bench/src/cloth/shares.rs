@@ -3,53 +3,26 @@
 
 use tearmesh::{Edits, Mesh, shapes};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-use tearmesh_cloth::{Cloth, Method, Pbd, Solver, Tear, Tearing, Verlet, Xpbd};
+use tearmesh_cloth::{Cloth, Method, Solver, Tear, Tearing};
 
-use crate::measure::{median, timed_on_cpu};
+use super::sheet::methods;
+use crate::measure::{median_of, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
 
 /// Steps of one measurement.
 const STEPS: u32 = 50;
 
-struct Contestant {
-    name: &'static str,
-    method: fn() -> Method,
-    solver: fn() -> Box<dyn Solver>,
-}
-
-const METHODS: [Contestant; 3] = [
-    Contestant {
-        name: "verlet",
-        method: || Method::Verlet,
-        solver: || Box::new(Verlet),
-    },
-    Contestant {
-        name: "xpbd",
-        method: || Method::Xpbd(Xpbd::default()),
-        solver: || Box::new(Xpbd::default()),
-    },
-    Contestant {
-        name: "pbd",
-        method: || Method::Pbd(Pbd::default()),
-        solver: || Box::new(Pbd::default()),
-    },
-];
-
 /// A table of ratios, and one of real time.
 pub(super) fn run(options: &Options) -> String {
-    let names = METHODS.map(|method| method.name);
-    let picked: Vec<&Contestant> = METHODS
-        .iter()
-        .filter(|method| options.picks(method.name, &names))
-        .collect();
+    let methods = methods(options);
     let head = ["", "sheet", "step, us", "bare", "tearing", "never", "run"];
     let mut lines = vec![line(head)];
     for n in [64, 128] {
-        lines.extend(picked.iter().map(|method| shares(method, n, options)));
+        lines.extend(methods.iter().map(|method| shares(method, n, options)));
     }
     let mut rips = vec![line(["", "sheet", "CPU s a second", ""])];
-    rips.extend(picked.iter().map(|method| rip(method, options)));
+    rips.extend(methods.iter().map(|method| rip(method, options)));
     format!(
         "hang with nothing torn, times a bare step: with a look for tears, a run that never tears, one \
          that does; CPU time of {rounds} rounds\n{}\nrip (figure 6 of the paper), 3 s\n{}",
@@ -60,13 +33,13 @@ pub(super) fn run(options: &Options) -> String {
 }
 
 /// What a method's step costs bare, and how many times that with what a run adds.
-fn shares(method: &Contestant, n: u32, options: &Options) -> Vec<String> {
+fn shares(method: &Method, n: u32, options: &Options) -> Vec<String> {
     let (mut tears, mut never) = (hang(method, n, true), hang(method, n, false));
     for run in [&mut tears, &mut never] {
         steps(run, 20);
     }
     let step_s = tears.step_s();
-    let mut solver = (method.solver)();
+    let mut solver = method.solver();
     let times: Vec<[f64; 4]> = (0..options.rounds)
         .map(|_| {
             let mut cloth = tears.cloth().clone();
@@ -87,13 +60,10 @@ fn shares(method: &Contestant, n: u32, options: &Options) -> Vec<String> {
         })
         .collect();
     assert_eq!(tears.tally().splits, 0, "nothing tears");
-    let of = |part: usize| {
-        let parts: Vec<f64> = times.iter().map(|all| all[part]).collect();
-        median(&parts).expect("there is a round")
-    };
+    let of = |part: usize| median_of(&times, |all| all[part]);
     let ratio = |part| format!("{:.2}", of(part) / of(0));
     line([
-        method.name,
+        method.name(),
         &format!("{n} x {n}"),
         &format!("{:.0}", step_s * 1e6),
         &format!("{:.0} us", of(0) / f64::from(STEPS) * 1e6),
@@ -134,12 +104,12 @@ impl Torn {
 }
 
 /// How long a rip takes by a method, for each second of it.
-fn rip(method: &Contestant, options: &Options) -> Vec<String> {
+fn rip(method: &Method, options: &Options) -> Vec<String> {
     let n = 64;
     let times: Vec<f64> = (0..options.rounds.min(3))
         .map(|_| {
             let mut run = on_a_sheet(n, |frame| Scene {
-                solver: (method.method)(),
+                solver: method.clone(),
                 ..Scene::rip(frame)
             });
             let taken = timed(|| {
@@ -150,18 +120,18 @@ fn rip(method: &Contestant, options: &Options) -> Vec<String> {
             taken / run.elapsed_s()
         })
         .collect();
-    let a_second = median(&times).expect("there is a round");
+    let a_second = median_of(&times, |seconds| *seconds);
     line([
-        method.name,
+        method.name(),
         &format!("{n} x {n}"),
         &format!("{a_second:.2}"),
         "at most 1 is real time",
     ])
 }
 
-fn hang(method: &Contestant, n: u32, tears: bool) -> Run {
+fn hang(method: &Method, n: u32, tears: bool) -> Run {
     on_a_sheet(n, |frame| Scene {
-        solver: (method.method)(),
+        solver: method.clone(),
         tearing: tears.then(Tearing::default),
         drag_per_s: 1.0,
         duration_s: 1e3,
@@ -182,6 +152,5 @@ fn steps(run: &mut Run, count: u32) {
 }
 
 fn timed(job: impl FnOnce()) -> f64 {
-    let ((), time) = timed_on_cpu(job);
-    time.as_secs_f64()
+    timed_on_cpu(job).1
 }

@@ -1,7 +1,9 @@
 //! A sheet that hangs by its upper edge.
 
 use tearmesh::{Masses, Mesh, Point, Vector, shapes};
-use tearmesh_cloth::{Cloth, Fabric, Loads, System, Weave};
+use tearmesh_cloth::{Cloth, Fabric, Loads, Method, System, Weave, Xpbd};
+
+use crate::options::Options;
 
 pub(super) const GRAVITY_M_PER_S2: f64 = -9.81;
 pub(super) const STEP_S: f64 = 1.0 / 60.0;
@@ -43,6 +45,16 @@ fn hung(n: u32, fabric: Fabric) -> (Mesh, Cloth) {
     // What stretches a hundredfold is a result here.
     system.set_stretch_ratio_max(f64::INFINITY);
     (mesh, cloth)
+}
+
+/// The methods that are measured alone, as far as they are picked: each with ten sweeps, or by forces.
+pub(super) fn methods(options: &Options) -> Vec<Method> {
+    let methods = [Method::Verlet, Method::Xpbd(Xpbd::default()), Method::pbd()];
+    let names = methods.each_ref().map(Method::name);
+    let methods = methods.into_iter();
+    methods
+        .filter(|method| options.picks(method.name(), &names))
+        .collect()
 }
 
 /// Steps of a sheet from rest.

@@ -1,23 +1,14 @@
 //! A step with a hundred splits in it beside one with none: of ours alone.
 
 use tearmesh::{Edits, Mesh, VertexId, split};
-use tearmesh_cloth::{Cloth, Pbd, Solver, Verlet, Xpbd, frequency_bound};
+use tearmesh_cloth::{Cloth, Method, Solver, frequency_bound};
 
-use super::sheet::{STEP_S, hanging};
-use crate::measure::{median, timed_on_cpu};
+use super::sheet::{STEP_S, hanging, methods};
+use crate::measure::{median_of, timed_on_cpu};
 use crate::options::Options;
 use crate::table::{line, table};
 
 const SPLITS: usize = 100;
-
-/// A method, and what makes it.
-type Method = (&'static str, fn() -> Box<dyn Solver>);
-
-const METHODS: [Method; 3] = [
-    ("xpbd", || Box::new(Xpbd::new(10, 1))),
-    ("pbd", || Box::new(Pbd::new(10))),
-    ("verlet", || Box::new(Verlet)),
-];
 
 /// What was measured in a round, in µs.
 #[derive(Clone, Copy)]
@@ -34,7 +25,7 @@ struct Times {
 
 /// One line a method and size.
 pub(super) fn run(options: &Options) -> String {
-    let names: Vec<&str> = METHODS.iter().map(|(name, _)| *name).collect();
+    let methods = methods(options);
     let mut lines = vec![line([
         "",
         "sheet",
@@ -48,19 +39,13 @@ pub(super) fn run(options: &Options) -> String {
     ])];
     for n in [64, 256] {
         let (mesh, cloth) = hanging(n);
-        let all: Vec<Vec<Times>> = rounds(&mesh, &cloth, options);
-        for ((name, _), times) in METHODS.iter().zip(all) {
-            if !options.picks(name, &names) {
-                continue;
-            }
-            let of = |part: fn(&Times) -> f64| {
-                let parts: Vec<f64> = times.iter().map(part).collect();
-                median(&parts).expect("there is a round")
-            };
+        let all = rounds(&methods, &mesh, &cloth, options);
+        for (method, times) in methods.iter().zip(all) {
+            let of = |part: fn(&Times) -> f64| median_of(&times, part);
             let with = of(|times| times.splits + times.follow + times.after);
             let micros = |us: f64| format!("{us:.0}");
             lines.push(line([
-                name,
+                method.name(),
                 &format!("{n} x {n}"),
                 &micros(of(|times| times.none)),
                 &micros(with),
@@ -82,11 +67,12 @@ pub(super) fn run(options: &Options) -> String {
     )
 }
 
-fn rounds(mesh: &Mesh, cloth: &Cloth, options: &Options) -> Vec<Vec<Times>> {
-    let mut all = vec![Vec::new(); METHODS.len()];
+fn rounds(methods: &[Method], mesh: &Mesh, cloth: &Cloth, options: &Options) -> Vec<Vec<Times>> {
+    let mut all = vec![Vec::new(); methods.len()];
     for _ in 0..options.rounds {
-        for ((_, solver), times) in METHODS.iter().zip(&mut all) {
-            times.push(measured(&mut *solver(), mesh.clone(), cloth.clone()));
+        for (method, times) in methods.iter().zip(&mut all) {
+            let mut solver = method.solver();
+            times.push(measured(&mut *solver, mesh.clone(), cloth.clone()));
         }
     }
     all
@@ -123,8 +109,7 @@ fn measured(solver: &mut dyn Solver, mut mesh: Mesh, mut cloth: Cloth) -> Times 
     let (step, after) = timed_on_cpu(|| cloth.step(solver, step_s));
     step.expect("a step");
     assert_eq!(cloth.indices(), mesh.indices(), "the cloth is in step");
-    let [none, splits, follow, after] =
-        [none, splits, follow, after].map(|t| t.as_secs_f64() * 1e6);
+    let [none, splits, follow, after] = [none, splits, follow, after].map(|seconds| seconds * 1e6);
     Times {
         none,
         splits,

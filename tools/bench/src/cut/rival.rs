@@ -2,42 +2,31 @@
 
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
-use std::time::Duration;
 
 use tearmesh::{Mesh, Plane, Positions};
 
-use crate::process::Process;
+use crate::process::{Folder, Process};
 
-/// A mesh and a plane as files, which are removed in the end.
-pub(super) struct Handover {
-    folder: PathBuf,
-}
+/// A mesh and a plane as files.
+pub(super) struct Handover(Folder);
 
 impl Handover {
     pub(super) fn new(mesh: &Mesh, positions: &Positions, plane: &Plane) -> io::Result<Handover> {
-        let folder = std::env::temp_dir().join(format!("tearmesh-bench-{}", std::process::id()));
-        fs::create_dir_all(&folder)?;
+        let folder = Folder::new()?;
         let floats = |points: &mut dyn Iterator<Item = [f64; 3]>| -> Vec<u8> {
             points.flatten().flat_map(f64::to_le_bytes).collect()
         };
         let points = floats(&mut positions.as_slice().iter().map(|p| [p.x, p.y, p.z]));
-        fs::write(folder.join("points"), points)?;
+        fs::write(folder.path("points"), points)?;
         let corners = mesh.indices().iter().flat_map(|v| v.to_le_bytes());
-        fs::write(folder.join("triangles"), corners.collect::<Vec<u8>>())?;
+        fs::write(folder.path("triangles"), corners.collect::<Vec<u8>>())?;
         let normal = plane.normal() / plane.normal().norm();
         let plane = [plane.point().coords, normal];
         let plane = floats(&mut plane.iter().map(|v| [v.x, v.y, v.z]));
-        fs::write(folder.join("plane"), plane)?;
-        Ok(Handover { folder })
-    }
-}
-
-impl Drop for Handover {
-    fn drop(&mut self) {
-        // What cannot be removed is the system's to clear away.
-        let _ = fs::remove_dir_all(&self.folder);
+        fs::write(folder.path("plane"), plane)?;
+        Ok(Handover(folder))
     }
 }
 
@@ -62,7 +51,7 @@ impl Rival {
     pub(super) fn start(name: &str, python: &str, handover: &Handover) -> Option<Rival> {
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("rivals/cut.py");
         let mut command = Command::new(python);
-        command.arg(script).arg(name).arg(&handover.folder);
+        command.arg(script).arg(name).arg(handover.0.path(""));
         Process::start(&mut command, "").map(Rival)
     }
 
@@ -70,10 +59,9 @@ impl Rival {
         &self.0.version
     }
 
-    /// How long the rival takes for a cut.
-    pub(super) fn cut(&self) -> Duration {
-        let seconds = self.0.ask("cut").parse().expect("a number of seconds");
-        Duration::from_secs_f64(seconds)
+    /// How many seconds the rival takes for a cut.
+    pub(super) fn cut(&self) -> f64 {
+        self.0.ask("cut").parse().expect("a number of seconds")
     }
 
     pub(super) fn check(&self) -> Facts {

@@ -3,11 +3,12 @@
 //! Beside our figures stand those of the experiments that the rules of the scissor come from.
 
 use tearmesh::CutMethod;
-use tearmesh_cloth::statistics::Random;
+use tearmesh_cloth::statistics::{Random, median};
+use tearmesh_lab::sheet::through;
 
-use super::facts::Facts;
+use super::facts::{Facts, Sheet, sheet};
 use super::ways::{Form, time};
-use crate::irregular::{self, Sheet};
+use crate::measure::median_of;
 use crate::options::Options;
 use crate::table::{line, table};
 
@@ -16,7 +17,7 @@ const CUTS: usize = 40;
 
 /// Both tables.
 pub(super) fn run(options: &Options) -> String {
-    let sheet = irregular::sheet(FACES);
+    let sheet = sheet(FACES);
     let head = format!(
         "{CUTS} random through cuts of {} faces, with room; in brackets what was found elsewhere",
         sheet.0.face_count()
@@ -42,30 +43,25 @@ impl Series {
         let mut facts = Vec::new();
         for _ in 0..CUTS {
             let at = [0.3 + 0.4 * random.next(), 0.3 + 0.4 * random.next()];
-            let scissor = irregular::through(at, std::f64::consts::PI * random.next()).snap(snap);
+            let scissor = through(at, std::f64::consts::PI * random.next()).snap(snap);
             facts.push(Facts::new(&scissor, method, sheet));
             for _ in 0..options.rounds {
-                times.push(time(&scissor, method, Form::Room, sheet).as_secs_f64() * 1e3);
+                times.push(time(&scissor, method, Form::Room, sheet) * 1e3);
             }
         }
         Series {
             facts,
-            time: median(times),
+            time: median(times).expect("there is a cut"),
         }
     }
 
     fn median(&self, of: impl Fn(&Facts) -> f64) -> f64 {
-        median(self.facts.iter().map(of).collect())
+        median_of(&self.facts, of)
     }
 
     fn mean(&self, of: impl Fn(&Facts) -> usize) -> f64 {
         self.facts.iter().map(of).sum::<usize>() as f64 / self.facts.len() as f64
     }
-}
-
-fn median(mut numbers: Vec<f64>) -> f64 {
-    numbers.sort_unstable_by(f64::total_cmp);
-    numbers[numbers.len() / 2]
 }
 
 const SNAPS: [(f64, &str, &str, &str); 5] = [

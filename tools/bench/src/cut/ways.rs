@@ -1,10 +1,9 @@
 //! The ways in which we cut, and how long one takes.
 
-use std::time::Duration;
-
 use tearmesh::{CutMethod, Edits, Scissor};
+use tearmesh_lab::sheet::through;
 
-use crate::irregular::{self, Sheet};
+use super::facts::Sheet;
 use crate::measure::timed_on_cpu;
 
 /// A way in which we cut.
@@ -72,13 +71,13 @@ pub(super) const WAYS: [Way; 11] = [
     way("partition, report", CutMethod::Partition, 0.0, Form::Report),
 ];
 
-/// How long a cut takes on a copy. The copy, and what becomes of it, are not part of it.
+/// How many seconds a cut takes on a copy. The copy, and what becomes of it, are not part of it.
 pub(super) fn time(
     scissor: &Scissor,
     method: CutMethod,
     form: Form,
     (mesh, positions): &Sheet,
-) -> Duration {
+) -> f64 {
     let (mut mesh, mut positions, mut edits) = (mesh.clone(), positions.clone(), Edits::new());
     if form == Form::Room {
         let room = mesh.face_count() / 8;
@@ -87,7 +86,7 @@ pub(super) fn time(
         positions.reserve(room);
     }
     if form == Form::Second {
-        let before = irregular::through([0.31, 0.62], 0.4).snap(Scissor::SNAP);
+        let before = through([0.31, 0.62], 0.4).snap(Scissor::SNAP);
         let made = before.cut(method, &mut mesh, &mut positions, &mut edits);
         made.expect("positions are in step");
     }

@@ -7,7 +7,7 @@ use clap::{Args as _, Command, CommandFactory as _};
 use cpu_time::ThreadTime;
 use tearmesh_lab::cut::Cuts;
 use tearmesh_lab::experiment::{
-    Bounds, Chart, Experiment, Provenance, conduct, guess_s, read_table, table, workers,
+    Bounds, Chart, Experiment, Provenance, conduct, guess_s, processor, read_table, table, workers,
 };
 use tearmesh_lab::fig7::Fig7;
 use tearmesh_lab::guide::Guide;
@@ -237,15 +237,6 @@ fn conducted<E: Experiment>(
 
 /// The length of a progress bar.
 const BAR: f64 = 1000.0;
-
-/// The name of the processor if the system has one, or else its architecture.
-fn processor() -> String {
-    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let mut lines = text.lines().filter(|line| line.starts_with("model name"));
-    let named = lines.next().and_then(|line| line.split_once(':'));
-    let named = named.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
-    named.to_owned()
-}
 
 /// The files that are wanted. Both must be places of their own that can be written, and only the chart may be
 /// standard output.
