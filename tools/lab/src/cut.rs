@@ -27,27 +27,27 @@ pub struct Cuts {
 
 /// A method on a sheet, over all lines. Without measurements it is the key of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub(crate) struct Row {
     /// The name of the method with its settings.
-    pub method: String,
+    pub(crate) method: String,
     /// The number of faces of the sheet before a cut.
-    pub faces: usize,
+    pub(crate) faces: usize,
     /// Whether the sheet was cut along every line. If not, there are no measurements.
-    pub status: Status,
+    pub(crate) status: Status,
     /// The number of lines.
-    pub cuts: Option<usize>,
+    pub(crate) cuts: Option<usize>,
     /// The median CPU time of a cut in ns, divided by `faces`; 0 without a clock.
-    pub ns_per_face: Option<f64>,
+    pub(crate) ns_per_face: Option<f64>,
     /// The median over all lines of the largest distance of the seam from the plane, in mean edge lengths.
-    pub deviation_edges: Option<f64>,
+    pub(crate) deviation_edges: Option<f64>,
     /// The largest distance of any seam from its plane, in mean edge lengths.
-    pub deviation_edges_most: Option<f64>,
+    pub(crate) deviation_edges_most: Option<f64>,
     /// The number of lines along which the cut left the expected number of pieces.
-    pub divided: Option<usize>,
+    pub(crate) divided: Option<usize>,
     /// The median of the stable step of springs after a cut, divided by that before it.
-    pub step_ratio: Option<f64>,
+    pub(crate) step_ratio: Option<f64>,
     /// The smallest ratio of the stable step after a cut to that before it.
-    pub step_ratio_least: Option<f64>,
+    pub(crate) step_ratio_least: Option<f64>,
 }
 
 /// All methods and settings that are compared, in the order of tables: the name, the method, and the arguments

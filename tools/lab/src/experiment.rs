@@ -1,9 +1,9 @@
 //! Experiments: a plan of runs, a table with a row for each, and a figure of the table.
 //!
-//! An [`Experiment`] lists the keys of its runs, in groups that are assessed together, and carries out a run by
-//! its key. [`conduct`] does all runs of a plan on a pool of threads, group by group. A run that failed, or that
-//! an interruption left out, is a row with a status. [`table`] writes the rows as CSV; what is drawn is drawn
-//! from the rows alone, so a table that was read back gives the same figure.
+//! An `Experiment` lists the keys of its runs, in groups that are assessed together, and carries out a run by
+//! its key. [`Chart::run`] does all runs of the plan on a pool of threads, group by group. A run that failed, or that
+//! an interruption left out, is a row with a status. The table has the rows as CSV; [`Chart::draw`] draws it, and
+//! nothing else, so a table from a file gives the same figure.
 
 use std::num::NonZero;
 use std::sync::{Mutex, mpsc};
@@ -13,10 +13,10 @@ use std::time::Duration;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use crate::plot::Figure;
+use crate::plot::{Figure, svg};
 
 /// An experiment: what is run, and what is written down of it.
-pub trait Experiment: Sync {
+pub(crate) trait Experiment: Sync {
     /// A line of the table. Without results, as [`plan`](Experiment::plan) returns it, it is the key of a run.
     type Row: Clone + Send + Sync + Serialize + DeserializeOwned;
 
@@ -54,12 +54,100 @@ pub trait Experiment: Sync {
 }
 
 /// An experiment that is drawn and summed up in words, from its table alone.
-pub trait Chart: Experiment {
-    /// Returns the figure of a table.
-    fn figure(&self, rows: &[Self::Row], provenance: &Provenance) -> Figure;
+pub(crate) trait Draw: Experiment {
+    /// Returns the figure of a table. Its footer is how to read it; the origin is added.
+    fn figure(&self, rows: &[Self::Row]) -> Figure;
 
     /// Returns a summary of a table in words.
     fn summary(&self, rows: &[Self::Row]) -> String;
+}
+
+/// An experiment whose rows are hidden: it is run to a table, and drawn from one.
+pub trait Chart {
+    /// Returns whether the experiment measures CPU time.
+    fn is_timed(&self) -> bool;
+
+    /// Returns the number of runs.
+    fn runs(&self) -> usize;
+
+    /// Returns an estimate of the time of all runs on up to `threads` threads, in seconds.
+    fn guess_s(&self, threads: NonZero<usize>) -> f64;
+
+    /// Carries out all runs on up to `threads` threads. Returns their table as CSV, and the number of runs that were
+    /// not interrupted.
+    ///
+    /// `watch` is called after each run with the estimated fraction of all work that is done. Once `bounds.stop`
+    /// returns true, no other run is begun.
+    fn run(
+        &self,
+        threads: NonZero<usize>,
+        bounds: &Bounds<'_>,
+        watch: &mut dyn FnMut(f64),
+    ) -> (String, usize);
+
+    /// Draws a table.
+    ///
+    /// # Errors
+    ///
+    /// [`csv::Error`] with the line of the first row that is not one of this chart.
+    fn draw(&self, table: &str, provenance: &Provenance) -> Result<Drawing, csv::Error>;
+}
+
+/// A table as a figure and in words.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    /// The figure as SVG.
+    pub svg: String,
+    /// The table as CSV, as experiments write it; empty if it has no rows.
+    pub table: String,
+    /// The summary in words.
+    pub summary: String,
+}
+
+impl<E: Draw> Chart for E {
+    fn is_timed(&self) -> bool {
+        E::IS_TIMED
+    }
+
+    fn runs(&self) -> usize {
+        self.plan().iter().map(Vec::len).sum()
+    }
+
+    fn guess_s(&self, threads: NonZero<usize>) -> f64 {
+        guess_s(self, &self.plan()) / self.threads(threads).get() as f64
+    }
+
+    fn run(
+        &self,
+        threads: NonZero<usize>,
+        bounds: &Bounds<'_>,
+        watch: &mut dyn FnMut(f64),
+    ) -> (String, usize) {
+        let (rows, done) = conduct(self, threads, bounds, watch);
+        (table(&rows), done)
+    }
+
+    fn draw(&self, text: &str, provenance: &Provenance) -> Result<Drawing, csv::Error> {
+        let rows: Vec<E::Row> = read_table(text)?;
+        let ends: Vec<End> = read_table(text)?;
+        let mut figure = self.figure(&rows);
+        figure.footer.push(provenance.line());
+        if ends.iter().any(|end| end.status == Status::Interrupted) {
+            let missing = "INTERRUPTED: runs that were not done are missing.";
+            figure.footer.push(missing.to_owned());
+        }
+        Ok(Drawing {
+            svg: svg(&figure),
+            table: table(&rows),
+            summary: self.summary(&rows),
+        })
+    }
+}
+
+/// The column that all tables have.
+#[derive(Deserialize)]
+struct End {
+    status: Status,
 }
 
 /// The means that a run is given from outside.
@@ -80,7 +168,7 @@ impl std::fmt::Debug for Bounds<'_> {
 impl Bounds<'_> {
     /// Returns the CPU time of the calling thread; zero without a clock.
     #[must_use]
-    pub fn now(&self) -> Duration {
+    pub(crate) fn now(&self) -> Duration {
         self.clock.map_or(Duration::ZERO, |clock| clock())
     }
 }
@@ -90,7 +178,7 @@ impl Bounds<'_> {
 ///
 /// `watch` is called after each run with the estimated fraction of all work that is done. Once `bounds.stop`
 /// returns true, no other run is begun.
-pub fn conduct<E: Experiment>(
+pub(crate) fn conduct<E: Experiment>(
     experiment: &E,
     threads: NonZero<usize>,
     bounds: &Bounds<'_>,
@@ -173,31 +261,23 @@ pub fn side_by_side<J: Sync, R: Send>(
 }
 
 /// Returns an estimate of the CPU time of a plan, in seconds.
-pub fn guess_s<E: Experiment>(experiment: &E, plan: &[Vec<E::Row>]) -> f64 {
+fn guess_s<E: Experiment>(experiment: &E, plan: &[Vec<E::Row>]) -> f64 {
     let keys = plan.iter().flatten();
     keys.map(|key| experiment.guess_s(key)).sum()
 }
 
 /// Returns rows as CSV: a header with the names of the columns, and a line per row.
-///
-/// # Errors
-///
-/// [`csv::Error`] if a row has other columns than the first.
-pub fn table<R: Serialize>(rows: &[R]) -> Result<String, csv::Error> {
+pub(crate) fn table<R: Serialize>(rows: &[R]) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
-        writer.serialize(row)?;
+        writer.serialize(row).expect("rows have the same columns");
     }
-    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    let bytes = writer.into_inner().expect("memory takes all");
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Reads rows from CSV, as [`table`] writes them.
-///
-/// # Errors
-///
-/// [`csv::Error`] with the line of the first row that is not one.
-pub fn read_table<R: DeserializeOwned>(text: &str) -> Result<Vec<R>, csv::Error> {
+/// Reads rows from CSV, as [`table`] writes them. An error has the line of the first row that is not one.
+fn read_table<R: DeserializeOwned>(text: &str) -> Result<Vec<R>, csv::Error> {
     csv::Reader::from_reader(text.as_bytes())
         .deserialize()
         .collect()
@@ -206,7 +286,7 @@ pub fn read_table<R: DeserializeOwned>(text: &str) -> Result<Vec<R>, csv::Error>
 /// The ways in which a run ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Status {
+pub(crate) enum Status {
     /// The run reached its end.
     Ok,
     /// The run reached its end with a right result, but the method lost much of the energy of its motion.
@@ -233,8 +313,8 @@ pub enum Status {
 impl Status {
     /// Returns the name of the status in tables.
     #[must_use]
-    pub fn name(self) -> String {
-        table(&[self]).unwrap_or_default().trim().to_owned()
+    pub(crate) fn name(self) -> String {
+        table(&[self]).trim().to_owned()
     }
 }
 
@@ -254,20 +334,14 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Returns the footer of a figure: a text on how to read it, its origin, and whether runs are missing, given the
-    /// statuses of all.
-    pub(crate) fn footer(&self, text: &str, mut all: impl Iterator<Item = Status>) -> Vec<String> {
+    /// Returns the origin as a line of a figure.
+    fn line(&self) -> String {
         let processor = self.processor.as_ref();
         let processor = processor.map_or(String::new(), |name| format!(" · {name}"));
-        let origin = format!(
+        format!(
             "{} · version {}, commit {} · {}{processor}",
             self.command, self.version, self.commit, self.compiler
-        );
-        let mut footer = vec![text.to_owned(), origin];
-        if all.any(|status| status == Status::Interrupted) {
-            footer.push("INTERRUPTED: runs that were not done are missing.".to_owned());
-        }
-        footer
+        )
     }
 }
 

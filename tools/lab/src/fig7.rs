@@ -29,7 +29,7 @@ use self::implementations::{IDLE, IMPLEMENTATIONS, Implementation, New, Split};
 use crate::experiment::{Bounds, Experiment, Status};
 
 /// The number of times that each split is timed, as in the paper.
-pub const ROUNDS: usize = 10;
+pub(crate) const ROUNDS: usize = 10;
 
 /// The CPU time of a rip of a patch of one cell in seconds, on the machine on which charts were first made. A
 /// patch with n cells per side has n² cells, and steps that are n times as short.
@@ -45,23 +45,23 @@ pub struct Fig7 {
 /// An implementation on a patch in one of its rounds. A patch whose rip was interrupted has one row without
 /// times. Times of splits are without the overhead of reading the clock.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub(crate) struct Row {
     /// The number of cells along each side of the patch.
-    pub cells: u32,
+    pub(crate) cells: u32,
     /// The number of faces, which tearing does not change.
-    pub faces: Option<usize>,
+    pub(crate) faces: Option<usize>,
     /// The number of vertex splits.
-    pub splits: Option<usize>,
+    pub(crate) splits: Option<usize>,
     /// The CPU time of the simulation in seconds, including its own tearing.
-    pub simulation_s: Option<f64>,
+    pub(crate) simulation_s: Option<f64>,
     /// The name of the implementation.
-    pub implementation: String,
+    pub(crate) implementation: String,
     /// The number of the round, from 0.
-    pub round: Option<usize>,
+    pub(crate) round: Option<usize>,
     /// The time of all splits of the scene in this round, in seconds.
-    pub sum_s: Option<f64>,
+    pub(crate) sum_s: Option<f64>,
     /// Whether the rip reached its end.
-    pub status: Status,
+    pub(crate) status: Status,
 }
 
 impl Experiment for Fig7 {

@@ -2,7 +2,7 @@
 //!
 //! The ready scenes are played by every method at its default, and with a step four times and twice as long and
 //! half as long (a flag not half as long). The cost is CPU time per simulated second. The error is that of what the
-//! scene is about ([`Topic`]): the shape at rest of a sheet that hangs by two corners, the mean place and the spread
+//! scene is about (`Topic`): the shape at rest of a sheet that hangs by two corners, the mean place and the spread
 //! of the free corner of a flag, and the time and the force of the first tear of a rip and of a trouser test. What
 //! follows the first tear is chaotic, so for that there are distributions over many seeds and no error.
 //!
@@ -14,7 +14,7 @@
 mod chart;
 mod play;
 
-pub use self::play::{Role, Row, Topic};
+pub(crate) use self::play::{Role, Row, Topic};
 
 use std::ops::RangeInclusive;
 
@@ -26,7 +26,7 @@ use crate::method::{DEFAULT, DEFAULTS};
 use crate::pareto::AMPLIFICATION_MAX;
 
 /// The multiples of its default step that each method is played with, beside the default.
-pub const STEP_MULTIPLES: [f64; 3] = [4.0, 2.0, 0.5];
+pub(crate) const STEP_MULTIPLES: [f64; 3] = [4.0, 2.0, 0.5];
 
 /// The difference between the seeds of references and those of methods.
 const REFERENCE_SEEDS: u64 = 1000;

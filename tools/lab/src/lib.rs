@@ -6,7 +6,7 @@
 //! [`fig7`] measures the time to split vertices, as Figure 7 of the paper does.
 //!
 //! Every experiment has the same shape ([`experiment`]): a plan of runs, a table with a row for each, and a
-//! figure of that table ([`plot`]). No experiment reads a file or a clock: a clock is an argument. So the same
+//! figure of that table. No experiment reads a file or a clock: a clock is an argument. So the same
 //! experiment gives the same bytes.
 
 #![forbid(unsafe_code)]
@@ -15,12 +15,14 @@ pub mod cut;
 pub mod experiment;
 pub mod fig7;
 pub mod guide;
-pub mod method;
+mod method;
 pub mod pareto;
-pub mod plain_verlet;
-pub mod plot;
-pub mod reference;
-pub mod rk4;
+mod plain_verlet;
+mod plot;
+mod reference;
+mod rk4;
 pub mod sheet;
 pub mod stability;
 pub mod tear;
+
+pub use self::method::default_names;

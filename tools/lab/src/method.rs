@@ -10,12 +10,12 @@ use crate::rk4::Rk4;
 
 /// A method with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Method {
+pub(crate) struct Method {
     /// The name: as on the command line for default settings, and else such as `bdf2-100`, with the sweeps per
     /// step or the tolerance.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// The family of methods to which it belongs.
-    pub family: Family,
+    pub(crate) family: Family,
     /// The sweeps per step of a method that sweeps, or the tolerance of an implicit method.
     setting: u32,
 }
@@ -23,7 +23,7 @@ pub struct Method {
 /// The families of methods, which ignore settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Family {
+pub(crate) enum Family {
     /// The family of [`Verlet`](tearmesh_cloth::Verlet).
     Verlet,
     /// The family of [`PlainVerlet`].
@@ -60,27 +60,27 @@ const STYLES: [(&str, Shape, Colour); 9] = [
 impl Family {
     /// Returns all families, in the order of legends.
     #[must_use]
-    pub fn all() -> impl DoubleEndedIterator<Item = Family> {
+    pub(crate) fn all() -> impl DoubleEndedIterator<Item = Family> {
         let families = METHODS.chunk_by(|a, b| a.family == b.family);
         families.map(|methods| methods[0].family)
     }
 
     /// Returns the name of the family in legends.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         STYLES[self as usize].0
     }
 
     /// Returns the mark of the family in plots.
     #[must_use]
-    pub fn mark(self) -> Mark {
+    pub(crate) fn mark(self) -> Mark {
         let (_, shape, colour) = STYLES[self as usize];
         Mark::new(shape, colour)
     }
 }
 
 /// All methods with all settings, grouped by family.
-pub const METHODS: [Method; 19] = [
+pub(crate) const METHODS: [Method; 19] = [
     method("verlet", Family::Verlet, 0),
     method("verlet-plain", Family::PlainVerlet, 0),
     method("rk4", Family::Rk4, 0),
@@ -103,7 +103,7 @@ pub const METHODS: [Method; 19] = [
 ];
 
 /// The methods of the command with their default settings.
-pub const DEFAULTS: [Method; 5] = [
+pub(crate) const DEFAULTS: [Method; 5] = [
     method(DEFAULT, Family::Verlet, 0),
     method("xpbd", Family::Xpbd, 1),
     method("implicit", Family::BackwardEuler, 10),
@@ -111,8 +111,14 @@ pub const DEFAULTS: [Method; 5] = [
     method("provot", Family::Provot, 0),
 ];
 
+/// Returns the names of the methods of the command, in the order of charts.
+#[must_use]
+pub fn default_names() -> [&'static str; DEFAULTS.len()] {
+    DEFAULTS.map(|method| method.name)
+}
+
 /// The name of the method that is used where none is named.
-pub const DEFAULT: &str = "verlet";
+pub(crate) const DEFAULT: &str = "verlet";
 
 const fn method(name: &'static str, family: Family, setting: u32) -> Method {
     Method {
@@ -124,7 +130,7 @@ const fn method(name: &'static str, family: Family, setting: u32) -> Method {
 
 /// The fractions of its base step that each method is tried with, in descending order. The last two are
 /// halvings.
-pub const STEP_FRACTIONS: [f64; 8] = [2.0, 1.0, 0.7, 0.5, 0.35, 0.25, 0.125, 0.0625];
+pub(crate) const STEP_FRACTIONS: [f64; 8] = [2.0, 1.0, 0.7, 0.5, 0.35, 0.25, 0.125, 0.0625];
 
 /// The fraction of the longest stable step that is a base step: at the limit itself, a step would be refused
 /// as soon as an edge is stretched.
@@ -133,14 +139,14 @@ const MARGIN: f64 = 0.95;
 impl Method {
     /// Returns the method of this name, of [`METHODS`] or [`DEFAULTS`].
     #[must_use]
-    pub fn named(name: &str) -> Option<&'static Method> {
+    pub(crate) fn named(name: &str) -> Option<&'static Method> {
         let mut all = METHODS.iter().chain(&DEFAULTS);
         all.find(|method| method.name == name)
     }
 
     /// Returns the method as scenes have it; `None` for methods of the lab alone.
     #[must_use]
-    pub fn settings(&self) -> Option<tearmesh_cloth::Method> {
+    pub(crate) fn settings(&self) -> Option<tearmesh_cloth::Method> {
         let implicit = |method| {
             tearmesh_cloth::Method::Implicit(Settings {
                 method,
@@ -161,7 +167,7 @@ impl Method {
 
     /// Returns a new solver with these settings.
     #[must_use]
-    pub fn solver(&self) -> Box<dyn Solver> {
+    pub(crate) fn solver(&self) -> Box<dyn Solver> {
         match self.settings() {
             Some(settings) => settings.solver(),
             None if self.family == Family::Rk4 => Box::new(Rk4::new()),
@@ -184,7 +190,7 @@ impl Method {
     /// For explicit methods it is 0.95 times the longest step that is admitted at the start. For methods that
     /// sweep it is `edge_s`. For implicit methods it is 1/60 s.
     #[must_use]
-    pub fn base_s(&self, system: &mut System, edge_s: f64) -> f64 {
+    pub(crate) fn base_s(&self, system: &mut System, edge_s: f64) -> f64 {
         match self.family {
             // Admitted up to twice the recommended step.
             Family::Verlet => MARGIN * 2.0 * recommended_step_s(system),

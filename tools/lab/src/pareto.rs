@@ -5,7 +5,7 @@
 //! compared at all; the budget, in which every method runs at the same fractions of its base step; and one run
 //! per method at its default settings.
 //!
-//! Errors are computed for several observables ([`Observable`]). Costs are visits of edges, which are the same
+//! Errors are computed for several observables (`Observable`). Costs are visits of edges, which are the same
 //! on every machine; what a visit takes depends on the method, and [`guide`](crate::guide) measures CPU time.
 //!
 //! The rules for reading the numbers:
@@ -24,12 +24,9 @@ mod run;
 mod scene;
 
 pub(crate) use self::row::FLOORS;
-pub use self::row::Row;
+pub(crate) use self::row::Row;
 pub(crate) use self::run::status_of;
-pub use self::scene::{
-    Held, Observable, REST_M_PER_S, SCENES, Scene, Start, TEAR_RATIO, TOUGHNESS_J_PER_M, Until,
-};
-pub(crate) use self::scene::{fastest_m_per_s, middle};
+pub(crate) use self::scene::{Observable, SCENES, Scene, fastest_m_per_s, middle};
 
 use tearmesh_cloth::scene::ensemble::NOISE_M;
 
@@ -43,8 +40,8 @@ use crate::sheet::MeshKind;
 /// The options of the experiment on work against precision.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The scenes to run.
-    pub scenes: Vec<Scene>,
+    /// The names of the scenes to run, of [`scene_names`].
+    pub scenes: Vec<String>,
     /// The kinds of meshes on which each scene runs.
     pub meshes: Vec<MeshKind>,
     /// The numbers of cells along each side of the meshes.
@@ -60,11 +57,17 @@ pub struct Options {
 /// The default limit of [`Options::visits_max`], a few seconds of CPU time.
 pub const VISITS_MAX: u64 = 200_000_000;
 
+/// Returns the names of all scenes.
+#[must_use]
+pub fn scene_names() -> [&'static str; SCENES.len()] {
+    SCENES.map(|scene| scene.name)
+}
+
 /// The CPU time of a visit of an edge in seconds, on the machine on which charts were first made.
 pub(crate) const VISIT_S: f64 = 9e-9;
 
 /// The largest amplification of noise at which displacements are compared.
-pub const AMPLIFICATION_MAX: f64 = 1e3;
+pub(crate) const AMPLIFICATION_MAX: f64 = 1e3;
 
 /// The error of energy below ten times which it counts as none.
 const ENERGY_FLOOR: f64 = 1e-4;
@@ -90,7 +93,8 @@ impl Pareto {
             values => values.to_vec(),
         };
         let mut cases = Vec::new();
-        for scene in &options.scenes {
+        let is_wanted = |scene: &&Scene| options.scenes.iter().any(|name| name == scene.name);
+        for scene in SCENES.iter().filter(is_wanted) {
             let stiffness = or_own(&options.stiffness_n_per_m, scene.stiffness_n_per_m);
             let ratios = or_own(&options.mass_ratios, scene.middle_mass_ratio);
             for (&mesh, &cells) in pairs(&options.meshes, &options.cells) {

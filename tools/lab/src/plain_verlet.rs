@@ -13,7 +13,7 @@ use tearmesh_cloth::{Abilities, Failure, Solver, System, force};
 /// A step goes on with the forces at the end of the last one if every particle is still there. So constraints
 /// and loads must not change between two steps of one solver unless a particle moves.
 #[derive(Clone, Debug, Default)]
-pub struct PlainVerlet {
+pub(crate) struct PlainVerlet {
     accelerations: Vec<Vector>,
     /// Where the last step ended.
     reached: Vec<Point>,
@@ -24,7 +24,7 @@ pub struct PlainVerlet {
 impl PlainVerlet {
     /// Returns the method, with no memory allocated yet.
     #[must_use]
-    pub fn new() -> PlainVerlet {
+    pub(crate) fn new() -> PlainVerlet {
         PlainVerlet::default()
     }
 

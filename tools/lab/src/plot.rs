@@ -14,24 +14,24 @@ mod axis;
 mod canvas;
 mod draw;
 
-pub use self::axis::{Axis, percent, short};
-pub use self::draw::svg;
+pub(crate) use self::axis::{Axis, percent, short};
+pub(crate) use self::draw::svg;
 
 use std::ops::Range;
 
 /// A colour as `[red, green, blue]`.
-pub type Colour = [u8; 3];
+pub(crate) type Colour = [u8; 3];
 
 /// The colour of text.
-pub const INK: Colour = [0x22, 0x22, 0x22];
+pub(crate) const INK: Colour = [0x22, 0x22, 0x22];
 /// The colour of remarks, rules and axes.
-pub const GREY: Colour = [0x60, 0x60, 0x60];
+pub(crate) const GREY: Colour = [0x60, 0x60, 0x60];
 /// The colour of bands.
-pub const PALE: Colour = [0xec, 0xec, 0xe6];
+pub(crate) const PALE: Colour = [0xec, 0xec, 0xe6];
 /// The colour of strips in which failures stand.
-pub const PINK: Colour = [0xfb, 0xee, 0xea];
+pub(crate) const PINK: Colour = [0xfb, 0xee, 0xea];
 /// Colours that are told apart with most kinds of colour blindness (Okabe and Ito).
-pub const COLOURS: [Colour; 6] = [
+pub(crate) const COLOURS: [Colour; 6] = [
     [0x00, 0x72, 0xb2],
     [0xd5, 0x5e, 0x00],
     [0x00, 0x9e, 0x73],
@@ -42,45 +42,45 @@ pub const COLOURS: [Colour; 6] = [
 
 /// A figure: panels under one title.
 #[derive(Clone, Debug, Default)]
-pub struct Figure {
+pub(crate) struct Figure {
     /// The title, which says what the data show.
-    pub title: String,
+    pub(crate) title: String,
     /// How the figure is to be read.
-    pub about: String,
+    pub(crate) about: String,
     /// The entries of the legend; empty where labels stand beside what they name.
-    pub legend: Vec<(Mark, String)>,
+    pub(crate) legend: Vec<(Mark, String)>,
     /// The number of panels in a row, and the width and height of each in pixels, with its title and axes.
-    pub layout: (usize, [f64; 2]),
+    pub(crate) layout: (usize, [f64; 2]),
     /// The panels, row by row.
-    pub panels: Vec<Panel>,
+    pub(crate) panels: Vec<Panel>,
     /// The provenance, and what else has to be known; a paragraph each.
-    pub footer: Vec<String>,
+    pub(crate) footer: Vec<String>,
 }
 
 /// A plot of a figure.
 #[derive(Clone, Debug, Default)]
-pub struct Panel {
+pub(crate) struct Panel {
     /// The title.
-    pub title: String,
+    pub(crate) title: String,
     /// A remark under the title.
-    pub about: String,
+    pub(crate) about: String,
     /// The horizontal axis.
-    pub x: Axis,
+    pub(crate) x: Axis,
     /// The vertical axis.
-    pub y: Axis,
+    pub(crate) y: Axis,
     /// What is drawn, from back to front.
-    pub layers: Vec<Layer>,
+    pub(crate) layers: Vec<Layer>,
     /// A strip above the vertical axis, as for runs that failed.
-    pub above: Option<Strip>,
+    pub(crate) above: Option<Strip>,
     /// Paragraphs under the panel.
-    pub words: Vec<String>,
+    pub(crate) words: Vec<String>,
 }
 
 impl Panel {
     /// Returns a panel with its title and the remark under it, its horizontal and its vertical axis, and what is drawn,
     /// from back to front.
     #[must_use]
-    pub fn new(title: &str, about: &str, [x, y]: [Axis; 2], layers: Vec<Layer>) -> Panel {
+    pub(crate) fn new(title: &str, about: &str, [x, y]: [Axis; 2], layers: Vec<Layer>) -> Panel {
         Panel {
             title: title.to_owned(),
             about: about.to_owned(),
@@ -94,16 +94,16 @@ impl Panel {
 
 /// A strip at the upper end of the vertical axis, whose marks have no place along it.
 #[derive(Clone, Debug, Default)]
-pub struct Strip {
+pub(crate) struct Strip {
     /// The words in the strip.
-    pub label: String,
+    pub(crate) label: String,
     /// The marks by their place along the horizontal axis, each with words to hover over.
-    pub marks: Vec<(f64, Mark, String)>,
+    pub(crate) marks: Vec<(f64, Mark, String)>,
 }
 
 /// What is drawn in a panel.
 #[derive(Clone, Debug)]
-pub enum Layer {
+pub(crate) enum Layer {
     /// A band over the whole width, between these ends along the vertical axis. Ends beyond it are cut off.
     Band(Range<f64>),
     /// A dashed vertical line over the whole height at a place along the horizontal axis, with a label.
@@ -123,7 +123,7 @@ impl Layer {
     /// Returns an interval at a place along the horizontal axis: a line from its lower to its upper end, and a mark
     /// at its middle, with words to hover over.
     #[must_use]
-    pub fn interval(x: f64, ends: [f64; 3], mark: Mark, hover: String) -> [Layer; 2] {
+    pub(crate) fn interval(x: f64, ends: [f64; 3], mark: Mark, hover: String) -> [Layer; 2] {
         let [low, middle, high] = ends;
         let line = Layer::Line(vec![[x, low], [x, high]], mark.colour, 2.0);
         [line, Layer::Mark([x, middle], mark, hover)]
@@ -132,21 +132,21 @@ impl Layer {
 
 /// A mark at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
+pub(crate) struct Mark {
     /// The shape.
-    pub shape: Shape,
+    pub(crate) shape: Shape,
     /// The colour.
-    pub colour: Colour,
+    pub(crate) colour: Colour,
     /// Half of the height, in pixels.
-    pub size: f64,
+    pub(crate) size: f64,
     /// Whether the mark is an outline.
-    pub is_hollow: bool,
+    pub(crate) is_hollow: bool,
 }
 
 impl Mark {
     /// Returns a filled mark of the usual size.
     #[must_use]
-    pub const fn new(shape: Shape, colour: Colour) -> Mark {
+    pub(crate) const fn new(shape: Shape, colour: Colour) -> Mark {
         Mark {
             shape,
             colour,
@@ -157,7 +157,7 @@ impl Mark {
 
     /// Returns the mark in another size.
     #[must_use]
-    pub const fn sized(self, size: f64) -> Mark {
+    pub(crate) const fn sized(self, size: f64) -> Mark {
         Mark { size, ..self }
     }
 }
@@ -165,27 +165,27 @@ impl Mark {
 /// The shape of a mark: its outline around the origin, about as large as a disc of radius 1, and whether it is made
 /// of strokes alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shape(&'static str, bool);
+pub(crate) struct Shape(&'static str, bool);
 
 impl Shape {
     /// A disc.
-    pub const DISC: Shape = Shape("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", false);
+    pub(crate) const DISC: Shape = Shape("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", false);
     /// A square.
-    pub const SQUARE: Shape = Shape("M-.9-.9H.9V.9H-.9Z", false);
+    pub(crate) const SQUARE: Shape = Shape("M-.9-.9H.9V.9H-.9Z", false);
     /// A square on its corner.
-    pub const DIAMOND: Shape = Shape("M0-1.3L1.1 0L0 1.3L-1.1 0Z", false);
+    pub(crate) const DIAMOND: Shape = Shape("M0-1.3L1.1 0L0 1.3L-1.1 0Z", false);
     /// A triangle that points up.
-    pub const UP: Shape = Shape("M0-1.2L1.1.9H-1.1Z", false);
+    pub(crate) const UP: Shape = Shape("M0-1.2L1.1.9H-1.1Z", false);
     /// A triangle that points down.
-    pub const DOWN: Shape = Shape("M0 1.2L1.1-.9H-1.1Z", false);
+    pub(crate) const DOWN: Shape = Shape("M0 1.2L1.1-.9H-1.1Z", false);
     /// A triangle that points to the left.
-    pub const LEFT: Shape = Shape("M-1.2 0L.9-1.1V1.1Z", false);
+    pub(crate) const LEFT: Shape = Shape("M-1.2 0L.9-1.1V1.1Z", false);
     /// A triangle that points to the right.
-    pub const RIGHT: Shape = Shape("M1.2 0L-.9-1.1V1.1Z", false);
+    pub(crate) const RIGHT: Shape = Shape("M1.2 0L-.9-1.1V1.1Z", false);
     /// Two crossed diagonal strokes.
-    pub const CROSS: Shape = Shape("M-1-1L1 1M-1 1L1-1", true);
+    pub(crate) const CROSS: Shape = Shape("M-1-1L1 1M-1 1L1-1", true);
     /// Two crossed strokes along the axes.
-    pub const PLUS: Shape = Shape("M-1.2 0H1.2M0-1.2V1.2", true);
+    pub(crate) const PLUS: Shape = Shape("M-1.2 0H1.2M0-1.2V1.2", true);
     /// A circle around another mark.
-    pub const RING: Shape = Shape("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", true);
+    pub(crate) const RING: Shape = Shape("M-1 0a1 1 0 1 0 2 0a1 1 0 1 0-2 0", true);
 }

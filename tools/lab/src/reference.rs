@@ -14,7 +14,7 @@ use tearmesh_cloth::{Abilities, Failure, Solver, System};
 
 /// A solver of second order for motions, or of first order for states of rest.
 #[derive(Clone, Debug, Default)]
-pub struct Reference {
+pub(crate) struct Reference {
     faces: Vec<u32>,
     is_to_rest: bool,
     last: Option<Last>,
@@ -40,7 +40,7 @@ const LEFT: f64 = 1e-8;
 impl Reference {
     /// Returns the method for motions. Wind blows on these faces, of three particles each.
     #[must_use]
-    pub fn new(faces: &[u32]) -> Reference {
+    pub(crate) fn new(faces: &[u32]) -> Reference {
         Reference {
             faces: faces.to_vec(),
             ..Reference::default()
@@ -49,7 +49,7 @@ impl Reference {
 
     /// Returns the method for states of rest: backward Euler, which comes to rest.
     #[must_use]
-    pub fn to_rest() -> Reference {
+    pub(crate) fn to_rest() -> Reference {
         Reference {
             is_to_rest: true,
             ..Reference::default()

@@ -8,7 +8,7 @@ use tearmesh_cloth::{Abilities, Failure, Solver, System, force};
 /// It is stable up to ω Δt = 2√2, but damps motions near that limit. Under wind and drag alone it is stable
 /// up to λ Δt = 2.785. Held particles move in a straight line within a step. It stores three more states.
 #[derive(Clone, Debug, Default)]
-pub struct Rk4 {
+pub(crate) struct Rk4 {
     /// Where the step began.
     start: (Vec<Point>, Vec<Vector>),
     /// The sums of the four slopes.
@@ -19,7 +19,7 @@ pub struct Rk4 {
 impl Rk4 {
     /// Returns the method, with no memory allocated yet.
     #[must_use]
-    pub fn new() -> Rk4 {
+    pub(crate) fn new() -> Rk4 {
         Rk4::default()
     }
 }

@@ -10,7 +10,7 @@ use tearmesh_cloth::statistics::Random;
 pub(crate) const DENSITY_KG_PER_M2: f64 = 0.15;
 
 /// The seed of the meshes and of all other random numbers of the experiments.
-pub const SEED: u64 = 1;
+pub(crate) const SEED: u64 = 1;
 
 /// The kinds of meshes of a sheet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,15 +39,15 @@ impl MeshKind {
 
 /// The particles and edges of a flat square sheet, in the order of its mesh.
 #[derive(Clone, Debug)]
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// The positions of the particles at rest, in metres: x to the right, y up, from a corner at the origin.
-    pub points: Vec<Point>,
+    pub(crate) points: Vec<Point>,
     /// The masses of the particles, in kg.
-    pub masses: Vec<f64>,
+    pub(crate) masses: Vec<f64>,
     /// The two ends of each edge, as indices into `points`.
-    pub edges: Vec<[usize; 2]>,
+    pub(crate) edges: Vec<[usize; 2]>,
     /// The length of a side, in metres.
-    pub side_m: f64,
+    pub(crate) side_m: f64,
 }
 
 impl Sheet {
@@ -57,7 +57,7 @@ impl Sheet {
     ///
     /// If `cells` is 0 or more than a mesh can have, or if `side_m` is 0 or not finite.
     #[must_use]
-    pub fn new(kind: MeshKind, cells: u32, side_m: f64) -> Sheet {
+    pub(crate) fn new(kind: MeshKind, cells: u32, side_m: f64) -> Sheet {
         let mut random = Random::new(SEED);
         let (mesh, positions) = match kind {
             MeshKind::Grid => grid([cells; 2], [side_m; 2], |_, _| random.next() < 0.5),
@@ -76,13 +76,13 @@ impl Sheet {
 
     /// Returns the rest length of an edge in metres, given its two ends as indices into `points`.
     #[must_use]
-    pub fn length_m(&self, [a, b]: [usize; 2]) -> f64 {
+    pub(crate) fn length_m(&self, [a, b]: [usize; 2]) -> f64 {
         (self.points[b] - self.points[a]).norm()
     }
 
     /// Returns the mean rest length of the edges, in metres.
     #[must_use]
-    pub fn edge_m(&self) -> f64 {
+    pub(crate) fn edge_m(&self) -> f64 {
         let lengths = self.edges.iter().map(|&ends| self.length_m(ends));
         lengths.sum::<f64>() / self.edges.len() as f64
     }

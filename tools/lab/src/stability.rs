@@ -18,9 +18,10 @@ mod net;
 mod row;
 mod trial;
 
-pub use self::limit::{LIMITS, STIFFNESS_N_PER_M, Theory};
-pub use self::row::Row;
-pub use self::trial::{TRIALS, Trial};
+use self::limit::LIMITS;
+pub use self::limit::STIFFNESS_N_PER_M;
+pub(crate) use self::row::Row;
+pub(crate) use self::trial::{TRIALS, Trial};
 
 use crate::experiment::{Bounds, Experiment};
 

@@ -36,7 +36,7 @@ pub struct Tear {
     pub scenes: Vec<EnsembleScene>,
     /// The numbers of cells across of those scenes; empty for the default of each.
     pub cells: Vec<u32>,
-    /// The names of the methods that play them, of [`DEFAULTS`].
+    /// The names of the methods that play them, of [`default_names`](crate::default_names).
     pub methods: Vec<String>,
     /// The number of seeds of each ensemble.
     pub seeds: u64,
@@ -91,7 +91,7 @@ impl EnsembleScene {
 /// The rules by which the edges of a strip tear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Rule {
+pub(crate) enum Rule {
     /// The ratio of length to rest length.
     Stretch,
     /// The energy per length of tear.
@@ -100,33 +100,33 @@ pub enum Rule {
 
 /// A run: of a strip if it has a rule, and else of an ensemble. Without results it is the key of the run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub(crate) struct Row {
     /// The scene; the trouser test for strips.
-    pub scene: EnsembleScene,
+    pub(crate) scene: EnsembleScene,
     /// The number of cells across.
-    pub cells: u32,
+    pub(crate) cells: u32,
     /// The way in which the run ended.
-    pub status: Status,
+    pub(crate) status: Status,
     /// The rule by which a strip tears.
-    pub rule: Option<Rule>,
+    pub(crate) rule: Option<Rule>,
     /// The threshold of the rule: a stretch ratio, or a toughness in J/m.
-    pub threshold: Option<f64>,
+    pub(crate) threshold: Option<f64>,
     /// The method.
-    pub method: String,
+    pub(crate) method: String,
     /// The number by which the step was divided.
-    pub step_divisor: u32,
+    pub(crate) step_divisor: u32,
     /// The seed.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// The rest length of the edges that tore, in metres.
-    pub torn_m: Option<f64>,
+    pub(crate) torn_m: Option<f64>,
     /// The number of components of the mesh at the end.
-    pub pieces: Option<usize>,
+    pub(crate) pieces: Option<usize>,
     /// The largest force at a hold in newtons, as a mean over 1/60 s.
-    pub largest_force_n: Option<f64>,
+    pub(crate) largest_force_n: Option<f64>,
     /// The work of all holds, in joules.
-    pub work_j: Option<f64>,
+    pub(crate) work_j: Option<f64>,
     /// The reason of a failure.
-    pub why: String,
+    pub(crate) why: String,
 }
 
 impl Tear {

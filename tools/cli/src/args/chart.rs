@@ -4,8 +4,8 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
-use tearmesh_lab::method::DEFAULTS;
-use tearmesh_lab::pareto::{SCENES, VISITS_MAX};
+use tearmesh_lab::default_names;
+use tearmesh_lab::pareto::{VISITS_MAX, scene_names};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
 use tearmesh_lab::tear;
@@ -117,8 +117,8 @@ pub(crate) struct ParetoArgs {
 
     /// Scenes (default: all).
     #[arg(long, value_name = "NAME", value_delimiter = ',', hide_default_value = true,
-        default_values_t = SCENES.map(|scene| scene.name.to_owned()),
-        value_parser = clap::builder::PossibleValuesParser::new(SCENES.map(|scene| scene.name)))]
+        default_values_t = scene_names().map(str::to_owned),
+        value_parser = clap::builder::PossibleValuesParser::new(scene_names()))]
     pub(crate) scene: Vec<String>,
 
     /// Kinds of meshes.
@@ -187,8 +187,8 @@ pub(crate) struct TearChartArgs {
 
     /// Methods that play them.
     #[arg(long, value_name = "NAME", value_delimiter = ',',
-        default_values_t = DEFAULTS.map(|method| method.name.to_owned()),
-        value_parser = clap::builder::PossibleValuesParser::new(DEFAULTS.map(|method| method.name)))]
+        default_values_t = default_names().map(str::to_owned),
+        value_parser = clap::builder::PossibleValuesParser::new(default_names()))]
     pub(crate) method: Vec<String>,
 
     /// Seeds of an ensemble; 0 for no ensembles.

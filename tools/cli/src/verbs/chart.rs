@@ -6,13 +6,10 @@ use std::path::{Path, PathBuf};
 use clap::{Args as _, Command, CommandFactory as _};
 use cpu_time::ThreadTime;
 use tearmesh_lab::cut::Cuts;
-use tearmesh_lab::experiment::{
-    Bounds, Chart, Experiment, Provenance, conduct, guess_s, processor, read_table, table, workers,
-};
+use tearmesh_lab::experiment::{Bounds, Chart, Provenance, processor, workers};
 use tearmesh_lab::fig7::Fig7;
 use tearmesh_lab::guide::Guide;
-use tearmesh_lab::pareto::{self, Pareto, SCENES};
-use tearmesh_lab::plot;
+use tearmesh_lab::pareto::{self, Pareto};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::Stability;
 use tearmesh_lab::tear::{EnsembleScene, Tear};
@@ -62,25 +59,17 @@ pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>
 }
 
 /// Does what is wanted of an experiment, says what went wrong, and returns the exit status.
-fn draw<E: Chart>(
-    experiment: &E,
-    command: String,
-    args: &DrawArgs,
-    streams: &mut Streams<'_>,
-) -> Exit {
-    let done = work(experiment, command, args, streams);
+fn draw(chart: &dyn Chart, command: String, args: &DrawArgs, streams: &mut Streams<'_>) -> Exit {
+    let done = work(chart, command, args, streams);
     done.unwrap_or_else(|stop| streams.conclude(Err(stop), Vec::new(), args.color, true))
 }
 
 fn pareto(args: &ParetoArgs) -> Pareto {
-    let is_named = |name: &str, names: &[String]| names.iter().any(|other| other == name);
-    let scenes = SCENES.into_iter();
-    let scenes = scenes.filter(|scene| is_named(scene.name, &args.scene));
+    let is_named = |mesh: &MeshKind| args.mesh.iter().any(|name| name == mesh.name());
     let meshes = MeshKind::ALL.into_iter();
-    let meshes = meshes.filter(|mesh| is_named(mesh.name(), &args.mesh));
     Pareto::new(pareto::Options {
-        scenes: scenes.collect(),
-        meshes: meshes.collect(),
+        scenes: args.scene.clone(),
+        meshes: meshes.filter(is_named).collect(),
         cells: args.size.clone(),
         stiffness_n_per_m: args.stiffness.clone(),
         mass_ratios: args.mass_ratio.clone(),
@@ -137,8 +126,8 @@ fn command_line(line: &[OsString]) -> String {
 }
 
 /// Runs an experiment or reads its table, and writes chart, table and figures, as far as they are wanted.
-fn work<E: Chart>(
-    experiment: &E,
+fn work(
+    chart: &dyn Chart,
     command: String,
     draw: &DrawArgs,
     streams: &mut Streams<'_>,
@@ -149,44 +138,45 @@ fn work<E: Chart>(
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: env!("TEARMESH_COMMIT").to_owned(),
         compiler: env!("TEARMESH_COMPILER").to_owned(),
-        processor: E::IS_TIMED.then(processor),
+        processor: chart.is_timed().then(processor),
     };
-    let (rows, missing) = match &draw.from {
+    let (drawing, missing) = match &draw.from {
         Some(path) => {
             let name = path.display().to_string();
             provenance.command = format!("drawn from {name}");
             provenance.processor = None;
             let text = std::fs::read_to_string(path);
             let text = text.map_err(|error| cannot_read(&name, &error))?;
-            let rows = match read_table(&text) {
-                Ok(rows) if rows.is_empty() => Err("it has no rows".to_owned()),
-                rows => rows.map_err(|error| error.to_string()),
+            let drawing = match chart.draw(&text, &provenance) {
+                Ok(drawing) if drawing.table.is_empty() => Err("it has no rows".to_owned()),
+                drawing => drawing.map_err(|error| error.to_string()),
             };
             let refused = |why: String| {
                 let message = format!("{name} is not a table of this chart: {why}");
                 let help = "give one that --csv of the same chart wrote";
                 Fault::error("E-CHART-TABLE", message).help(help)
             };
-            (rows.map_err(refused)?, 0)
+            (drawing.map_err(refused)?, 0)
         }
-        None => conducted(experiment, draw, streams)?,
+        None => {
+            let (table, missing) = conducted(chart, draw, streams)?;
+            let drawing = chart.draw(&table, &provenance);
+            (drawing.expect("a table of its own"), missing)
+        }
     };
     if let Some(path) = &draw.output {
-        let chart = plot::svg(&experiment.figure(&rows, &provenance));
-        write(path, &chart, streams)?;
+        write(path, &drawing.svg, streams)?;
     }
     if let Some(path) = &draw.csv {
-        let table = table(&rows);
-        let table = table.map_err(|error| Fault::error("E-BUG-INVARIANT", error.to_string()))?;
-        write(path, &table, streams)?;
+        write(path, &drawing.table, streams)?;
     }
     let is_streamed = files.first().is_some_and(|path| *path == Path::new("-"));
     if !draw.quiet && !is_streamed {
         let names = files.iter().map(|path| shown(path));
         let names: Vec<_> = names.collect();
         let names = format!("wrote {}", names.join(", "));
-        let summary = experiment.summary(&rows);
-        let printed = output::print_text(streams.output, &format!("{}\n{names}\n", summary.trim()));
+        let text = format!("{}\n{names}\n", drawing.summary.trim());
+        let printed = output::print_text(streams.output, &text);
         printed.map_err(|fault| fault.help(names))?;
     }
     if missing == 0 {
@@ -197,16 +187,15 @@ fn work<E: Chart>(
     Ok(streams.fail(&fault, draw.color, Exit::Interrupted))
 }
 
-/// The rows of an experiment that ran until its end or until it was interrupted, and how many runs are missing.
-fn conducted<E: Experiment>(
-    experiment: &E,
+/// The table of an experiment that ran until its end or until it was interrupted, and how many runs are missing.
+fn conducted(
+    chart: &dyn Chart,
     draw: &DrawArgs,
     streams: &mut Streams<'_>,
-) -> Result<(Vec<E::Row>, usize), Stop> {
-    let plan = experiment.plan();
-    let runs: usize = plan.iter().map(Vec::len).sum();
+) -> Result<(String, usize), Stop> {
+    let runs = chart.runs();
     let threads = draw.threads.unwrap_or_else(workers);
-    let about_s = guess_s(experiment, &plan) / experiment.threads(threads).get() as f64;
+    let about_s = chart.guess_s(threads);
     if !draw.quiet {
         let about = match about_s {
             s if s < 90.0 => format!("{} s", s.ceil().max(1.0)),
@@ -219,10 +208,12 @@ fn conducted<E: Experiment>(
     let bar = streams.bar(BAR as u64, "{wide_bar} {percent} % {eta}", !draw.quiet);
     let guard = Guard::new();
     let bounds = Bounds {
-        clock: E::IS_TIMED.then_some(&|| ThreadTime::now().as_duration()),
+        clock: chart
+            .is_timed()
+            .then_some(&|| ThreadTime::now().as_duration()),
         stop: &|| guard.is_interrupted(),
     };
-    let (rows, done) = conduct(experiment, threads, &bounds, |fraction| {
+    let (table, done) = chart.run(threads, &bounds, &mut |fraction| {
         bar.set_position((BAR * fraction) as u64);
     });
     bar.finish_and_clear();
@@ -232,7 +223,7 @@ fn conducted<E: Experiment>(
         let fault = Fault::warning("W-CHART-INTERRUPTED", message);
         return Err(Stop::new(Exit::Interrupted, fault));
     }
-    Ok((rows, missing))
+    Ok((table, missing))
 }
 
 /// The length of a progress bar.

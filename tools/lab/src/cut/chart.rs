@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Cuts, METHODS, Row};
-use crate::experiment::{Chart, Provenance, Status};
+use crate::experiment::{Draw, Status};
 use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
 /// The largest deviation that counts as rounding, in mean edge lengths. Smaller ones are drawn there.
@@ -53,8 +53,8 @@ const READING: &str = "The number of a method is its snap: a crossing moves to t
      than this fraction of the edge. “Moved” then moves that vertex onto the plane. Marks are larger for larger \
      sheets. Lines lead from the median over all cuts to the worst cut.";
 
-impl Chart for Cuts {
-    fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
+impl Draw for Cuts {
+    fn figure(&self, rows: &[Row]) -> Figure {
         Figure {
             title: title(rows)
                 .unwrap_or("The time of cuts, and their distance from the plane".to_owned()),
@@ -62,7 +62,7 @@ impl Chart for Cuts {
                 .to_owned(),
             layout: (2, [580.0, 460.0]),
             panels: MEASURES.map(|measure| panel(rows, &measure)).into(),
-            footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
+            footer: vec![READING.to_owned()],
             ..Figure::default()
         }
     }

@@ -2,7 +2,7 @@
 
 use super::implementations::{GHOST_PAIRS, IMPLEMENTATIONS, SCAN};
 use super::{Fig7, ROUNDS, Row};
-use crate::experiment::{Chart, Provenance};
+use crate::experiment::Draw;
 use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
 /// The rows of each implementation on each patch.
@@ -18,8 +18,8 @@ fn sum_ms(rounds: &[Row]) -> Option<[f64; 3]> {
     Some([least, sums.sum::<f64>() / rounds.len() as f64, most])
 }
 
-impl Chart for Fig7 {
-    fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
+impl Draw for Fig7 {
+    fn figure(&self, rows: &[Row]) -> Figure {
         let names = IMPLEMENTATIONS[1..].iter().map(|(name, _)| *name);
         let (mut legend, mut layers) = (Vec::new(), Vec::new());
         let axes = ["faces", "CPU time, ms"].map(Axis::log);
@@ -41,7 +41,7 @@ impl Chart for Fig7 {
             legend,
             layout: (1, [720.0, 460.0]),
             panels: vec![Panel::new("", "", axes, layers)],
-            footer: provenance.footer("", rows.iter().map(|row| row.status)),
+            footer: vec![String::new()],
         }
     }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use tearmesh_cloth::statistics::{median, spread};
 
 use super::{Guide, Role, Row, Topic};
-use crate::experiment::{Chart, Provenance, Status};
+use crate::experiment::{Draw, Status};
 use crate::method::{DEFAULT, DEFAULTS, Method};
 use crate::pareto::FLOORS;
 use crate::plot::{Axis, Figure, Layer, Mark, Panel, Strip, percent, short};
@@ -67,8 +67,8 @@ const READING: &str = "Large marks: a method at its default. Small marks: its de
      error that other diagonals of the mesh make; nothing in it is worth paying for. Hollow: below ten times the \
      distance of two references, known no better.";
 
-impl Chart for Guide {
-    fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
+impl Draw for Guide {
+    fn figure(&self, rows: &[Row]) -> Figure {
         let sections = sections(rows);
         let cells = finest(rows);
         Figure {
@@ -80,7 +80,7 @@ impl Chart for Guide {
             ),
             layout: (2, [600.0, 400.0]),
             panels: sections.iter().map(Section::panel).collect(),
-            footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
+            footer: vec![READING.to_owned()],
             ..Figure::default()
         }
     }

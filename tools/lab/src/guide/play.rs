@@ -22,7 +22,7 @@ use crate::tear::STRIP_M;
 /// The topic of a panel: a scene, and what is asked about it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Topic {
+pub(crate) enum Topic {
     /// The shape at rest of a sheet that hangs by two corners.
     #[default]
     Hang,
@@ -38,11 +38,11 @@ pub enum Topic {
 
 impl Topic {
     /// All topics, in the order of panels.
-    pub const ALL: [Topic; 5] = [Hang, Flag, Rip, Trouser, Aftermath];
+    pub(crate) const ALL: [Topic; 5] = [Hang, Flag, Rip, Trouser, Aftermath];
 
     /// Returns the name of the scene on the command line.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Hang => "hang",
             Flag => "flag",
@@ -79,7 +79,7 @@ pub(super) const NEWTON: &str = "newton";
 /// The purpose of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Role {
+pub(crate) enum Role {
     /// A method at its default or at a multiple of its default step.
     #[default]
     Method,
@@ -95,43 +95,43 @@ pub enum Role {
 
 /// A run with its errors. A row without a result is the key of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub(crate) struct Row {
     /// The topic.
-    pub topic: Topic,
+    pub(crate) topic: Topic,
     /// The number of cells along the longest side.
-    pub cells: u32,
+    pub(crate) cells: u32,
     /// The seed of the diagonals of the mesh.
-    pub diagonals: u64,
+    pub(crate) diagonals: u64,
     /// The purpose of the run.
-    pub role: Role,
+    pub(crate) role: Role,
     /// The method, as on the command line; `newton` for the second reference.
-    pub method: String,
+    pub(crate) method: String,
     /// The step as a multiple of the default step; `None` for the default.
-    pub step_multiple: Option<f64>,
+    pub(crate) step_multiple: Option<f64>,
     /// The seed of the noise at the start; 0 for none.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// The way in which the run ended.
-    pub status: Status,
+    pub(crate) status: Status,
     /// The step, in seconds.
-    pub dt_s: Option<f64>,
+    pub(crate) dt_s: Option<f64>,
     /// The CPU time per simulated second: the median of five equal parts of the run.
-    pub cpu_s_per_s: Option<f64>,
+    pub(crate) cpu_s_per_s: Option<f64>,
     /// The torn length at the end, in metres.
-    pub torn_m: Option<f64>,
+    pub(crate) torn_m: Option<f64>,
     /// The work of all holds until the end, in joules.
-    pub work_j: Option<f64>,
+    pub(crate) work_j: Option<f64>,
     /// The error relative to the reference; for a flag that of the whole ensemble.
-    pub error: Option<f64>,
+    pub(crate) error: Option<f64>,
     /// The distance between the references.
-    pub error_floor: Option<f64>,
+    pub(crate) error_floor: Option<f64>,
     /// The median error of the meshes with other diagonals.
-    pub error_mesh: Option<f64>,
+    pub(crate) error_mesh: Option<f64>,
     /// The distance between the runs of the gate by what the topic is about.
-    pub error_noise: Option<f64>,
+    pub(crate) error_noise: Option<f64>,
     /// The rms distance between the positions in the runs of the gate, divided by the noise.
-    pub noise_amplification: Option<f64>,
+    pub(crate) noise_amplification: Option<f64>,
     /// The reason of a failure.
-    pub why: String,
+    pub(crate) why: String,
     /// What errors are computed from, until they are. `None` if the run did not reach its end, and for
     /// [`Topic::Aftermath`].
     #[serde(skip)]

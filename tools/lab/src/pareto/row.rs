@@ -14,42 +14,42 @@ pub(crate) const FLOORS: f64 = 10.0;
 /// An observable of a run. A run that failed has one row without an observable, and so have references and the
 /// runs of the gate.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub(crate) struct Row {
     /// The name of the scene.
-    pub scene: String,
+    pub(crate) scene: String,
     /// The kind of mesh.
-    pub mesh: MeshKind,
+    pub(crate) mesh: MeshKind,
     /// The number of cells along each side.
-    pub cells: u32,
+    pub(crate) cells: u32,
     /// The stiffness of the edges, in N/m.
-    pub stiffness_n_per_m: f64,
+    pub(crate) stiffness_n_per_m: f64,
     /// The factor on the mass of the middle particle.
-    pub mass_ratio: f64,
+    pub(crate) mass_ratio: f64,
     /// The name of the run, such as `verlet@0.5` or `xpbd@default`.
-    pub run: String,
+    pub(crate) run: String,
     /// The family of methods; `None` for references and the gate.
-    pub family: Option<Family>,
+    pub(crate) family: Option<Family>,
     /// The name of the method with its settings; `reference` for references and the gate.
-    pub method: String,
+    pub(crate) method: String,
     /// The step as a fraction of the base step; `None` at default settings.
-    pub step_fraction: Option<f64>,
+    pub(crate) step_fraction: Option<f64>,
     /// The way in which the run ended.
-    pub status: Status,
+    pub(crate) status: Status,
     /// The step, in seconds.
-    pub dt_s: f64,
+    pub(crate) dt_s: f64,
     /// The number of visits of edges, for all purposes.
-    pub visits: Option<u64>,
+    pub(crate) visits: Option<u64>,
     /// The distance of the two runs of the gate divided by the noise; `None` if there is no gate or it failed.
-    pub noise_amplification: Option<f64>,
+    pub(crate) noise_amplification: Option<f64>,
     /// The observable.
-    pub observable: Option<Observable>,
+    pub(crate) observable: Option<Observable>,
     /// The relative distance between the two references, or the error that remains where rows end at rest,
     /// if that is larger. `None` if a reference has no value, or if noise grows too much.
-    pub error_floor: Option<f64>,
+    pub(crate) error_floor: Option<f64>,
     /// The distance of the run from the reference.
-    pub error_total: Option<f64>,
+    pub(crate) error_total: Option<f64>,
     /// The reason of a failure.
-    pub why: String,
+    pub(crate) why: String,
     /// What else distinguishes the run from the others of the plan.
     #[serde(skip)]
     pub(super) planned: Planned,
@@ -61,20 +61,20 @@ pub struct Row {
 impl Row {
     /// Returns the cost of the run, its visits of edges; `None` if it is not known, or took no step.
     #[must_use]
-    pub fn cost(&self) -> Option<f64> {
+    pub(crate) fn cost(&self) -> Option<f64> {
         let visits = self.visits.filter(|visits| *visits > 0);
         visits.map(|visits| visits as f64)
     }
 
     /// Returns whether the run is the default method at its default settings.
     #[must_use]
-    pub fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         self.method == DEFAULT && self.step_fraction.is_none()
     }
 
     /// Returns whether `error_total` is below ten times the floor, and so known no better than that.
     #[must_use]
-    pub fn is_at_floor(&self) -> bool {
+    pub(crate) fn is_at_floor(&self) -> bool {
         let both = self.error_total.zip(self.error_floor);
         both.is_some_and(|(error, floor)| error < FLOORS * floor)
     }

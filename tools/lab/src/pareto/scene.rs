@@ -13,35 +13,35 @@ use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet, random_vectors, sys
 
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene {
+pub(crate) struct Scene {
     /// The name on the command line and in the names of runs.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// A short description of the scene.
-    pub about: &'static str,
+    pub(crate) about: &'static str,
     /// The stiffness of the edges, in N/m.
-    pub stiffness_n_per_m: f64,
+    pub(crate) stiffness_n_per_m: f64,
     /// The length of a side of the sheet, in metres.
-    pub side_m: f64,
+    pub(crate) side_m: f64,
     /// The gravity along the x, y and z axes, in m/s².
-    pub gravity_m_per_s2: [f64; 3],
+    pub(crate) gravity_m_per_s2: [f64; 3],
     /// The rate at which velocities decay by drag, in 1/s.
-    pub drag_per_s: f64,
+    pub(crate) drag_per_s: f64,
     /// The shape in which the sheet starts.
-    pub start: Start,
+    pub(crate) start: Start,
     /// The factor by which the mass of the particle nearest to the centre is multiplied, as for the slivers
     /// that cuts leave; 1 for none.
-    pub middle_mass_ratio: f64,
+    pub(crate) middle_mass_ratio: f64,
     /// The particles that are held.
-    pub held: Held,
+    pub(crate) held: Held,
     /// The condition under which the scene ends.
-    pub until: Until,
+    pub(crate) until: Until,
     /// The observables that are compared.
-    pub observables: &'static [Observable],
+    pub(crate) observables: &'static [Observable],
 }
 
 /// The shapes in which a sheet starts, with all velocities zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Start {
+pub(crate) enum Start {
     /// The flat sheet at rest.
     Flat,
     /// The flat sheet at rest, with its edges stored in random order.
@@ -60,7 +60,7 @@ pub enum Start {
 
 /// The particles that are held.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Held {
+pub(crate) enum Held {
     /// No particles.
     Nothing,
     /// The particles of the upper edge.
@@ -73,7 +73,7 @@ pub enum Held {
 
 /// The conditions under which a scene ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Until {
+pub(crate) enum Until {
     /// The scene ends after this many seconds.
     Time(f64),
     /// The scene ends at rest, as in [`REST_M_PER_S`]. A run that takes more than this many seconds fails.
@@ -92,20 +92,20 @@ impl Until {
 }
 
 /// The speed in m/s below which a particle is at rest.
-pub const REST_M_PER_S: f64 = 1e-6;
+pub(crate) const REST_M_PER_S: f64 = 1e-6;
 
 /// The stretch ratio at which an edge of the strip tears.
-pub const TEAR_RATIO: f64 = 1.3;
+pub(crate) const TEAR_RATIO: f64 = 1.3;
 
 /// The toughness at which an edge of the strip tears, in J/m. It equals a stretch ratio of 1.3 if edges are
 /// a sixteenth of the strip long.
-pub const TOUGHNESS_J_PER_M: f64 = 0.28;
+pub(crate) const TOUGHNESS_J_PER_M: f64 = 0.28;
 
 /// The quantities by which runs are compared. Errors are relative to the reference; for positions and strains
 /// the largest error of all checkpoints counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Observable {
+pub(crate) enum Observable {
     /// The mass-weighted L2 norm of the position errors, divided by that of the displacements from the start.
     Displacement,
     /// The rms of the relative error of the strain of edges, over those that bear more than 0.3 of the largest
@@ -131,7 +131,7 @@ pub enum Observable {
 impl Observable {
     /// Returns the name of the observable in words.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Displacement => "displacement",
             StrainRms => "strain of edges (rms)",
@@ -182,7 +182,7 @@ const HANG: Scene = Scene {
 };
 
 /// All scenes of the experiment.
-pub const SCENES: [Scene; 11] = [
+pub(crate) const SCENES: [Scene; 11] = [
     HANG,
     Scene {
         name: "shuffled",

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use tearmesh::Point;
 
+use super::scene::{Held, Start, Until};
 use super::*;
 use crate::experiment::{conduct, workers};
 use crate::reference::Reference;
@@ -102,9 +103,8 @@ fn scenes_at_rest_begin_with_a_step_that_newton_solves() {
 }
 
 fn options(scenes: &[&str], cells: u32) -> Options {
-    let named = SCENES.iter().filter(|scene| scenes.contains(&scene.name));
     Options {
-        scenes: named.copied().collect(),
+        scenes: scenes.iter().map(|&name| name.to_owned()).collect(),
         meshes: vec![MeshKind::Grid],
         cells: vec![cells],
         stiffness_n_per_m: Vec::new(),

@@ -4,14 +4,14 @@ use std::ops::Range;
 
 /// An axis of a panel.
 #[derive(Clone, Debug, Default)]
-pub struct Axis {
+pub(crate) struct Axis {
     /// The label, with its unit.
-    pub label: String,
+    pub(crate) label: String,
     /// Whether equal ratios are equally long, and not equal differences. Then numbers that are not positive have
     /// no place.
-    pub is_log: bool,
+    pub(crate) is_log: bool,
     /// The names that stand in place of numbers: the first in the middle between 0 and 1, and so on.
-    pub names: Vec<String>,
+    pub(crate) names: Vec<String>,
 }
 
 /// How far an axis that is fitted goes beyond what is drawn, as a fraction of its length.
@@ -23,7 +23,7 @@ const TICKS: usize = 7;
 impl Axis {
     /// Returns a linear axis that is fitted to what is drawn.
     #[must_use]
-    pub fn linear(label: &str) -> Axis {
+    pub(crate) fn linear(label: &str) -> Axis {
         Axis {
             label: label.to_owned(),
             ..Axis::default()
@@ -32,7 +32,7 @@ impl Axis {
 
     /// Returns a logarithmic axis that is fitted to what is drawn.
     #[must_use]
-    pub fn log(label: &str) -> Axis {
+    pub(crate) fn log(label: &str) -> Axis {
         Axis {
             is_log: true,
             ..Axis::linear(label)
@@ -41,7 +41,7 @@ impl Axis {
 
     /// Returns an axis with names in place of numbers.
     #[must_use]
-    pub fn named(names: Vec<String>) -> Axis {
+    pub(crate) fn named(names: Vec<String>) -> Axis {
         Axis {
             names,
             ..Axis::default()
@@ -152,7 +152,7 @@ fn logarithmically(range: &Range<f64>) -> Vec<f64> {
 /// Returns a number with so many significant digits, as short as it can be written: in full from 0.001 to
 /// 99999, and else as a power of ten.
 #[must_use]
-pub fn short(number: f64, digits: u32) -> String {
+pub(crate) fn short(number: f64, digits: u32) -> String {
     if number == 0.0 || !number.is_finite() {
         return format!("{number}");
     }
@@ -169,7 +169,7 @@ pub fn short(number: f64, digits: u32) -> String {
 
 /// Returns a fraction in per cent, with two significant digits.
 #[must_use]
-pub fn percent(fraction: f64) -> String {
+pub(crate) fn percent(fraction: f64) -> String {
     format!("{} %", short(100.0 * fraction, 2))
 }
 

@@ -24,7 +24,7 @@ const RED_BORDER: &str = " stroke=\"#cc0000\" stroke-width=\"3\"";
 
 /// Returns a figure as the text of an SVG file.
 #[must_use]
-pub fn svg(figure: &Figure) -> String {
+pub(crate) fn svg(figure: &Figure) -> String {
     let (columns, size) = figure.layout;
     let (columns, panel_width) = (columns.max(1), size[0]);
     let inner = (panel_width * columns as f64).max(640.0);

@@ -2,18 +2,18 @@
 
 use super::trial::TRIALS;
 use super::{Row, Stability};
-use crate::experiment::{Chart, Provenance, Status};
+use crate::experiment::{Draw, Status};
 use crate::plot::{Axis, Colour, Figure, Layer, Panel, short};
 
-impl Chart for Stability {
-    fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
+impl Draw for Stability {
+    fn figure(&self, rows: &[Row]) -> Figure {
         Figure {
             title: title(rows),
             about: "Red border: a failure without a message, or an outcome that is not the expected one."
                 .to_owned(),
             layout: (2, [760.0, 660.0]),
             panels: vec![steps(rows), scenes(rows)],
-            footer: provenance.footer("", rows.iter().map(|row| row.status)),
+            footer: vec![String::new()],
             ..Figure::default()
         }
     }

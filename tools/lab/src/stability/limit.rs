@@ -11,7 +11,7 @@ use crate::sheet::random_vectors;
 
 /// The theoretical stability of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Theory {
+pub(crate) enum Theory {
     /// Small motions are stable if and only if ω Δt is at most this number.
     UpTo(f64),
     /// Stable up to twice the recommended step of the method. Longer steps may be stable or not, and are
@@ -22,7 +22,7 @@ pub enum Theory {
 }
 
 /// The methods whose limits are measured, as in [`METHODS`](crate::method::METHODS), each with its theory.
-pub static LIMITS: [(&str, Theory); 9] = [
+pub(crate) static LIMITS: [(&str, Theory); 9] = [
     ("verlet-plain", Theory::UpTo(2.0)),
     ("euler", Theory::UpTo(2.0)),
     ("provot", Theory::UpTo(2.0)),

@@ -14,11 +14,11 @@ use crate::reference::Reference;
 
 /// A scene, with the expected outcome of each method.
 #[derive(Clone, Copy, Debug)]
-pub struct Trial {
+pub(crate) struct Trial {
     /// The name of the scene in tables.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// A short description of the scene and of the failure that it provokes.
-    pub about: &'static str,
+    pub(crate) about: &'static str,
     /// The measure of a run beside its reference, and the largest that is right; `None` if the run only has to
     /// end.
     judge: Option<(Measure, f64)>,
@@ -37,7 +37,7 @@ pub struct Trial {
     /// Sets what else is particular to the scene, of which this is the recommended step in seconds.
     adjust: fn(&mut Scene, f64),
     /// The expected outcomes, in the order of [`DEFAULTS`].
-    pub expected: [Status; 5],
+    pub(crate) expected: [Status; 5],
 }
 
 type Measure = fn(&Played, &Played) -> f64;
@@ -122,7 +122,7 @@ const CRUSHED: Trial = Trial {
 };
 
 /// All scenes, in the order of tables.
-pub static TRIALS: [Trial; 9] = [
+pub(crate) static TRIALS: [Trial; 9] = [
     FREE_FALL,
     HANG,
     Trial {

@@ -3,7 +3,7 @@
 use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
 
 use super::{Row, Rule, STEP_DIVISORS, STRIP_M, Tear};
-use crate::experiment::{Chart, Provenance};
+use crate::experiment::Draw;
 use crate::method::Method;
 use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
 
@@ -29,8 +29,8 @@ const READING: &str = "Bars: medians with 10 to 90 % over seeds, for each method
      quarter of it (from left to right). Below the name: does halving the step change the median? = the same, ≠ \
      different, ? cannot tell. Grey band: the reference, 10 to 90 %.";
 
-impl Chart for Tear {
-    fn figure(&self, rows: &[Row], provenance: &Provenance) -> Figure {
+impl Draw for Tear {
+    fn figure(&self, rows: &[Row]) -> Figure {
         let mut panels = Vec::new();
         if rows.iter().any(|row| row.rule.is_some()) {
             panels.push(strips(rows));
@@ -42,7 +42,7 @@ impl Chart for Tear {
                 .to_owned(),
             layout: (3, [390.0, 330.0]),
             panels,
-            footer: provenance.footer(READING, rows.iter().map(|row| row.status)),
+            footer: vec![READING.to_owned()],
             ..Figure::default()
         }
     }
