@@ -120,6 +120,18 @@ pub(crate) enum Layer {
 }
 
 impl Layer {
+    /// Returns a line through points in the order of the horizontal axis.
+    #[must_use]
+    pub(crate) fn curve(
+        points: impl Iterator<Item = [f64; 2]>,
+        colour: Colour,
+        width: f64,
+    ) -> Layer {
+        let mut points: Vec<[f64; 2]> = points.collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        Layer::Line(points, colour, width)
+    }
+
     /// Returns an interval at a place along the horizontal axis: a line from its lower to its upper end, and a mark
     /// at its middle, with words to hover over.
     #[must_use]

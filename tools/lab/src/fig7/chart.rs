@@ -41,7 +41,7 @@ impl Draw for Fig7 {
             legend,
             layout: (1, [720.0, 460.0]),
             panels: vec![Panel::new("", "", axes, layers)],
-            footer: vec![String::new()],
+            footer: Vec::new(),
         }
     }
 

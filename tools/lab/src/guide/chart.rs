@@ -185,9 +185,8 @@ impl Section<'_> {
         layers.push(Layer::Rule(1.0, "real time"));
         for (curves, width) in [(&self.coarse, 0.7), (&self.fine, 1.6)] {
             for (method, points) in curves {
-                let mut line: Vec<[f64; 2]> = points.iter().filter_map(Point::at).collect();
-                line.sort_by(|a, b| a[0].total_cmp(&b[0]));
-                layers.push(Layer::Line(line, method.family.mark().colour, width));
+                let line = points.iter().filter_map(Point::at);
+                layers.push(Layer::curve(line, method.family.mark().colour, width));
             }
         }
         for (method, points) in &self.fine {

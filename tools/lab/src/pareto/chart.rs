@@ -5,7 +5,7 @@ use super::front::{Ranked, ranked};
 use super::{AMPLIFICATION_MAX, FLOORS, Observable, Pareto, Row, SCENES};
 use crate::experiment::{Draw, Status};
 use crate::method::{DEFAULT, Family};
-use crate::plot::{Axis, Colour, Figure, INK, Layer, Mark, Panel, Shape, Strip, percent, short};
+use crate::plot::{Axis, Figure, INK, Layer, Mark, Panel, Shape, Strip, percent, short};
 
 /// The error at which the title counts the cheapest methods.
 const TITLE_ERROR: f64 = 0.01;
@@ -129,7 +129,7 @@ impl Group<'_> {
         layers.extend(floor.map(|floor| Layer::Band(0.0..FLOORS * floor)));
         // The front over all methods.
         let front = self.runs.iter().filter(|run| run.is_on_front);
-        layers.push(line(front, [0xcc; 3], 3.0));
+        layers.push(Layer::curve(front.map(|run| run.at), [0xcc; 3], 3.0));
         for family in Family::all() {
             let own = self.runs.iter();
             let own = own.filter(|run| run.row.family == Some(family));
@@ -219,8 +219,8 @@ fn about(row: &Row) -> String {
 fn draw_family(layers: &mut Vec<Layer>, of_family: Mark, own: &[&Ranked<'_>]) {
     let beats = |a: [f64; 2], b: [f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
     let is_best = |run: &Ranked<'_>| !own.iter().any(|other| beats(other.at, run.at));
-    let best = own.iter().copied().filter(|run| is_best(run));
-    layers.push(line(best, of_family.colour, 1.0));
+    let best = own.iter().filter(|run| is_best(run)).map(|run| run.at);
+    layers.push(Layer::curve(best, of_family.colour, 1.0));
     layers.extend(own.iter().map(|run| {
         let is_best = is_best(run);
         let mut shown = of_family.sized(if is_best { of_family.size } else { 1.6 });
@@ -232,11 +232,4 @@ fn draw_family(layers: &mut Vec<Layer>, of_family: Mark, own: &[&Ranked<'_>]) {
 fn mark(run: &Ranked<'_>, mark: Mark) -> Layer {
     let error = short(run.row.error_total.unwrap_or(0.0), 3);
     Layer::Mark(run.at, mark, format!("{}: error {error}", run.row.run))
-}
-
-/// A line through runs, from the cheapest on.
-fn line<'a>(runs: impl Iterator<Item = &'a Ranked<'a>>, colour: Colour, width: f64) -> Layer {
-    let mut points: Vec<[f64; 2]> = runs.map(|run| run.at).collect();
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    Layer::Line(points, colour, width)
 }

@@ -99,7 +99,11 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, [at, size]: [[f64; 2]; 2]) -> 
     if let Some(strip) = &panel.above {
         draw_strip(canvas, &frame, strip);
     }
-    for layer in &panel.layers {
+    // Labels come last, so that they keep clear of all marks.
+    let layers = panel.layers.iter();
+    let (labels, others): (Vec<&Layer>, Vec<&Layer>) =
+        layers.partition(|layer| matches!(layer, Layer::Label(..)));
+    for layer in others.into_iter().chain(labels) {
         draw_layer(canvas, &mut frame, layer);
     }
     let mut y = top + height + 10.0;
@@ -189,7 +193,8 @@ fn draw_layer(canvas: &mut Canvas, frame: &mut Frame<'_>, layer: &Layer) {
         }
         Layer::Mark(at, mark, hover) => {
             let [x, y] = frame.at(*at);
-            frame.taken.push([x - 4.0, y - 4.0, x + 4.0, y + 4.0]);
+            let half = mark.size;
+            frame.taken.push([x - half, y - half, x + half, y + half]);
             canvas.mark(*mark, [x, y], hover);
         }
         Layer::Cell(at, colour, lines, is_marked) => {
@@ -278,6 +283,22 @@ mod tests {
             high[0] - low[0] > 250.0 && low[1] - high[1] > 180.0,
             "{at:?}"
         );
+    }
+
+    #[test]
+    fn a_label_keeps_clear_of_marks_that_are_listed_after_it() {
+        let mark = |at| Layer::Mark(at, Mark::new(Shape::DISC, INK), String::new());
+        let label = Layer::Label([1.0, 1.0], "label".to_owned(), INK);
+        let marks = [[1.0, 1.0], [1.1, 1.0], [2.0, 2.0]].map(mark).to_vec();
+        let place = |layers: [Vec<Layer>; 2]| {
+            let text = drawn(Axis::linear("x"), layers.concat());
+            let line = text.lines().find(|line| line.ends_with(">label</text>"));
+            line.expect("a label").to_owned()
+        };
+        let label = vec![label];
+        let last = place([marks.clone(), label.clone()]);
+        assert_eq!(place([label.clone(), marks]), last);
+        assert_ne!(place([label, vec![mark([2.0, 2.0])]]), last);
     }
 
     #[test]

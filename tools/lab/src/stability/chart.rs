@@ -13,7 +13,6 @@ impl Draw for Stability {
                 .to_owned(),
             layout: (2, [760.0, 660.0]),
             panels: vec![steps(rows), scenes(rows)],
-            footer: vec![String::new()],
             ..Figure::default()
         }
     }
