@@ -59,7 +59,7 @@ impl Classes {
         let mut corners = Vec::new();
         for (v, &root) in mesh.vertices().zip(roots) {
             if self.is_joined[root as usize] {
-                corners.extend(mesh.half_edge_of(v).into_iter().flat_map(|h| mesh.fan(h)));
+                corners.extend(mesh.corners_of(v));
             }
         }
         let mut bad = Vec::new();

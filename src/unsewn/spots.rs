@@ -47,20 +47,16 @@ impl<'p, P: Place + ?Sized> Spots<'p, P> {
         let at = |v: VertexId| coordinates(place.at(v));
         let mut firsts = Vec::new();
         let cells = order.len().next_power_of_two();
-        for_each_group(
-            &order,
-            cells,
-            |v| hash(at(v)) as usize % cells,
-            |alike| {
-                alike.sort_unstable_by(|&a, &b| compare(at(a), at(b)).then(a.cmp(&b)));
-                for equal in alike.chunk_by(|&a, &b| at(a) == at(b)) {
-                    equal
-                        .iter()
-                        .for_each(|v| of[v.index()] = firsts.len() as u32);
-                    firsts.push(equal[0]);
-                }
-            },
-        );
+        let cell = |v: VertexId| hash(at(v)) as usize % cells;
+        for_each_group(&order, cells, cell, |alike| {
+            alike.sort_unstable_by(|&a, &b| compare(at(a), at(b)).then(a.cmp(&b)));
+            for equal in alike.chunk_by(|&a, &b| at(a) == at(b)) {
+                equal
+                    .iter()
+                    .for_each(|v| of[v.index()] = firsts.len() as u32);
+                firsts.push(equal[0]);
+            }
+        });
         if distance > 0.0 {
             let merged = merged(&firsts, at, distance);
             for spot in of.iter_mut().filter(|spot| **spot != NONE) {
