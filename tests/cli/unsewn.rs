@@ -1,5 +1,5 @@
 //! Cuts across seams that coincide and are not sewn, from file to file: what is mended is the file that
-//! was cut, byte for byte.
+//! was cut, byte for byte, and what is undone the file that was cut last.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -106,7 +106,7 @@ fn shown(file: &[u8]) -> String {
 #[test]
 fn cuts_across_unsewn_seams_are_mended_to_the_byte() {
     let mut random = Random(71);
-    let (mut torn, mut twice, mut closed) = (0, 0, 0);
+    let (mut torn, mut twice, mut undo, mut closed) = (0, 0, 0, 0);
     let wanted = cases() / 10;
     while torn < wanted {
         let file = patches(&mut random).into_bytes();
@@ -129,9 +129,20 @@ fn cuts_across_unsewn_seams_are_mended_to_the_byte() {
         let again = written(&second, &cut);
         twice += u64::from(again != cut);
         is_whole(&again, &format!("{first}, then {second}"));
+        // A gap is shown anew, at the same places.
+        if again != cut && !first.contains("--gap") && !second.contains("--gap") {
+            let undone = shown(&written("mend - --last 1 --simplify", &again));
+            let [file, cut] = [&file, &cut].map(|file| shown(file));
+            assert!(
+                undone == cut,
+                "{first}, then {second}\n{file}{cut}becomes\n{undone}"
+            );
+            undo += 1;
+        }
         let ran = in_memory("tearmesh check -".split(' '), &file, false);
         closed += u64::from(shown(&ran.output).contains("W-MESH-UNSEWN"));
     }
+    assert!(5 * undo > wanted, "{undo}");
     assert!(
         2 * twice > wanted && 2 * closed > wanted,
         "{twice} {closed}"

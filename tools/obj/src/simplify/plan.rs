@@ -4,7 +4,10 @@
 //! them, as if in reverse order of the cuts:
 //!
 //! * An inserted vertex goes only if it is as it was inserted (`past.rs`), and if the ends that it was
-//!   put between are where they were then: a later slide of one of them has to be undone too.
+//!   put between are where they were then: a later slide of one of them has to be undone too. And only if
+//!   no edge at the vertex is torn that its cut or a later one tore.
+//! * What a cut inserted at one place goes together. These are the two sides of a seam that is not sewn, and
+//!   without one of them the seam would not fit any more.
 //! * A slide is undone if no edge at the vertex is torn that its cut or a later one tore, if the vertex
 //!   is as it was left, and if everything goes that was put beside it since. What holds a
 //!   slide holds all earlier ones of its vertex.
@@ -46,6 +49,8 @@ pub(super) struct Undo<'d> {
     may_go: Vec<bool>,
     /// For each inserted vertex, the first cut whose slides came later.
     since: Vec<u32>,
+    /// The inserted vertices that one cut put at one place.
+    together: Vec<Vec<u32>>,
     /// How many inserted vertices stay for what was done to them since.
     pub(super) edited: usize,
 }
@@ -61,8 +66,9 @@ impl<'d> Undo<'d> {
             .rev()
             .map(|face| face.parts_for_plan(inserted));
         let insertions = Insertions::new(mesh, families);
-        let may_go = may_go(record, &past, mesh);
-        let [is_open, is_back] = slides_to_undo(record, &past, mesh);
+        let last_tears = last_tears(record, &past, mesh);
+        let may_go = may_go(record, &past, &last_tears, mesh);
+        let [is_open, is_back] = slides_to_undo(record, &past, &last_tears);
         let plan = |past: &Past<'_>, may_go: &[bool], is_back: &[bool]| {
             let may_go = |v: VertexId| may_go[past.roots[v.index()] as usize];
             let indices = |h: HalfEdgeId| past.indices(h.index(), |slide| is_back[slide]);
@@ -74,6 +80,7 @@ impl<'d> Undo<'d> {
             is_open,
             may_go,
             since: inserted.iter().map(|one| one.cut + 1).collect(),
+            together: together(document, inserted),
             inserted,
             past,
             divided,
@@ -177,6 +184,17 @@ impl<'d> Undo<'d> {
     /// there is any.
     fn keep_more(&mut self, goes: &mut [bool]) -> bool {
         let mut more = false;
+        for group in &self.together {
+            if group.iter().all(|&root| goes[root as usize]) {
+                continue;
+            }
+            for &root in group {
+                if std::mem::take(&mut goes[root as usize]) {
+                    self.may_go[root as usize] = false;
+                    more = true;
+                }
+            }
+        }
         // From the last one: its ends were inserted before it.
         for (place, inserted) in self.inserted.iter().enumerate().rev() {
             let of_ends: Vec<usize> = self.slides_of_ends(place).collect();
@@ -204,11 +222,7 @@ impl<'d> Undo<'d> {
 
 /// For each slide, whether an edge is torn there that its cut or a later one tore, and whether the slide may be
 /// undone.
-fn slides_to_undo(record: &Record, past: &Past<'_>, mesh: &Mesh) -> [Vec<bool>; 2] {
-    if record.slides.is_empty() {
-        return Default::default();
-    }
-    let last_tears = last_tears(record, past, mesh);
+fn slides_to_undo(record: &Record, past: &Past<'_>, last_tears: &[u32]) -> [Vec<bool>; 2] {
     let slides = record.slides.iter().zip(&past.is_intact);
     let slides = slides.map(|(slid, is_intact)| {
         let is_open = last_tears[past.roots[slid.vertex as usize] as usize] >= slid.cut;
@@ -243,12 +257,27 @@ fn last_tears(record: &Record, past: &Past<'_>, mesh: &Mesh) -> Vec<u32> {
     last
 }
 
-/// By root, whether it was inserted; and what no honest record has: a parent between inserted vertices,
-/// and undivided faces there.
-fn may_go(record: &Record, past: &Past<'_>, mesh: &Mesh) -> Vec<bool> {
+/// The inserted vertices that one cut put at one place, where there are several.
+fn together(document: &Document, inserted: &[Inserted]) -> Vec<Vec<u32>> {
+    let key = |one: &Inserted| {
+        let at = document.positions()[one.vertex as usize];
+        (one.cut, [at.x, at.y, at.z].map(|x| (x + 0.0).to_bits())) // −0 is 0.
+    };
+    let mut placed: Vec<_> = inserted.iter().map(|one| (key(one), one.vertex)).collect();
+    placed.sort_unstable();
+    let groups = placed.chunk_by(|one, other| one.0 == other.0);
+    let groups = groups.filter(|group| group.len() > 1);
+    let groups = groups.map(|group| group.iter().map(|&(_, vertex)| vertex).collect());
+    groups.collect()
+}
+
+/// By root, whether it was inserted by a cut that is not open there; and what no honest record has: a parent
+/// between inserted vertices, and undivided faces there.
+fn may_go(record: &Record, past: &Past<'_>, last_tears: &[u32], mesh: &Mesh) -> Vec<bool> {
     let mut may_go = vec![false; past.roots.len()];
     for inserted in &record.inserted {
-        may_go[inserted.vertex as usize] = true;
+        let root = inserted.vertex as usize;
+        may_go[root] = last_tears[root] < inserted.cut;
     }
     let families = &record.families;
     for family in families
