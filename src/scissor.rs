@@ -273,7 +273,7 @@ impl Scissor {
         let points = [nearest(0), nearest(1)];
         let strip = match points {
             [None, None] => return Scissor::new(rays[0], rays[1]),
-            _ => Strip::joined(rays, points).ok_or(ScissorError::NoLength)?,
+            _ => Strip::joined(rays, points, None).ok_or(ScissorError::NoLength)?,
         };
         let mut scissor = Scissor::along(strip, Some(rays));
         scissor.joints = joints.map(Option::<&CutEnd>::cloned);
@@ -389,7 +389,9 @@ impl Scissor {
             Some(hit) => hit.point(mesh, place),
             None => nearest_to_middle(&rays[1], mesh, place)?,
         };
-        let mut strip = Strip::joined(rays, [None, Some(at)])?;
+        let first = pick::first_hit(mesh, place, &rays[0]);
+        let aim = first.map(|hit| hit.point(mesh, place));
+        let mut strip = Strip::joined(rays, [None, Some(at)], aim)?;
         strip.through = self.strip.through;
         Some(strip)
     }

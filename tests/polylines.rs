@@ -287,17 +287,19 @@ impl Case {
     ) {
         let longest = before.longest_edge();
         let edge = |h: HalfEdgeId| [h, h.next()].map(|h| positions.at(mesh.origin(h)).into());
+        let mut torn: Vec<[Point; 2]> = Vec::new();
         for edit in edits.iter() {
             let Edit::Split(split) = edit else { continue };
-            for p in split.torn.iter().flat_map(|link| edge(link.stayed)) {
-                counts.beyond = counts.beyond.max(beyond(pair, p) / longest);
-            }
+            torn.extend(split.torn.iter().map(|link| edge(link.stayed)));
+        }
+        for &p in torn.as_flattened() {
+            counts.beyond = counts.beyond.max(beyond(pair, p) / longest);
         }
         if report.splits == 0 {
             return;
         }
-        let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
-        let torn: Vec<[Point; 2]> = torn.map(edge).collect();
+        let all = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
+        let all: Vec<[Point; 2]> = all.map(edge).collect();
         let aims = report.aims.expect("a cut between rays");
         for (line, aim) in pair.into_iter().zip(aims) {
             let rounding = 1e-9;
@@ -311,15 +313,20 @@ impl Case {
                 counts.ambiguous += 1;
                 continue;
             };
-            let aside = torn.iter().map(|&edge| distance(edge, at));
-            let aside = aside.fold(f64::INFINITY, f64::min);
-            let off = (aim.aside - aside).abs();
-            assert!(off < 1e-6, "{}: {aside} aside, not {aim:?}", self.name);
+            let least = |of: &[[Point; 2]]| {
+                let far = of.iter().map(|&edge| distance(edge, at));
+                far.fold(f64::INFINITY, f64::min)
+            };
+            // Of what was torn before, only that along the plane counts.
+            let [aside, most] = [&all, &torn].map(|of| least(of));
+            let counts_aside = aside - 1e-6..most + 1e-6;
+            let is_so = counts_aside.contains(&aim.aside);
+            assert!(is_so, "{}: {aside} to {most} aside, not {aim:?}", self.name);
             counts.missed += usize::from(aim.is_missed());
             let near = 2.0 * self.snap * longest + 1e-9;
             assert!(
-                aside <= near || aim.is_missed(),
-                "{}: {aside}, {aim:?}",
+                most <= near || aim.aside <= near || aim.is_missed(),
+                "{}: {most}, {aim:?}",
                 self.name
             );
         }
@@ -370,6 +377,44 @@ fn regression_a_slit_from_one_eye_continues_forward() {
         }
         assert!(lengths.iter().all(|&length| length < 0.06), "{lengths:?}");
     }
+}
+
+/// However far apart two eyes are, the slit on a flat sheet is that from one aim to the other.
+#[test]
+fn skew_rays_cut_between_their_aims() {
+    let mut random = Random(29);
+    let sheets = [
+        surface(&tearmesh::shapes::grid(9, 9)),
+        delaunay(120, 8, &mut random),
+    ];
+    let mut count = 0;
+    for case in 0..cases() {
+        let sheet = &sheets[case as usize % 2];
+        let apart = [0.5, 2.0, 5.0][case as usize % 3];
+        let aims = [0, 1].map(|_| [random.next(), random.next(), 0.0]);
+        let pair = aims.map(|at: Point| {
+            let aside = [0, 1].map(|i| at[i] + apart * (random.next() - 0.5));
+            let eye = [aside[0], aside[1], 0.2 + 2.0 * random.next()];
+            (eye, minus(at, eye))
+        });
+        let scissor = Scissor::new(ray(pair[0]), ray(pair[1]))
+            .expect("a plane")
+            .snap(0.0);
+        let (mut mesh, mut positions) = built(sheet);
+        let mut edits = Edits::new();
+        let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
+        cut.expect("rays that do not meet do not cross");
+        let way = minus(aims[1], aims[0]);
+        for h in mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some()) {
+            let off = minus(positions.at(mesh.origin(h)).into(), aims[0]);
+            let along = dot(off, way) / dot(way, way);
+            let is_between = (-1e-9..=1.0 + 1e-9).contains(&along);
+            let aside = length(cross(off, way));
+            assert!(is_between && aside < 1e-9, "{pair:?}: {along}, {aside}");
+            count += 1;
+        }
+    }
+    assert!(count > cases(), "{count}");
 }
 
 /// Two rays that cross two units above the sheet, and at its height.

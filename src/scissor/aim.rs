@@ -5,7 +5,8 @@
 
 use crate::engine::pick;
 use crate::exact::ROUNDING;
-use crate::geometry::{Point, Ray, between, dot, length, max_abs};
+use crate::geometry::{Plane, Point, Ray, between, dot, length, max_abs};
+use crate::id::HalfEdgeId;
 use crate::mesh::Mesh;
 use crate::place::Positions;
 
@@ -16,7 +17,7 @@ use crate::place::Positions;
 pub struct CutAim {
     /// The point at which the ray met the mesh before the cut.
     pub at: Point,
-    /// The nearest point of a torn edge: of the seam, or of an earlier cut or tear.
+    /// The nearest point of the seam, or of an earlier cut or tear along the plane of this one.
     pub seam: Point,
     /// The distance between the two points.
     pub aside: f64,
@@ -66,12 +67,23 @@ impl Aim {
         })
     }
 
-    /// Compares with the torn edges of the mesh; `None` if there are none.
-    pub(super) fn compare(&self, mesh: &Mesh, positions: &Positions) -> Option<CutAim> {
-        let torn = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
-        let nearest = torn.map(|h| {
-            let ends = [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
-            let seam = nearest_on(ends, self.at);
+    /// Compares with the edges that the cut tore, which are sorted, and those torn before that lie along
+    /// its plane: there it is cut already. `None` if there are none.
+    pub(super) fn compare(
+        &self,
+        plane: &Plane,
+        torn: &[HalfEdgeId],
+        mesh: &Mesh,
+        positions: &Positions,
+    ) -> Option<CutAim> {
+        let ends = |h: HalfEdgeId| [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
+        let is_along = |p: Point| plane.distance(p).abs() <= self.allowed;
+        let counts = |&h: &HalfEdgeId| {
+            mesh.ghost_pair(h).is_some()
+                && (torn.binary_search(&h).is_ok() || ends(h).into_iter().all(is_along))
+        };
+        let nearest = mesh.half_edges().filter(counts).map(|h| {
+            let seam = nearest_on(ends(h), self.at);
             (length(seam - self.at), seam)
         });
         let (aside, seam) = nearest.min_by(|one, other| one.0.total_cmp(&other.0))?;

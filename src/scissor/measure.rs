@@ -252,7 +252,7 @@ impl<'w> Survey<'w> {
         first_edit: Cursor,
     ) -> CutReport {
         let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
-        let mut ends: Vec<VertexId> = Vec::new();
+        let (mut ends, mut torn): (Vec<VertexId>, Vec<HalfEdgeId>) = Default::default();
         let (pieces, expected) = (self.census.count(mesh), self.report.pieces_expected);
         let places = mesh
             .faces()
@@ -273,12 +273,14 @@ impl<'w> Survey<'w> {
                             seam_deviation_max = seam_deviation_max.max(deviation);
                         }
                         ends.extend(nodes.of_edge(mesh, link.stayed));
+                        torn.push(link.stayed);
                     }
                 }
                 Edit::Insert(insert) => vertices_inserted += insert.points.len(),
                 Edit::Merge(_) | Edit::Slide(_) => {}
             }
         }
+        torn.sort_unstable();
         // A slit that only grazes a corner may be so short that the quotient is infinite.
         let ratio = |a: f64, b: f64| match a / b {
             ratio if ratio.is_finite() => ratio,
@@ -308,8 +310,11 @@ impl<'w> Survey<'w> {
             missed: self.slit.is_empty(),
             tip_overshoots: self.overshoots(mesh, positions, ends),
             aims: {
-                let is_cut = splits > 0;
-                let compare = |aim: Aim| aim.compare(mesh, positions).filter(|_| is_cut);
+                let plane = &self.way.strip.plane;
+                let compare = |aim: Aim| {
+                    let aim = aim.compare(plane, &torn, mesh, positions);
+                    aim.filter(|_| !torn.is_empty())
+                };
                 self.aims.map(|aims| aims.map(|aim| aim.and_then(compare)))
             },
             ..self.report.clone()

@@ -130,7 +130,14 @@ impl Strip {
     /// The strip between two rays, one or both of which pass through a point of the mesh, the joint. The
     /// plane holds the joint and all of the other ray, or of the second if both have a joint. `None` if
     /// a joint lies on the other ray, up to rounding, or if there is no joint.
-    pub(super) fn joined(rays: [Ray; 2], joints: [Option<Point>; 2]) -> Option<Strip> {
+    ///
+    /// Where the ray without a joint meets the mesh at `aim`, the side plane through the joint is turned by
+    /// that point, and otherwise by the nearest point of the ray.
+    pub(super) fn joined(
+        rays: [Ray; 2],
+        joints: [Option<Point>; 2],
+        aim: Option<Point>,
+    ) -> Option<Strip> {
         let through = |side: usize| match joints[side] {
             Some(joint) => Ray::new(joint, rays[side].direction()).ok(),
             None => Some(rays[side]),
@@ -146,7 +153,8 @@ impl Strip {
             return None;
         }
         let far = dot(joint - other.origin(), along) / dot(along, along);
-        let nearest = joints[1 - side].unwrap_or(other.origin() + along * far);
+        let toward = joints[1 - side].or(aim);
+        let nearest = toward.unwrap_or(other.origin() + along * far);
         let mut toward = [nearest - joint, joint - other.origin()];
         if side == 1 {
             toward.reverse();
