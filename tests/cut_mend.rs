@@ -229,11 +229,15 @@ impl World {
     /// Faces keep as much of their altitudes as the snap allows, or as they keep where nothing slides.
     fn no_slide_leaves_a_thin_face(&self, method: CutMethod, scissor: &Scissor, snap: f64) {
         let (first, before) = (self.work.edits.cursor(), self.work.altitudes());
-        let [still, slid] = [false, true].map(|moves| {
+        let kept = [false, true].map(|moves| {
             let mut work = self.work.clone();
-            work.cut(method, &scissor.clone().snap_move(moves));
-            work.kept_by(work.edits.since(first), &before)
+            let made = work.try_cut(method, &scissor.clone().snap_move(moves));
+            made.ok()?;
+            Some(work.kept_by(work.edits.since(first), &before))
         });
+        let [Some(still), Some(slid)] = kept else {
+            return; // It is refused, as the cut itself will be.
+        };
         assert_eq!(still.len(), slid.len(), "slides divide no face");
         let bound = snap * (1.0 - snap);
         for (still, slid) in still.into_iter().zip(slid) {
