@@ -1,4 +1,4 @@
-//! What holds of the scissor of any two rays, and of any small mesh that it cuts.
+//! Properties of the scissor of any two rays, and of any small mesh that it cuts.
 //!
 //! The fuzz target `scissor_rays` and the replay of its seeds use this. Everything is judged by
 //! plain formulas; where rounding has a say, the bound is written out. ε is 2^-53.
@@ -146,9 +146,9 @@ impl Case {
             .rays
             .map(|[origin, direction]| ray(origin * scale, direction).expect("a plain number"));
         let scissor = scissor(&a, &b).expect("larger rays span a plane too");
-        let larger = self.cut(scissor, scale);
+        let of_larger = self.cut(scissor, scale);
         let counted = |report: &CutReport| (report.splits, report.pieces, report.faces_crossed);
-        let larger = larger.as_ref().map(counted);
+        let larger = of_larger.as_ref().map(counted);
         assert_eq!(larger, report.map(counted), "a larger model");
     }
 }

@@ -1,4 +1,4 @@
-//! Which file of a crate names which other, as a reader sees it.
+//! The uses of one file of a crate by another, as a reader sees them.
 //!
 //! An arrow is a path in a `use`, or one that begins with `crate::`, `super::` or a module of the
 //! file, anywhere in its code. It leads to the file of the last module in the path; where that file

@@ -1,4 +1,4 @@
-//! What is kept of a run: the table, and beside it commit, compiler and CPU.
+//! The record of a run: the table, and beside it commit, compiler and CPU.
 
 use std::fs;
 use std::io;

@@ -1,4 +1,4 @@
-//! What verbs that cut share: scissors from what was typed, and words on what was cut.
+//! The parts that `cut` and `tear` share: scissors from what was typed, and words on what was cut.
 
 pub(crate) mod no_op;
 pub(crate) mod scissors;

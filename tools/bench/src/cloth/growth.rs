@@ -1,4 +1,4 @@
-//! What a step costs an edge of the mesh, as sheets grow: of springs along edges, each a constraint,
+//! The cost of a step for each edge of the mesh, as sheets grow: of springs along edges, each a constraint,
 //! and of triangles in their place.
 
 use tearmesh_cloth::implicit::Settings;

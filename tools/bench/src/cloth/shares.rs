@@ -1,5 +1,5 @@
-//! What looking for tears, the meter of energy and the statistics add to a step, and what the
-//! paper's rip takes of real time: of ours alone.
+//! The share of a step that looking for tears, the meter of energy and the statistics take, and that of
+//! real time which the paper's rip takes: of ours alone.
 
 use tearmesh::{Edits, Mesh, shapes};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
