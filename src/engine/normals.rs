@@ -60,8 +60,10 @@ impl FaceNormals {
             cross(b - a, c - a)
         };
         let mut spanned: Vec<Vector> = mesh.faces().map(spanned).collect();
-        let units = spanned.iter().map(|&n| unit(n).unwrap_or_default());
-        let units = units.collect();
+        let units = spanned
+            .iter()
+            .map(|&n| unit(n).unwrap_or_default())
+            .collect();
         let largest = spanned.iter().map(|&n| max_abs(n)).fold(0.0, f64::max);
         // So that no product of tiny or huge ones is lost.
         if largest > 0.0 && largest.is_finite() {

@@ -312,8 +312,8 @@ impl<'w> Survey<'w> {
             aims: {
                 let plane = &self.way.strip.plane;
                 let compare = |aim: Aim| {
-                    let aim = aim.compare(plane, &torn, mesh, positions);
-                    aim.filter(|_| !torn.is_empty())
+                    aim.compare(plane, &torn, mesh, positions)
+                        .filter(|_| !torn.is_empty())
                 };
                 self.aims.map(|aims| aims.map(|aim| aim.and_then(compare)))
             },

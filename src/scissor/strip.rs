@@ -153,8 +153,9 @@ impl Strip {
             return None;
         }
         let far = dot(joint - other.origin(), along) / dot(along, along);
-        let toward = joints[1 - side].or(aim);
-        let nearest = toward.unwrap_or(other.origin() + along * far);
+        let nearest = joints[1 - side]
+            .or(aim)
+            .unwrap_or(other.origin() + along * far);
         let mut toward = [nearest - joint, joint - other.origin()];
         if side == 1 {
             toward.reverse();

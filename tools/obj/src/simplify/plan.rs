@@ -265,10 +265,11 @@ fn together(document: &Document, inserted: &[Inserted]) -> Vec<Vec<u32>> {
     };
     let mut placed: Vec<_> = inserted.iter().map(|one| (key(one), one.vertex)).collect();
     placed.sort_unstable();
-    let groups = placed.chunk_by(|one, other| one.0 == other.0);
-    let groups = groups.filter(|group| group.len() > 1);
-    let groups = groups.map(|group| group.iter().map(|&(_, vertex)| vertex).collect());
-    groups.collect()
+    placed
+        .chunk_by(|one, other| one.0 == other.0)
+        .filter(|group| group.len() > 1)
+        .map(|group| group.iter().map(|&(_, vertex)| vertex).collect())
+        .collect()
 }
 
 /// By root, whether it was inserted by a cut that is not open there; and what no honest record has: a parent
