@@ -526,3 +526,48 @@ fn cuts_across_unsewn_seams_are_those_of_the_whole() {
         "{cuts} cuts that inserted, {twice} second ones, {slid} with slides, across {seams} seam edges"
     );
 }
+
+/// Nothing sews the front of double-sided cloth to its back, so each side decides by itself. It decides alike
+/// on the outline that both share, in ties too, whatever corner its faces begin with.
+#[test]
+fn double_sided_cloth_stays_closed_round_its_outline() {
+    let mut random = Random(31);
+    let mut cuts = 0;
+    for case in 0..4 * cases() {
+        let turns: Vec<bool> = (0..64).map(|_| random.next() < 0.5).collect();
+        let diagonal = |x: u32, y: u32| turns[(8 * y + x) as usize % 64];
+        let [x, y] = [0; 2].map(|_| 1 + random.below(5) as u32);
+        let mut cloth = doubled(&surface(&shapes::grid_with_diagonals(x, y, diagonal)));
+        for face in &mut cloth.faces {
+            face.rotate_left(random.below(3));
+        }
+        // On a lattice, where ties are frequent.
+        let mut at = || [0; 2].map(|_| 0.05 * (random.below(23) as f64 - 1.0));
+        let ends = [at(), at()];
+        let snap = [Scissor::SNAP, 0.0, 0.1, 0.2, 0.25, 0.4][random.below(6)];
+        if let Some(open) = opened(&cloth, ends, snap, random.next() < 0.3) {
+            cuts += 1;
+            assert!(
+                open.is_empty(),
+                "case {case}: {ends:?}, snap {snap}: {open:?}"
+            );
+        }
+    }
+    assert!(cuts > 100);
+}
+
+/// The edges that a slit from one point to another, seen from above, leaves without an opposite.
+fn opened(cloth: &Surface, ends: [[f64; 2]; 2], snap: f64, moves: bool) -> Option<Vec<[Point; 2]>> {
+    let [a, b] = ends.map(|[x, y]| ray(([x, y, 1.0], [0.0, 0.0, -1.0])));
+    let scissor = Scissor::new(a, b).ok()?.snap(snap).snap_move(moves);
+    let mut mesh = built(cloth);
+    cut_closed(&mut mesh, &scissor, CutMethod::Exact).ok()?;
+    Some(open_edges(&surface(&mesh)))
+}
+
+#[test]
+fn regression_both_sides_take_a_tip_for_the_same_node() {
+    let cloth = doubled(&surface(&shapes::grid_with_diagonals(1, 2, |_, _| false)));
+    let open = opened(&cloth, [[0.1, 0.6], [0.5, 0.1]], 0.2, false);
+    assert_eq!(open, Some(Vec::new()));
+}

@@ -42,10 +42,18 @@ pub(in crate::scissor) fn trace(
     tracer.trace(&touched)
 }
 
+/// Whether a place comes before another. Edges and pieces are measured from the end that does, so that two
+/// sides of a seam, and those of double-sided cloth, come to the same numbers.
+fn is_before(p: Point, q: Point) -> bool {
+    let first = (0..3).find(|&axis| p[axis] != q[axis]);
+    first.is_some_and(|axis| p[axis] < q[axis])
+}
+
 /// A node and its depths inside the two side planes.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     site: Site,
+    at: Point,
     depths: [f64; 2],
 }
 
@@ -144,19 +152,17 @@ impl Tracer<'_> {
     }
 
     /// The depths of a node that has these by its place.
-    fn node(&self, site: Site, mut depths: [f64; 2]) -> Node {
+    fn node(&self, site: Site, at: Point, mut depths: [f64; 2]) -> Node {
         for (depth, of_joint) in depths.iter_mut().zip(self.joint_depths(site)) {
             *depth -= of_joint.unwrap_or(0.0);
         }
-        Node { site, depths }
+        Node { site, at, depths }
     }
 
-    /// Whether places along an edge are counted from its origin: the end with the smaller position, so that
-    /// both sides agree.
+    /// Whether places along an edge are counted from its origin.
     fn is_forward(&self, h: HalfEdgeId) -> bool {
         let [p, q] = h.ends(true).map(|h| self.positions.at(self.mesh.origin(h)));
-        let first = (0..3).find(|&axis| p[axis] != q[axis]);
-        first.is_some_and(|axis| p[axis] < q[axis])
+        is_before(p, q)
     }
 
     fn crossing(&self, h: HalfEdgeId) -> Crossing {
@@ -181,12 +187,12 @@ impl Tracer<'_> {
     fn crossing_node(&self, h: HalfEdgeId) -> Node {
         let crossing = self.crossing(h);
         let [p, q] = self.ends(&crossing).map(|v| self.positions.at(v));
-        let depths = self.depths(between(p, q, crossing.t));
-        self.node(Site::Edge(crossing.half_edge), depths)
+        let at = between(p, q, crossing.t);
+        self.node(Site::Edge(crossing.half_edge), at, self.depths(at))
     }
 
     fn vertex_node(&self, v: VertexId) -> Node {
-        self.node(Site::Vertex(v), self.depths_of(v))
+        self.node(Site::Vertex(v), self.positions.at(v), self.depths_of(v))
     }
 
     /// The depths of a vertex, or of the crossing for which it stands.
@@ -197,7 +203,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// The nodes of a face with vertices on both sides of the plane.
+    /// The nodes of a face with vertices on both sides of the plane, in the order of their places.
     fn nodes(&self, f: FaceId) -> Option<[Node; 2]> {
         let mut nodes = f.half_edges().into_iter().filter_map(|h| {
             let [a, b] = [self.mesh.origin(h), self.mesh.target(h)];
@@ -211,7 +217,11 @@ impl Tracer<'_> {
                 crosses.then(|| self.crossing_node(h))
             }
         });
-        Some([nodes.next()?, nodes.next()?])
+        let (one, other) = (nodes.next()?, nodes.next()?);
+        Some(match is_before(other.at, one.at) {
+            true => [other, one],
+            false => [one, other],
+        })
     }
 
     /// The piece from one node to the other, as far as it is between the side planes.
@@ -292,13 +302,13 @@ impl Tracer<'_> {
             }
         }
         self.snap_copies(&mut snapped);
-        // The nearest crossing speaks for the vertex. Equal ones are two faces' view of one,
-        // or decided by the order of faces.
-        snapped.sort_by(|a, b| {
-            (a.vertex, a.t)
-                .partial_cmp(&(b.vertex, b.t))
-                .expect("t is finite")
-        });
+        // The nearest crossing speaks for the vertex. Equal ones are two faces' view of one, or
+        // decided by the place of the other end, so that both sides of double-sided cloth agree.
+        let order = |one: &Snapped| {
+            let toward = self.positions.at(one.toward);
+            (one.vertex, one.t, toward.x, toward.y, toward.z)
+        };
+        snapped.sort_by(|a, b| order(a).partial_cmp(&order(b)).expect("numbers are finite"));
         snapped.dedup_by_key(|one| one.vertex);
         self.snapped = snapped;
     }
