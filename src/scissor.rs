@@ -273,10 +273,10 @@ impl Scissor {
         let points = [nearest(0), nearest(1)];
         let strip = match points {
             [None, None] => return Scissor::new(rays[0], rays[1]),
-            _ => Strip::joined(rays, points, None).ok_or(ScissorError::NoLength)?,
+            _ => Strip::joined(rays, points).ok_or(ScissorError::NoLength)?,
         };
         let mut scissor = Scissor::along(strip, Some(rays));
-        scissor.joints = joints.map(Option::<&CutEnd>::cloned);
+        scissor.joints = joints.map(|end| end.filter(|end| !end.vertices.is_empty()).cloned());
         Ok(scissor)
     }
 
@@ -339,15 +339,17 @@ impl Scissor {
     }
 
     /// Returns the scissor as it cuts this mesh. A cut does the same, so there is no need to call this
-    /// before one. The plane and the side planes can depend on the mesh in two cases:
+    /// before one. The plane and the side planes can depend on the mesh in three cases:
     ///
     /// * Two rays that are skew span no plane. The plane contains the first ray and the point where the
     ///   second meets the mesh first or, if it misses the mesh, its point nearest to the middle of the
     ///   mesh. So rays from *nearly* one eye cut like rays from one eye.
     /// * Rays that cross in front of both origins have two wedges between them, one before and one beyond
     ///   the crossing. The cut is made in the one in which the plane meets the mesh.
+    /// * A cut that [continues](Scissor::continued) another runs to the point where its ray meets the mesh
+    ///   first, on whichever side of the previous ray that is.
     ///
-    /// Neither applies to a scissor that continues a cut. Linear in these cases, otherwise constant.
+    /// Linear in these cases, otherwise constant.
     ///
     /// ```
     /// use tearmesh::{shapes, Point, Ray, Scissor};
@@ -379,19 +381,27 @@ impl Scissor {
         Ok(scissor)
     }
 
-    /// The strip of two skew rays, turned about the first to the point of the second at the mesh.
+    /// The strip turned to the points at which its rays meet the mesh: that of two skew rays about the first
+    /// of them, and that of a cut from a joint toward the other ray. `None` if there is nothing to turn.
     fn turned_to(&self, mesh: &Mesh, place: &(impl Place + ?Sized)) -> Option<Strip> {
-        let rays = self.rays.filter(|_| self.strip.skew > 0.0)?;
-        if self.joints != [None, None] {
-            return None;
-        }
-        let at = match pick::first_hit(mesh, place, &rays[1]) {
-            Some(hit) => hit.point(mesh, place),
-            None => nearest_to_middle(&rays[1], mesh, place)?,
+        let rays = self.rays?;
+        let aim = |side: usize| {
+            let hit = pick::first_hit(mesh, place, &rays[side]);
+            hit.map(|hit| hit.point(mesh, place))
         };
-        let first = pick::first_hit(mesh, place, &rays[0]);
-        let aim = first.map(|hit| hit.point(mesh, place));
-        let mut strip = Strip::joined(rays, [None, Some(at)], aim)?;
+        let mut strip = match &self.joints {
+            [None, None] if self.strip.skew > 0.0 => {
+                let at = aim(1).or_else(|| nearest_to_middle(&rays[1], mesh, place))?;
+                let strip = Strip::joined(rays, [None, Some(at)])?;
+                match aim(0) {
+                    Some(aim) => strip.toward(1, aim),
+                    None => strip,
+                }
+            }
+            [Some(_), None] => self.strip.clone().toward(0, aim(1)?),
+            [None, Some(_)] => self.strip.clone().toward(1, aim(0)?),
+            _ => return None,
+        };
         strip.through = self.strip.through;
         Some(strip)
     }

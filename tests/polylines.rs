@@ -1,6 +1,6 @@
 //! Polylines run between their rays, wherever these come from.
 //!
-//! Rays from one eye, from eyes a rounding error to a unit apart, parallel, converging and crossing ones
+//! Rays from one eye, from eyes a rounding error to four units apart, parallel, converging and crossing ones
 //! go through the corners of a polyline on flat, folded and closed meshes. What each cut tore is judged
 //! by picking and by closest points, in plain formulas: it comes near the two points at which its rays
 //! are aimed, and no part of it lies beyond either ray.
@@ -32,7 +32,7 @@ enum Eyes {
     Spread(f64),
 }
 
-const EYES: [Eyes; 12] = [
+const EYES: [Eyes; 13] = [
     Eyes::Parallel,
     Eyes::Ball(0.0),
     Eyes::Ball(1e-15),
@@ -42,6 +42,7 @@ const EYES: [Eyes; 12] = [
     Eyes::Ball(1e-3),
     Eyes::Ball(0.1),
     Eyes::Ball(1.0),
+    Eyes::Ball(4.0),
     Eyes::Spread(1.3),
     Eyes::Spread(0.4),
     Eyes::Spread(-0.5),
@@ -217,13 +218,21 @@ struct Counts {
     refused: usize,
     missed: usize,
     ambiguous: usize,
+    /// Cuts of which the middle between the aims was judged.
+    middles: usize,
     /// The farthest that a seam went beyond a ray, in longest edges.
     beyond: f64,
 }
 
 impl Case {
     fn new(meshes: &[(&'static str, Surface)], eyes: Eyes, snap: f64, random: &mut Random) -> Case {
-        let &(name, ref before) = &meshes[random.below(meshes.len())];
+        // Across a fold the way between rays from so far apart leaves the strip and comes back.
+        let first = if eyes == Eyes::Ball(4.0) {
+            3
+        } else {
+            meshes.len()
+        };
+        let &(name, ref before) = &meshes[random.below(first)];
         let view = View::of(before, eyes, random);
         let count = 3 + random.below(22);
         Case {
@@ -300,6 +309,7 @@ impl Case {
         }
         let all = mesh.half_edges().filter(|&h| mesh.ghost_pair(h).is_some());
         let all: Vec<[Point; 2]> = all.map(edge).collect();
+        self.judge_middle(pair, before, &all, counts);
         let aims = report.aims.expect("a cut between rays");
         for (line, aim) in pair.into_iter().zip(aims) {
             let rounding = 1e-9;
@@ -330,6 +340,37 @@ impl Case {
                 self.name
             );
         }
+    }
+}
+
+impl Case {
+    /// On a flat sheet the slit passes the middle between its aims, unless that is near the outline, on which
+    /// a seam opens nothing.
+    fn judge_middle(
+        &self,
+        pair: [Line; 2],
+        before: &Surface,
+        torn: &[[Point; 2]],
+        counts: &mut Counts,
+    ) {
+        let is_flat = before.points.iter().all(|p| p[2] == 0.0);
+        let [Some(a), Some(b)] = pair.map(|line| aimed(line, before, 0.0)) else {
+            return;
+        };
+        let (middle, longest) = (on_the_way(a, b, 0.5), before.longest_edge());
+        let rim = middle[..2].iter().map(|x| x.min(1.0 - x));
+        let rim = rim.fold(f64::INFINITY, f64::min);
+        if !is_flat || length(minus(a, b)) < 2.0 * longest || rim < longest {
+            return;
+        }
+        let far = torn.iter().map(|&edge| distance(edge, middle));
+        let far = far.fold(f64::INFINITY, f64::min);
+        assert!(
+            far <= longest,
+            "{}: {far} from the middle of {a:?} and {b:?}",
+            self.name
+        );
+        counts.middles += 1;
     }
 }
 
@@ -377,6 +418,40 @@ fn regression_a_slit_from_one_eye_continues_forward() {
         }
         assert!(lengths.iter().all(|&length| length < 0.06), "{lengths:?}");
     }
+}
+
+/// The second ray passes the first before it meets the sheet, on the other side of where it comes nearest to
+/// the joint.
+#[test]
+fn regression_a_slit_continues_to_where_its_ray_meets_the_mesh() {
+    let sheet = surface(&tearmesh::shapes::grid(24, 24));
+    let to = |eye: Point, at: Point| (eye, minus(at, eye));
+    let lines = [
+        to([0.26, 0.13, 3.0], [0.26, 0.13, 0.0]),
+        to([0.809, 0.624, 1.110], [0.183, 0.190, 0.0]),
+        to([-1.117, 0.164, 0.894], [0.848, 0.372, 0.0]),
+    ];
+    let (mut mesh, mut positions) = built(&sheet);
+    let mut edits = Edits::new();
+    let mut cut = |scissor: Scissor, positions: &mut Positions| {
+        let cut = scissor.cut_measured(CutMethod::Exact, &mut mesh, positions, &mut edits);
+        cut.expect("in step")
+    };
+    let first = Scissor::new(ray(lines[0]), ray(lines[1])).expect("a plane");
+    let (made, _) = cut(first, &mut positions);
+    let [_, end] = made.ends().expect("rays");
+    let second = Scissor::continued(end, ray(lines[2]), &positions).expect("a plane");
+    let (_, report) = cut(second, &mut positions);
+    let aims = report
+        .aims
+        .expect("rays")
+        .map(|aim| aim.expect("the sheet is met"));
+    assert!(aims.iter().all(|aim| !aim.is_missed()), "{aims:?}");
+    assert!(
+        (report.seam_length - 0.69).abs() < 0.01,
+        "{}",
+        report.seam_length
+    );
 }
 
 /// However far apart two eyes are, the slit on a flat sheet is that from one aim to the other.

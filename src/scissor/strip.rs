@@ -24,8 +24,10 @@
 //! * **Free rays** are turned by the direction of the other ray, or by its origin if that direction
 //!   lies in the side plane (parallel rays). If the rays cross in front of both origins, that is the
 //!   wedge beyond the crossing, and there is another one before it: [`Strip::at`] chooses.
-//! * **A joint** is a point of the mesh. The side plane through it is turned by the point of the other
-//!   ray that is nearest to it, and the other side plane by the joint.
+//! * **A joint** is a point of the mesh. It turns the side plane through the other ray. The one through the
+//!   joint is turned by the point at which the other ray meets the mesh ([`Strip::toward`]), so that the
+//!   strip holds the way from the joint to there, wherever the rays cross; or where that ray passes the
+//!   mesh by, by its point that is nearest to the joint.
 
 use crate::exact::ROUNDING;
 use crate::geometry::{Plane, Point, Ray, Vector, between, cross, dot, length, max_abs, scaled};
@@ -130,14 +132,7 @@ impl Strip {
     /// The strip between two rays, one or both of which pass through a point of the mesh, the joint. The
     /// plane holds the joint and all of the other ray, or of the second if both have a joint. `None` if
     /// a joint lies on the other ray, up to rounding, or if there is no joint.
-    ///
-    /// Where the ray without a joint meets the mesh at `aim`, the side plane through the joint is turned by
-    /// that point, and otherwise by the nearest point of the ray.
-    pub(super) fn joined(
-        rays: [Ray; 2],
-        joints: [Option<Point>; 2],
-        aim: Option<Point>,
-    ) -> Option<Strip> {
+    pub(super) fn joined(rays: [Ray; 2], joints: [Option<Point>; 2]) -> Option<Strip> {
         let through = |side: usize| match joints[side] {
             Some(joint) => Ray::new(joint, rays[side].direction()).ok(),
             None => Some(rays[side]),
@@ -153,9 +148,7 @@ impl Strip {
             return None;
         }
         let far = dot(joint - other.origin(), along) / dot(along, along);
-        let nearest = joints[1 - side]
-            .or(aim)
-            .unwrap_or(other.origin() + along * far);
+        let nearest = joints[1 - side].unwrap_or(other.origin() + along * far);
         let mut toward = [nearest - joint, joint - other.origin()];
         if side == 1 {
             toward.reverse();
@@ -206,6 +199,17 @@ impl Strip {
             crossing: None,
             plane,
         }
+    }
+
+    /// This strip with the side plane through ray number `side` turned to a point that the cut runs toward.
+    /// A point on that plane, up to rounding, does not turn it.
+    pub(super) fn toward(mut self, side: usize, aim: Point) -> Strip {
+        if let Some(sides) = &mut self.sides
+            && sides[side].distance(aim) < -ROUNDING * reach([aim, sides[side].point()])
+        {
+            sides[side] = flipped(sides[side]);
+        }
+        self
     }
 
     /// This strip on a mesh: if its rays cross in front of both origins, the wedge that the mesh meets.
