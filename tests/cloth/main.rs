@@ -12,7 +12,6 @@ mod damping;
 #[cfg(feature = "serde")]
 mod data;
 mod defaults;
-mod ensemble;
 mod failures;
 mod follow;
 mod held;
@@ -36,7 +35,6 @@ mod scenes;
 mod second;
 mod sewing;
 mod simulation;
-mod statistics;
 mod stiff;
 mod strain;
 #[path = "../support/mod.rs"]

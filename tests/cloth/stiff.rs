@@ -3,13 +3,13 @@
 
 use tearmesh::Vector;
 use tearmesh_cloth::implicit::{self, Method};
-use tearmesh_cloth::statistics::Random;
 use tearmesh_cloth::{Implicit, StepError, System, energy};
 
 use crate::parts::nets::row;
 use crate::parts::{
     implicit, implicit_to, longest, mechanical_j, on_a_line, particles, run_with, solved,
 };
+use crate::random::Random;
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
 
@@ -123,7 +123,7 @@ fn pushed_chains_have_at_most_the_energy_they_were_given() {
     let others = (2..40).step_by(6).map(|links| (links, 1));
     for (links, seed) in others.chain(nearest) {
         let mut pushed = row(links, m, k, 0.1, Vector::x() * 0.1);
-        let mut random = Random::new(100 * links as u64 + seed);
+        let mut random = Random(100 * links as u64 + seed);
         for i in 1..=links {
             let mut push = || 1e-4 * omega * (2.0 * random.next() - 1.0);
             pushed.state_mut().1[i] = Vector::new(push(), push(), push());

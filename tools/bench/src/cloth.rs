@@ -11,7 +11,7 @@ mod shares;
 mod sheet;
 mod splits;
 
-use tearmesh_cloth::statistics::median;
+use tearmesh_lab::statistics::median;
 use tearmesh_cloth::{Cloth, Pbd, Solver, Xpbd};
 
 use crate::measure::timed_on_cpu;

@@ -7,7 +7,7 @@ mod rival;
 mod tables;
 mod ways;
 
-use tearmesh_cloth::statistics::median;
+use tearmesh_lab::statistics::median;
 use tearmesh_lab::sheet::through;
 
 use crate::measure::{Contestant, median_of, rounds, timed_on_cpu};

@@ -1,6 +1,6 @@
 //! Interleaved rounds, medians, and the table of a contest.
 
-use tearmesh_cloth::statistics::median;
+use tearmesh_lab::statistics::median;
 
 use crate::options::Options;
 use crate::table::{line, table};

@@ -4,9 +4,7 @@ use serde::Serialize;
 use tearmesh::gap::Gapped;
 use tearmesh::{CutMethod, CutReport, Mesh, Point, Ray, Scissor, Vector};
 use tearmesh_cloth::Quality;
-use tearmesh_cloth::scene::ensemble::{Ensemble, Quantity};
 use tearmesh_cloth::scene::{EnergyGain, FirstTear, TearEvent};
-use tearmesh_cloth::statistics::Comparison;
 use tearmesh_obj::Location;
 
 use crate::choice::Choice as _;
@@ -163,8 +161,6 @@ pub(crate) struct Tear {
     /// The steps in which something tore.
     pub(crate) tears: Vec<TearEvent>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) step_check: Option<StepCheck>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) frames: Option<Frames>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cache: Option<Cache>,
@@ -177,27 +173,6 @@ pub(crate) struct BodyGrid {
     pub(crate) cell_m: f64,
     pub(crate) error_rms_m: f64,
     pub(crate) error_worst_m: f64,
-}
-
-/// `--check-step`: the scene played with many seeds, at its step and at half of it.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct StepCheck {
-    pub(crate) noise_m: f64,
-    /// At the step, and at half of it: every run, failed ones as well.
-    pub(crate) ensembles: [Ensemble; 2],
-    pub(crate) quantities: Vec<StepQuantity>,
-}
-
-/// A number of both ensembles, compared.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct StepQuantity {
-    #[serde(skip)]
-    pub(crate) quantity: Quantity,
-    pub(crate) name: &'static str,
-    /// The 10, 50 and 90 % points at the step, and at half of it; `null` where nothing tore.
-    pub(crate) spread: [[f64; 3]; 2],
-    #[serde(flatten)]
-    pub(crate) comparison: Comparison,
 }
 
 /// Energy in joules: what edges held as they tore, and the balance of all: what was

@@ -50,7 +50,7 @@ impl SceneFile {
 mod tests {
     use tearmesh::shapes;
     use tearmesh_cloth::scene::{Axis, Frame};
-    use tearmesh_cloth::statistics::Random;
+    use tearmesh_lab::statistics::Random;
 
     use std::collections::BTreeSet;
 

@@ -2,16 +2,64 @@
 
 use tearmesh::{FaceId, Point, Vector, VertexId};
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{Frame, Region, Run, RunError, Scene};
+use tearmesh_cloth::scene::{Frame, Region, Run, RunError, Scene, TimedCut};
 use tearmesh_cloth::{
     BlowUpSite, ClothError, Method, SeamFault, SimulationError, StepError, StepLimit, Stretch,
-    TearingError, Threshold,
+    Tearing, TearingError, Threshold,
 };
 
-use crate::exit::Stop;
+use crate::args::ChangeArgs;
+use crate::cuts::scissors::of_rays;
+use crate::exit::{Exit, Stop};
+use crate::rays;
 use crate::say::{Fault, short, two_digits};
 use crate::scene::SceneFile;
 use crate::session::Opened;
+
+/// The cuts that were typed.
+pub(crate) fn typed_cuts(
+    args: &ChangeArgs,
+    faults: &mut Vec<Fault>,
+) -> Result<Vec<TimedCut>, Stop> {
+    let mut cuts = Vec::new();
+    for text in &args.rays {
+        let pair = rays::pair(text, "--rays", 1).map_err(|fault| Stop::new(Exit::Usage, fault))?;
+        of_rays(&pair, faults)?;
+        cuts.push(TimedCut {
+            at_s: args.cut_at.unwrap_or(0.0),
+            rays: pair,
+            through: false,
+            method: tearmesh::CutMethod::Exact,
+        });
+    }
+    Ok(cuts)
+}
+
+/// The scene of a file for a mesh with this frame, with what was typed in the place of what it says.
+pub(crate) fn scene(
+    args: &ChangeArgs,
+    cuts: Vec<TimedCut>,
+    source: &SceneFile,
+    frame: &Frame,
+) -> Result<Scene, Stop> {
+    let mut scene = source.scene(frame, args.solver.as_ref())?;
+    if let Some(seconds) = args.seconds {
+        scene.duration_s = seconds;
+    }
+    scene.step_s = args.dt.or(scene.step_s);
+    let stretch = args.threshold.map(Threshold::Stretch);
+    let toughness = args.toughness.map(Threshold::Toughness);
+    let force = args.threshold_newton.map(Threshold::Force);
+    if let Some(threshold) = stretch.or(toughness).or(force) {
+        let tearing = scene.tearing.get_or_insert(Tearing::new(threshold));
+        tearing.threshold = threshold;
+    }
+    if !cuts.is_empty() {
+        scene.cuts = cuts;
+    }
+    tearing(args.threshold_newton.is_some(), &scene, source)?;
+    Ok(scene)
+}
 
 /// A scene that is about to begin, or why it cannot.
 pub(crate) fn begin(

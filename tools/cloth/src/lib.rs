@@ -44,7 +44,6 @@ pub mod guide;
 mod method;
 pub mod scene;
 mod simulation;
-pub mod statistics;
 mod system;
 
 pub use cloth::fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};

@@ -3,10 +3,8 @@
 //! A [`Scene`] is the plan of a simulation, and a [`Run`] carries it out. Four scenes are built in,
 //! and are sized to the mesh: [`Scene::hang`], [`Scene::flag`], [`Scene::rip`] and
 //! [`Scene::trouser`]. Nothing here is read from files: a program fills in a scene's fields from
-//! any source. [`ensemble`] plays a scene many times with tiny disturbances, to separate results
-//! from chance.
+//! any source.
 
-pub mod ensemble;
 mod frame;
 mod presets;
 mod run;

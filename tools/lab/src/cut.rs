@@ -12,11 +12,11 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use tearmesh::{CutMethod, CutReport, Edits, Masses, Mesh, Positions, Scissor};
-use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{Cloth, Fabric, stable_step_s};
 
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::sheet::{DENSITY_KG_PER_M2, SEED, through, wavy};
+use crate::statistics::{Random, median};
 
 /// The experiment on cut methods.
 #[derive(Clone, Debug)]

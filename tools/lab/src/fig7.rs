@@ -23,10 +23,10 @@ use serde::{Deserialize, Serialize};
 use tearmesh::geometry::{Plane, Side};
 use tearmesh::{Edit, Edits, Mesh, Point, VertexId, classify, shapes, split};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
-use tearmesh_cloth::statistics::median;
 
 use self::implementations::{IDLE, IMPLEMENTATIONS, Implementation, New, Split};
 use crate::experiment::{Bounds, Experiment, Status};
+use crate::statistics::median;
 
 /// The number of times that each split is timed, as in the paper.
 pub(crate) const ROUNDS: usize = 10;

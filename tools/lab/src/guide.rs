@@ -18,12 +18,11 @@ pub(crate) use self::play::{Role, Row, Topic};
 
 use std::ops::RangeInclusive;
 
-use tearmesh_cloth::statistics::median;
-
 use self::play::{NEWTON, Stage, error};
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::method::{DEFAULT, DEFAULTS};
 use crate::pareto::AMPLIFICATION_MAX;
+use crate::statistics::median;
 
 /// The multiples of its default step that each method is played with, beside the default.
 pub(crate) const STEP_MULTIPLES: [f64; 3] = [4.0, 2.0, 0.5];

@@ -28,12 +28,11 @@ pub(crate) use self::row::Row;
 pub(crate) use self::run::status_of;
 pub(crate) use self::scene::{Observable, SCENES, Scene, fastest_m_per_s, middle};
 
-use tearmesh_cloth::scene::ensemble::NOISE_M;
-
 use self::observe::{Records, apart_m, error, extrapolated};
 use self::row::{Planned, Role};
 use self::run::{plan, run};
 use self::scene::Case;
+use crate::ensemble::NOISE_M;
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::sheet::MeshKind;
 

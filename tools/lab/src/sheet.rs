@@ -4,7 +4,8 @@
 use serde::{Deserialize, Serialize};
 use tearmesh::{Masses, Mesh, Point, Positions, Ray, Scissor, Vector, shapes};
 use tearmesh_cloth::System;
-use tearmesh_cloth::statistics::Random;
+
+use crate::statistics::Random;
 
 /// The mass of a square metre of a sheet, in kg.
 pub(crate) const DENSITY_KG_PER_M2: f64 = 0.15;

@@ -19,10 +19,10 @@ mod chart;
 use std::num::NonZero;
 
 use serde::{Deserialize, Serialize};
-use tearmesh_cloth::scene::ensemble::{self, MemberStatus, Subject};
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 use tearmesh_cloth::{Fabric, Tearing, Threshold};
 
+use crate::ensemble::{self, Subject};
 use crate::experiment::{Bounds, Experiment, Status};
 use crate::method::{DEFAULT, DEFAULTS, Method};
 use crate::sheet::grid;
@@ -219,18 +219,16 @@ impl Experiment for Tear {
             scene: &scene,
         };
         let step_divisor = NonZero::new(key.step_divisor)?;
-        let member = ensemble::member(subject, step_divisor, key.seed, bounds.stop);
-        if member.status == MemberStatus::Interrupted {
-            return None;
-        }
-        let observed = member.observed;
+        let observed = ensemble::observe(subject, step_divisor, key.seed, bounds.stop)?;
+        let why = observed.as_ref().err().cloned().unwrap_or_default();
+        let observed = observed.ok();
         Some(vec![Row {
             status: observed.map_or(Status::Failed, |_| Status::Ok),
             torn_m: observed.map(|one| one.torn_m),
             pieces: observed.map(|one| one.pieces),
             largest_force_n: observed.and_then(|one| one.largest_force_n),
             work_j: observed.and_then(|one| one.work_j),
-            why: member.why,
+            why,
             ..key.clone()
         }])
     }

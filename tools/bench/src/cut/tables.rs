@@ -3,7 +3,7 @@
 //! Beside our figures stand those of the experiments that the rules of the scissor come from.
 
 use tearmesh::CutMethod;
-use tearmesh_cloth::statistics::{Random, median};
+use tearmesh_lab::statistics::{Random, median};
 use tearmesh_lab::sheet::through;
 
 use super::facts::{Facts, Sheet, sheet};

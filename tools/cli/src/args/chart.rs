@@ -8,10 +8,12 @@ use tearmesh_lab::default_names;
 use tearmesh_lab::pareto::{VISITS_MAX, scene_names};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::STIFFNESS_N_PER_M;
+use tearmesh_lab::step;
 use tearmesh_lab::tear;
 use tearmesh_lab::tear::EnsembleScene;
 
 use super::read::within;
+use super::scene::ChangeArgs;
 use crate::say::Color;
 
 const EXAMPLES: &str = "\
@@ -21,7 +23,9 @@ Examples:
   tearmesh chart pareto --scene swing,hang --size 8 -o p.svg --csv p.csv
       the cost and the error of every method, in two scenes on a small mesh
   tearmesh chart pareto --from p.csv -o p.svg
-      the same chart again from its table, without a run";
+      the same chart again from its table, without a run
+  tearmesh chart step flag.obj --scene rip -o step.svg
+      whether the result of a scene on a mesh depends on the time step";
 
 /// Run an experiment and plot the result.
 ///
@@ -46,6 +50,8 @@ pub(crate) enum What {
     /// The force that tears strips of five meshes, by stretch ratio and by toughness; and what follows the first
     /// tear, over many seeds.
     Tear(TearChartArgs),
+    /// Whether the result of a scene depends on its time step: the scene with many seeds, at its step and at half of it.
+    Step(Box<StepArgs>),
     /// The time of cuts by every method, the distance of their seams from the plane, their pieces and their faces.
     Cut(CutChartArgs),
     /// The time to split vertices while a cloth is ripped, with ghost pairs and without (Figure 7 of the paper).
@@ -207,6 +213,33 @@ fn even(text: &str) -> Result<u32, String> {
         Ok(cells) if (4..=256).contains(&cells) && cells % 2 == 0 => Ok(cells),
         _ => Err("an even number from 4 to 256".to_owned()),
     }
+}
+
+/// The arguments of `chart step`.
+///
+/// Tearing is chaotic. Each run moves the vertices by up to a nanometre, and stores the faces in another
+/// order. The medians of first tear, torn length, pieces, forces and work are compared: same, differ, or
+/// cannot tell.
+#[derive(Debug, clap::Args)]
+pub(crate) struct StepArgs {
+    /// The OBJ file of the cloth at rest, in metres; `-` is standard input.
+    #[arg(value_name = "IN", required_unless_present = "from")]
+    pub(crate) input: Option<PathBuf>,
+
+    /// hang, flag, rip, trouser, fall, or a scene file in TOML, as of `tear`.
+    #[arg(long, value_name = "SCENE", required_unless_present = "from")]
+    pub(crate) scene: Option<String>,
+
+    #[command(flatten)]
+    pub(crate) change: ChangeArgs,
+
+    /// Seeds at each step.
+    #[arg(long, value_name = "N", default_value_t = step::SEEDS,
+        value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    pub(crate) seeds: u64,
+
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
 }
 
 /// The arguments of `chart cut`.

@@ -5,23 +5,30 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args as _, Command, CommandFactory as _};
 use cpu_time::ThreadTime;
+use tearmesh_cloth::scene::{Frame, Run};
 use tearmesh_lab::cut::Cuts;
+use tearmesh_lab::ensemble::Subject;
 use tearmesh_lab::experiment::{Bounds, Chart, Provenance, processor, workers};
 use tearmesh_lab::fig7::Fig7;
 use tearmesh_lab::guide::Guide;
 use tearmesh_lab::pareto::{self, Pareto};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::Stability;
+use tearmesh_lab::step::Step;
 use tearmesh_lab::tear::{EnsembleScene, Tear};
 
-use crate::args::{Args, ChartArgs, DrawArgs, ParetoArgs, TearChartArgs, What};
+use crate::args::{
+    Args, ChangeArgs, ChartArgs, DrawArgs, ParetoArgs, StepArgs, TearChartArgs, What,
+};
 use crate::exit::{Exit, Stop};
 use crate::files::is_same;
-use crate::input::cannot_read;
+use crate::input::{Input, cannot_read};
 use crate::interrupt::Guard;
-use crate::output;
 use crate::say::{Fault, shown};
+use crate::scene::SceneFile;
+use crate::session::{self, Opened};
 use crate::streams::Streams;
+use crate::{output, simulation, weld};
 
 /// Runs an experiment, writes what is wanted of it, and returns the exit status.
 pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>) -> Exit {
@@ -47,6 +54,11 @@ pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>
             streams.conclude(Err(stop), Vec::new(), args.draw.color, true)
         }
         What::Tear(args) => draw(&tear(args), command, &args.draw, streams),
+        What::Step(args) => {
+            let mut faults = Vec::new();
+            let done = step(args, command, &mut faults, streams);
+            done.unwrap_or_else(|stop| streams.conclude(Err(stop), faults, args.draw.color, true))
+        }
         What::Cut(args) => {
             let cuts = Cuts::new(&args.size, args.cuts);
             draw(&cuts, command, &args.draw, streams)
@@ -62,6 +74,58 @@ pub(crate) fn run(args: &ChartArgs, line: &[OsString], streams: &mut Streams<'_>
 fn draw(chart: &dyn Chart, command: String, args: &DrawArgs, streams: &mut Streams<'_>) -> Exit {
     let done = work(chart, command, args, streams);
     done.unwrap_or_else(|stop| streams.conclude(Err(stop), Vec::new(), args.color, true))
+}
+
+/// Plays the scene of a file, unless a table is drawn.
+fn step(
+    args: &StepArgs,
+    command: String,
+    faults: &mut Vec<Fault>,
+    streams: &mut Streams<'_>,
+) -> Result<Exit, Stop> {
+    let seeds = args.seeds;
+    let (Some(input), Some(scene), None) = (&args.input, &args.scene, &args.draw.from) else {
+        let drawn = Step {
+            subject: None,
+            step_s: 0.0,
+            seeds,
+        };
+        return work(&drawn, command, &args.draw, streams);
+    };
+    let (opened, frame, run) = begun(input, scene, &args.change, faults, streams)?;
+    streams.show(&std::mem::take(faults), args.draw.color, false);
+    let subject = Subject {
+        mesh: &opened.mesh,
+        positions: &opened.positions,
+        frame: &frame,
+        scene: run.scene(),
+    };
+    let played = Step {
+        subject: Some(subject),
+        step_s: run.step_s(),
+        seeds,
+    };
+    work(&played, command, &args.draw, streams)
+}
+
+/// The cloth of a file, and the scene that is about to be played with it.
+fn begun(
+    input: &Path,
+    scene: &str,
+    change: &ChangeArgs,
+    faults: &mut Vec<Fault>,
+    streams: &mut Streams<'_>,
+) -> Result<(Opened, Frame, Run), Stop> {
+    let source = SceneFile::find(scene, streams)?;
+    let cuts = simulation::typed_cuts(change, faults)?;
+    let input = Input::find(input, streams.input)?;
+    let mut opened = session::open(&input, None, "or add", faults)?;
+    weld::seams(&mut opened, change.weld, &mut Vec::new(), faults)?;
+    let up = change.up.unwrap_or_else(|| source.up());
+    let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
+    let scene = simulation::scene(change, cuts, &source, &frame)?;
+    let run = simulation::begin(scene, &opened, &frame, &source)?;
+    Ok((opened, frame, run))
 }
 
 fn pareto(args: &ParetoArgs) -> Pareto {
@@ -118,6 +182,7 @@ fn command_line(line: &[OsString]) -> String {
         let name = option.get_long().unwrap_or(id);
         match &*values.join(",") {
             "" | "false" => {}
+            value if option.is_positional() => text += &format!(" {value}"),
             "true" => text += &format!(" --{name}"),
             values => text += &format!(" --{name} {values}"),
         }

@@ -5,7 +5,6 @@ mod check;
 mod frames;
 mod precision;
 mod recorder;
-mod step;
 mod still;
 mod summary;
 
@@ -15,9 +14,8 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use tearmesh::{Cursor, CutReport, Scissor};
-use tearmesh_cloth::scene::ensemble::Subject;
-use tearmesh_cloth::scene::{Frame, Run, Scene, TearLog, TimedCut};
-use tearmesh_cloth::{StepError, Tearing, Threshold};
+use tearmesh_cloth::StepError;
+use tearmesh_cloth::scene::{Frame, Run, Scene, TearLog};
 use tearmesh_obj::TornDocument;
 
 use self::frames::{Frames, places};
@@ -48,19 +46,17 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     let cache = args.cache.as_deref();
     cache.map_or(Ok(()), |path| files::check_format(path, "PC2", &["pc2"]))?;
     let source = SceneFile::find(&args.scene, session.streams)?;
-    let cuts = check::cuts(args, &mut session.faults)?;
+    let cuts = simulation::typed_cuts(&args.change, &mut session.faults)?;
     let mut opened = session.open(None)?;
     weld::seams(
         &mut opened,
-        args.weld,
+        args.change.weld,
         &mut session.words,
         &mut session.faults,
     )?;
-    let up = args.up.unwrap_or_else(|| source.up());
+    let up = args.change.up.unwrap_or_else(|| source.up());
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
-    let mut scene = source.scene(&frame, args.solver.as_ref())?;
-    settle(args, cuts, &mut scene);
-    simulation::tearing(args.threshold_newton.is_some(), &scene, &source)?;
+    let scene = simulation::scene(&args.change, cuts, &source, &frame)?;
     check::known_forces(args, &scene)?;
     let run = simulation::begin(scene, &opened, &frame, &source)?;
     check::points_stay(args, &run, &source)?;
@@ -84,24 +80,6 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
         guard: Guard::new(),
     };
     play.perform(run, session)
-}
-
-/// Puts what was typed in the place of what the scene says.
-fn settle(args: &TearArgs, cuts: Vec<TimedCut>, scene: &mut Scene) {
-    if let Some(seconds) = args.seconds {
-        scene.duration_s = seconds;
-    }
-    scene.step_s = args.dt.or(scene.step_s);
-    let stretch = args.threshold.map(Threshold::Stretch);
-    let toughness = args.toughness.map(Threshold::Toughness);
-    let force = args.threshold_newton.map(Threshold::Force);
-    if let Some(threshold) = stretch.or(toughness).or(force) {
-        let tearing = scene.tearing.get_or_insert(Tearing::new(threshold));
-        tearing.threshold = threshold;
-    }
-    if !cuts.is_empty() {
-        scene.cuts = cuts;
-    }
 }
 
 /// A scene that is about to be played.
@@ -177,7 +155,6 @@ impl Play<'_> {
             Err(_) => ("unstable", Exit::Simulation),
         };
         let pieces = Piece::all(run.mesh(), run.cloth().positions());
-        let is_checked = exit == Exit::Done && self.args.check_step;
         let tear = report::Tear {
             scene: self.name.clone(),
             solver: run.scene().solver.name(),
@@ -207,7 +184,6 @@ impl Play<'_> {
             peak_force_n: records.tear_log.peak_force_n(),
             first_tear: records.tear_log.first_tear(),
             tears: records.tear_log.events().to_vec(),
-            step_check: is_checked.then(|| self.check_step(&run, session)),
             frames: None,
             cache: None,
         };
@@ -220,13 +196,8 @@ impl Play<'_> {
         if self.args.files.verbose {
             session.words.push(summary::cost(&tear.counters.features));
         }
-        if let Some(check) = &tear.step_check {
-            session.words.extend(step::summary(check));
-            session.faults.extend(step::warnings(check));
-        }
         session.report.tear = Some(tear);
         session.exit = match exit {
-            // Its step may still have been checked then.
             Exit::Done if self.guard.is_interrupted() => Exit::Interrupted,
             exit => exit,
         };
@@ -327,18 +298,6 @@ impl Play<'_> {
         }
         bar.finish_and_clear();
         Ok(ended)
-    }
-
-    /// Plays the scene again and again, as it began.
-    fn check_step(&self, run: &Run, session: &Session<'_, '_>) -> report::StepCheck {
-        let subject = Subject {
-            mesh: &self.opened.mesh,
-            positions: &self.opened.positions,
-            frame: self.frame,
-            scene: run.scene(),
-        };
-        let bar = self.bar(1000, "of the step check {percent} %", session);
-        step::check(subject, run.step_s(), &self.guard, &bar)
     }
 
     fn note_cut(&self, scene: &Scene, done: &CutReport, session: &mut Session<'_, '_>) {

@@ -135,7 +135,6 @@ pub(crate) fn limit(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::Random;
 
     const COUNT: usize = 2 * TOGETHER + 5;
 
@@ -148,8 +147,14 @@ mod tests {
 
     impl Pairs {
         fn new() -> Pairs {
-            let mut random = Random::new(1);
-            let mut random = || random.next();
+            let mut state = 1_u64;
+            let mut random = || {
+                // Knuth's generator, whose higher bits are random enough.
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1);
+                (state >> 11) as f64 / (1_u64 << 53) as f64
+            };
             let mut point = || Point::new(random(), random(), random());
             let mut positions: Vec<Point> = (0..2 * COUNT).map(|_| point()).collect();
             positions[14] = positions[15];

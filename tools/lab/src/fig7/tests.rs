@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use tearmesh::VertexId;
 use tearmesh::geometry::{Plane, Vector};
-use tearmesh_cloth::statistics::Random;
 
 use super::implementations::SCAN;
 use super::*;
+use crate::statistics::Random;
 
 /// An implementation that moves its clock on by some microseconds.
 struct Slow {

@@ -2,13 +2,12 @@
 
 use std::ops::Range;
 
-use tearmesh_cloth::statistics::{median, spread};
-
 use super::{Guide, Role, Row, Topic};
 use crate::experiment::{Draw, Status};
 use crate::method::{DEFAULT, DEFAULTS, Method};
 use crate::pareto::FLOORS;
 use crate::plot::{Axis, Figure, Layer, Mark, Panel, Strip, percent, short};
+use crate::statistics::{median, spread};
 
 /// The errors that are good enough for a look, and for forces.
 const LOOK: f64 = 0.2;

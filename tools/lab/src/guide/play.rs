@@ -6,17 +6,17 @@ use std::sync::OnceLock;
 use serde::{Deserialize, Serialize};
 use tearmesh::{Mesh, Point, Positions, Vector, VertexId};
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::ensemble::{Disturbance, NOISE_M};
 use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, TearLog};
-use tearmesh_cloth::statistics::{Random, median};
 use tearmesh_cloth::{FRAME_S, Method, TearReport};
 
 use self::Topic::{Aftermath, Flag, Hang, Rip, Trouser};
+use crate::ensemble::{Disturbance, NOISE_M};
 use crate::experiment::{Bounds, Status};
 use crate::method;
 use crate::pareto::{fastest_m_per_s, status_of};
 use crate::reference::Reference;
 use crate::sheet::grid;
+use crate::statistics::{Random, median};
 use crate::tear::STRIP_M;
 
 /// The topic of a panel: a scene, and what is asked about it.

@@ -3,12 +3,12 @@
 //!
 //! A run that does not get there has a status, the reason, and its cost up to then.
 
-use tearmesh_cloth::scene::ensemble::NOISE_M;
 use tearmesh_cloth::{StepError, Unstable};
 
 use super::observe::Probe;
 use super::row::{Planned, Role, Row};
 use super::scene::{Case, REST_M_PER_S, Until, fastest_m_per_s};
+use crate::ensemble::NOISE_M;
 use crate::experiment::{Bounds, Status};
 use crate::method::{DEFAULTS, Family, METHODS, Method, STEP_FRACTIONS};
 use crate::reference::Reference;

@@ -4,12 +4,12 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::statistics::Random;
 use tearmesh_cloth::{Loads, Path, System};
 
 use self::Observable::*;
 use crate::reference::Reference;
 use crate::sheet::{DENSITY_KG_PER_M2, MeshKind, SEED, Sheet, random_vectors, system};
+use crate::statistics::Random;
 
 /// A scene of the experiment.
 #[derive(Clone, Copy, Debug)]

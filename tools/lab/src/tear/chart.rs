@@ -1,11 +1,11 @@
 //! The figure and the summary of a table: forces of strips with their slopes, and ensembles with verdicts.
 
-use tearmesh_cloth::statistics::{Comparison, Verdict, compare, spread};
-
 use super::{Row, Rule, STEP_DIVISORS, STRIP_M, Tear};
+use crate::ensemble::{Sample, compared};
 use crate::experiment::Draw;
 use crate::method::Method;
 use crate::plot::{Axis, COLOURS, Figure, Layer, Mark, Panel, Shape, short};
+use crate::statistics::{Comparison, Verdict, spread};
 
 /// The rules of strips, with their names.
 const RULES: [(Rule, &str); 2] = [
@@ -108,9 +108,6 @@ pub(super) fn title(rows: &[Row]) -> String {
     }
 }
 
-/// The values of an ensemble, and whether every run has one.
-type Sample = (Vec<f64>, bool);
-
 /// A method, and its samples at its step, at half and at a quarter of it.
 type Samples = (&'static Method, [Sample; 3]);
 
@@ -152,17 +149,6 @@ pub(super) fn ensembles(rows: &[Row]) -> Vec<Ensembles> {
         })
     });
     all.collect()
-}
-
-/// Compares two samples; `None` if either is empty. If some runs failed, no verdict is possible: those that are
-/// left are not a random choice.
-fn compared(first: &Sample, second: &Sample) -> Option<Comparison> {
-    let is_known = !first.0.is_empty() && !second.0.is_empty();
-    let mut comparison = is_known.then(|| compare(&first.0, &second.0))?;
-    if !(first.1 && second.1) {
-        comparison.verdict = Verdict::CannotTell;
-    }
-    Some(comparison)
 }
 
 /// The reference: the two methods that converged and whose finest ensembles have the same median, the closest

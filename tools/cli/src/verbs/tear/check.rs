@@ -4,14 +4,12 @@ use std::path::Path;
 
 use tearmesh::HalfEdgeId;
 use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::{Preset, Run, Scene, TimedCut};
+use tearmesh_cloth::scene::{Preset, Run, Scene};
 
 use crate::args::{TearArgs, Topology};
 use crate::choice::Choice as _;
-use crate::cuts::scissors::of_rays;
-use crate::exit::{Exit, Stop};
+use crate::exit::Stop;
 use crate::files::Names;
-use crate::rays;
 use crate::say::Fault;
 use crate::scene::SceneFile;
 use crate::session::Opened;
@@ -26,22 +24,6 @@ pub(super) fn names(args: &TearArgs) -> Names<'_> {
         ("--cache", &args.cache, "the point cache"),
     ];
     Names::new(&args.files, &read, &written)
-}
-
-/// The cuts that were typed.
-pub(super) fn cuts(args: &TearArgs, faults: &mut Vec<Fault>) -> Result<Vec<TimedCut>, Stop> {
-    let mut cuts = Vec::new();
-    for text in &args.rays {
-        let pair = rays::pair(text, "--rays", 1).map_err(|fault| Stop::new(Exit::Usage, fault))?;
-        of_rays(&pair, faults)?;
-        cuts.push(TimedCut {
-            at_s: args.cut_at.unwrap_or(0.0),
-            rays: pair,
-            through: false,
-            method: tearmesh::CutMethod::Exact,
-        });
-    }
-    Ok(cuts)
 }
 
 /// A warning if the mesh has moved since it was torn: no other shape is known than the one that it has.

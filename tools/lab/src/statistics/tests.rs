@@ -1,7 +1,7 @@
 //! Statistics against definitions that are simpler: published numbers, counts, and all draws of a
 //! small sample.
 
-use tearmesh_cloth::statistics::{Random, Verdict, compare};
+use super::*;
 
 /// Published results of splitmix64 for the seed 1234567.
 const SPLITMIX64: [u64; 5] = [
@@ -109,4 +109,16 @@ fn zeros_and_infinities_are_the_same_as_themselves_alone() {
         let different = compare(&[value; 4], &[2.0; 4]);
         assert_eq!(different.verdict, Verdict::Differ, "{different:?}");
     }
+}
+
+#[test]
+fn quantiles_are_values_and_straight_lines_between() {
+    let sorted = [1.0, 2.0, 4.0, 8.0, 16.0];
+    for (i, value) in sorted.into_iter().enumerate() {
+        assert_eq!(quantile(&sorted, i as f64 / 4.0), Some(value));
+    }
+    assert_eq!(quantile(&sorted, 0.625), Some(6.0));
+    assert_eq!(quantile(&[], 0.5), None);
+    assert_eq!(spread(&[3.0, 1.0, 2.0]), [1.2, 2.0, 2.8]);
+    assert_eq!(spread(&[f64::INFINITY; 3]), [f64::INFINITY; 3]);
 }

@@ -11,7 +11,6 @@
 
 /// A comparison of the medians of two samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Comparison {
     /// The median of the second sample divided by that of the first; 1 if both are equal, even to
     /// 0.
@@ -24,8 +23,6 @@ pub struct Comparison {
 
 /// The conclusion of a comparison of two samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Verdict {
     /// The medians differ by more than a tenth: the 95 % interval of their ratio lies outside
     /// 0.9 … 1.1.
@@ -61,7 +58,7 @@ const CLOSE_TO_ONE: [f64; 2] = [0.8, 1.25];
 /// Compares the medians of two samples. The same samples give the same result.
 ///
 /// ```
-/// use tearmesh_cloth::statistics::{Verdict, compare};
+/// use tearmesh_lab::statistics::{Verdict, compare};
 ///
 /// let whole_step_m = [1.01, 0.97, 1.02, 0.99, 1.0];
 /// let half_step_m = [2.03, 1.98, 2.0, 1.99, 2.02];
@@ -174,18 +171,4 @@ impl Random {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quantiles_are_values_and_straight_lines_between() {
-        let sorted = [1.0, 2.0, 4.0, 8.0, 16.0];
-        for (i, value) in sorted.into_iter().enumerate() {
-            assert_eq!(quantile(&sorted, i as f64 / 4.0), Some(value));
-        }
-        assert_eq!(quantile(&sorted, 0.625), Some(6.0));
-        assert_eq!(quantile(&[], 0.5), None);
-        assert_eq!(spread(&[3.0, 1.0, 2.0]), [1.2, 2.0, 2.8]);
-        assert_eq!(spread(&[f64::INFINITY; 3]), [f64::INFINITY; 3]);
-    }
-}
+mod tests;

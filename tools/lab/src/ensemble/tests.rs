@@ -1,20 +1,20 @@
-//! Ensembles of small scenes: disturbances are tiny, members are plain runs, and a run that fails
-//! or is interrupted remains a member.
+//! Ensembles of small scenes: disturbances are tiny, and members are plain runs.
 
 use std::cell::Cell;
 use std::num::NonZero;
 
-use tearmesh::Mesh;
-use tearmesh_cloth::scene::ensemble::{
-    self, Disturbance, Ensemble, Member, MemberStatus, NOISE_M, Quantity, Subject,
-};
-use tearmesh_cloth::scene::{Axis, Frame, Run, Scene};
+use tearmesh::shapes;
+use tearmesh_cloth::scene::Axis;
 
-use crate::parts::scenes::{Played, noted, square};
+use super::*;
 
 const ONE: NonZero<u32> = NonZero::<u32>::MIN;
 const TWO: NonZero<u32> = ONE.saturating_add(1);
-const TORN: Quantity = Quantity::ALL[2];
+
+/// A square of one metre with `cells` cells per side and alternating diagonals.
+fn square(cells: u32) -> (Mesh, Positions) {
+    shapes::grid_with_diagonals(cells, cells, |i, j| (i + j) % 2 == 0)
+}
 
 /// Does something with a scene on a [`square`].
 fn staged(cells: u32, scene: impl Fn(&Frame) -> Scene, act: impl FnOnce(Subject<'_>)) {
@@ -27,14 +27,6 @@ fn staged(cells: u32, scene: impl Fn(&Frame) -> Scene, act: impl FnOnce(Subject<
         frame,
         scene,
     });
-}
-
-fn gathered(members: Vec<Member>) -> Ensemble {
-    Ensemble {
-        step_divisor: ONE,
-        step_s: 1.0,
-        members,
-    }
 }
 
 /// A face that begins with its smallest corner.
@@ -74,8 +66,8 @@ fn a_disturbance_shuffles_faces_and_moves_by_the_noise() {
 #[test]
 fn a_member_is_a_run_that_was_disturbed() {
     staged(8, Scene::rip, |subject| {
-        let member = ensemble::member(subject, TWO, 5, &|| false);
-        assert_eq!((member.seed, member.status), (5, MemberStatus::Done));
+        let observed = observe(subject, TWO, 5, &|| false).expect("a run that is done");
+        let observed = observed.expect("steps that are stable");
         let Disturbance { mesh, offsets_m } = Disturbance::new(subject.mesh, 5);
         let run = Run::new(
             mesh,
@@ -84,9 +76,12 @@ fn a_member_is_a_run_that_was_disturbed() {
             subject.frame,
         );
         let run = run.expect("a scene").in_smaller_steps(TWO);
-        let run = run.displaced(|v| offsets_m[v.index()]).expect("a metre");
-        let Played { run, log, .. } = noted(run);
-        let observed = member.observed.expect("a run that is done");
+        let mut run = run.displaced(|v| offsets_m[v.index()]).expect("a metre");
+        let mut log = TearLog::new(&run);
+        while !run.is_over() {
+            let step = run.step().expect("a step");
+            log.note(&run, &step);
+        }
         let first_tear = log.first_tear().expect("a rip");
         assert_eq!(observed.first_tear_s, Some(first_tear.event.time_s));
         assert_eq!(observed.first_force_n, first_tear.force_n);
@@ -99,34 +94,27 @@ fn a_member_is_a_run_that_was_disturbed() {
 }
 
 #[test]
-fn an_interrupted_run_is_a_member_without_numbers() {
+fn a_run_ends_before_the_step_at_which_it_is_stopped() {
     let short = |frame: &_| Scene {
         duration_s: 0.05,
         ..Scene::hang(frame)
     };
     staged(4, short, |subject| {
         let checks = Cell::new(0_u32);
-        let never = || checks.replace(checks.get() + 1) == u32::MAX;
-        let whole = ensemble::member(subject, ONE, 1, &never);
-        assert_eq!(whole.status, MemberStatus::Done);
-        let checks_of_a_run = checks.get();
-        assert!(checks_of_a_run > 10, "{checks_of_a_run}");
-        for allowed in [0, checks_of_a_run - 1, checks_of_a_run] {
+        let stopped_at = |allowed: u32| {
             checks.set(0);
             let stop = || checks.replace(checks.get() + 1) >= allowed;
-            let stopped = ensemble::member(subject, ONE, 1, &stop);
-            let is_done = allowed == checks_of_a_run;
-            let status = [MemberStatus::Interrupted, MemberStatus::Done][usize::from(is_done)];
-            assert_eq!(stopped.status, status);
-            assert_eq!(stopped.observed.is_some(), is_done);
-            let numbers = gathered(vec![whole.clone(), stopped]).numbers(TORN);
-            assert_eq!(numbers, (vec![0.0; 1 + usize::from(is_done)], is_done));
-        }
+            observe(subject, ONE, 1, &stop).is_none()
+        };
+        assert!(!stopped_at(u32::MAX));
+        let checks_of_a_run = checks.get();
+        assert!(checks_of_a_run > 10, "{checks_of_a_run}");
+        assert!(stopped_at(0) && stopped_at(checks_of_a_run - 1) && !stopped_at(checks_of_a_run));
     });
 }
 
 #[test]
-fn a_failed_run_and_one_of_a_refused_scene_are_members() {
+fn failed_runs_and_refused_scenes_say_why() {
     // Such a step is far beyond what is stable, and is not divided since the scene names it.
     for (step_s, duration_s, why) in [
         (Some(0.1), 1.0, "exceeds the stability limit"),
@@ -138,10 +126,22 @@ fn a_failed_run_and_one_of_a_refused_scene_are_members() {
             ..Scene::hang(frame)
         };
         staged(4, scene, |subject| {
-            let failed = ensemble::member(subject, ONE, 1, &|| false);
-            assert_eq!(failed.status, MemberStatus::Failed);
-            assert!(failed.why.contains(why), "{}", failed.why);
-            assert_eq!(gathered(vec![failed]).numbers(TORN), (Vec::new(), false));
+            let failed = observe(subject, ONE, 1, &|| false).expect("nothing stops it");
+            let reason = failed.expect_err("a failure");
+            assert!(reason.contains(why), "{reason}");
         });
     }
+}
+
+/// Runs that failed leave a sample that is not a random choice.
+#[test]
+fn samples_with_failures_allow_no_verdict() {
+    let verdict = |first: &Sample, second: &Sample| {
+        compared(first, second).map(|comparison| comparison.verdict)
+    };
+    let whole = (vec![1.0; 8], true);
+    assert_eq!(verdict(&whole, &whole), Some(Verdict::Same));
+    let (partial, empty) = ((vec![2.0; 4], false), (Vec::new(), false));
+    assert_eq!(verdict(&whole, &partial), Some(Verdict::CannotTell));
+    assert_eq!(verdict(&empty, &whole), None);
 }
