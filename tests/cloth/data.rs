@@ -45,6 +45,43 @@ fn a_scene_that_was_written_and_read_plays_the_same() {
     assert_eq!(digest_of(again), digest_of(written));
 }
 
+/// Every format of scenes, and the digest of the names in [`everything`].
+const FORMATS: [(u32, u64); 1] = [(1, 0xd253_08be_30c6_5b48)];
+
+/// All names in data, with those that they are in.
+fn names(data: &Value, within: &str) -> Vec<String> {
+    let parts: Vec<(String, &Value)> = match data {
+        Value::Object(fields) => {
+            let named = |(name, value)| (format!("{within}.{name}"), value);
+            fields.iter().map(named).collect()
+        }
+        Value::Array(values) => {
+            let nameless = |value| (within.to_owned(), value);
+            values.iter().map(nameless).collect()
+        }
+        _ => Vec::new(),
+    };
+    let of_part = |(name, value): (String, &Value)| {
+        let inner = names(value, &name);
+        std::iter::once(name).chain(inner)
+    };
+    parts.into_iter().flat_map(of_part).collect()
+}
+
+/// The committed module of `play` reads scenes of one format.
+#[test]
+fn data_with_other_names_is_of_another_format() {
+    let mut names = names(&everything(), "");
+    names.sort_unstable();
+    names.dedup();
+    let digest = digest::after(digest::EMPTY, names.concat().bytes());
+    assert_eq!(
+        FORMATS.last(),
+        Some(&(Scene::FORMAT, digest)),
+        "raise Scene::FORMAT, and add its digest {digest:#018x}"
+    );
+}
+
 #[test]
 fn parts_and_ready_scenes_are_read_as_they_were_written() {
     fn same<T>(written: T)

@@ -40,6 +40,16 @@ impl PlayPage {
     /// The largest number of vertices of a cloth that a page plays with.
     pub const VERTICES_MAX: usize = 20_000;
 
+    /// Returns the format of the scenes that the page's module reads, as in [`PlayPage::plan`].
+    #[must_use]
+    #[expect(clippy::missing_panics_doc, reason = "the file of facts is ours")]
+    pub fn scene_format() -> u32 {
+        let mut lines = MODULE_FACTS.lines();
+        let format = lines.find_map(|line| line.strip_prefix("scenes of format "));
+        let format = format.and_then(|number| number.parse().ok());
+        format.expect("the script that builds the module writes the format")
+    }
+
     /// Writes the page as HTML. The same content gives the same bytes.
     ///
     /// # Errors
@@ -81,6 +91,7 @@ pub fn is_page(start: &[u8]) -> bool {
 }
 
 const MODULE: &[u8] = include_bytes!("play/module.wasm.gz");
+const MODULE_FACTS: &str = include_str!("play/module.txt");
 const PLAY_FRAME: &str = include_str!("play/play.html");
 const PLAY_STYLE: &str = include_str!("play/play.css");
 const SCRIPTS: [&str; 2] = [include_str!("play/cloth.js"), include_str!("play/play.js")];

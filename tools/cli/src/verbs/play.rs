@@ -43,6 +43,7 @@ pub(crate) fn run(
         let (input, mut opened) = session::look(input, &args.look, faults, streams)?;
         weld::seams(&mut opened, args.weld, &mut Vec::new(), faults)?;
         if is_file {
+            module_reads(Scene::FORMAT, PlayPage::scene_format())?;
             let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
             let scene = source.scene(&frame, None)?;
             simulation::tearing(false, &scene, &source)?;
@@ -64,6 +65,18 @@ pub(crate) fn run(
     let (scene, path) = (printable(&made.scene), shown(&path));
     let words = format!("play: {cloth}, scene {scene} · wrote {path}: open it in a browser");
     Ok(words)
+}
+
+/// Refuses a scene that the module of the page would misread, since it was built from another version.
+fn module_reads(format: u32, known: u32) -> Result<(), Stop> {
+    if format == known {
+        return Ok(());
+    }
+    let message = format!(
+        "the module of the page reads scenes of format {known}, and this program writes format {format}"
+    );
+    let help = "build the module with tools/view/play/build, and the program again";
+    Err(Fault::error("E-PLAY-MODULE", message).help(help).into())
 }
 
 /// A warning of all that the page leaves to hands.
@@ -94,4 +107,17 @@ fn obj(opened: &Opened) -> Result<Vec<u8>, Stop> {
     let written = torn.write(&opened.mesh, &opened.positions, &mut bytes);
     written.expect("memory takes all that is written");
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_module_of_another_version_is_refused() {
+        assert!(module_reads(Scene::FORMAT, PlayPage::scene_format()).is_ok());
+        let refused = module_reads(3, 2).expect_err("another format");
+        let message = &refused.faults[0].message;
+        assert!(message.ends_with("format 2, and this program writes format 3"));
+    }
 }
