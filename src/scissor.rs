@@ -487,9 +487,7 @@ impl Scissor {
         if let (CutLayers::First, Some(rays)) = (self.layers, &self.rays) {
             choice = layers::first(&way, rays, mesh, positions);
             hits = choice.hits;
-            if !is_exact {
-                choice.faces = choice.beyond_the_rays(mesh, offsets);
-            }
+            choice.faces = choice.beyond_the_rays(mesh, offsets);
             way = Way {
                 among: &choice.faces,
                 joints: &choice.joints,

@@ -141,3 +141,17 @@ pub(crate) fn corpus(names: &[&str]) -> Vec<PathBuf> {
     let path = |name| Path::new(&folder).join(name).with_extension("obj");
     names.iter().map(path).collect()
 }
+
+/// A sheet and its back, at one place.
+pub(crate) fn doubled(sheet: &Surface) -> Surface {
+    let mut both = sheet.clone();
+    let first = both.points.len() as u32;
+    both.points.extend(sheet.points.clone());
+    both.faces.extend(
+        sheet
+            .faces
+            .iter()
+            .map(|&[a, b, c]| [c, b, a].map(|v| v + first)),
+    );
+    both
+}

@@ -16,7 +16,7 @@ use crate::cases::cases;
 use crate::oracle::joined_sets;
 use crate::oracle::straight::{Surface, cross, dot, length, minus};
 use crate::random::Random;
-use crate::surfaces::{built, delaunay, jittered, sphere, surface};
+use crate::surfaces::{built, delaunay, doubled, jittered, sphere, surface};
 use crate::work::ray;
 
 type Point = [f64; 3];
@@ -259,20 +259,6 @@ fn with_copies(whole: &Surface, random: &mut Random) -> Surface {
         more.faces.push([first, first + 1, first + 2]);
     }
     more
-}
-
-/// A sheet and its back, at one place.
-fn doubled(sheet: &Surface) -> Surface {
-    let mut both = sheet.clone();
-    let first = both.points.len() as u32;
-    both.points.extend(sheet.points.clone());
-    both.faces.extend(
-        sheet
-            .faces
-            .iter()
-            .map(|&[a, b, c]| [c, b, a].map(|v| v + first)),
-    );
-    both
 }
 
 fn edges(mesh: &Mesh, seams: &UnsewnSeams) -> BTreeSet<[[u32; 2]; 2]> {

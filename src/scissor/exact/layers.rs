@@ -6,7 +6,8 @@
 
 use super::trace::{Piece, Place, Site, Trace};
 use super::tracer;
-use crate::geometry::{Point, Ray, between, dot, length};
+use crate::exact::ROUNDING;
+use crate::geometry::{Point, Ray, between, dot, length, max_abs};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -26,8 +27,8 @@ pub enum CutLayers {
     /// mesh is moved and turned toward the other until it hits. A cut by a plane has no rays and passes
     /// through all layers.
     ///
-    /// Methods that tear along edges tear along the faces of these chains and, at the ends of a
-    /// chain, along the faces in which the plane continues beyond the rays. A layer is cut as if
+    /// The cut runs through the faces of these chains and, at the ends of a chain, where a snapped seam ends
+    /// or a method tears along edges, through faces in which the plane continues beyond the rays. A layer is cut as if
     /// the others were absent, but a vertex that belongs only to other chains is never split.
     First,
 }
@@ -75,8 +76,8 @@ pub(in crate::scissor) fn first(
     let mut choice = Choice::default();
     let mut chosen = Vec::new();
     for side in 0..2 {
-        let hit = hit(&runs, rays, side).or_else(|| beside(way, &runs, rays, side));
-        let Some((at, chain)) = hit else {
+        let hit = hit(&runs, rays, side, chosen.first().copied());
+        let Some((at, chain)) = hit.or_else(|| beside(way, &runs, rays, side)) else {
             continue;
         };
         let faces = faces_of(&|other| other == chain);
@@ -100,7 +101,8 @@ pub(in crate::scissor) fn first(
 impl Choice {
     /// The chosen faces, and those that the plane meets beyond the rays as it goes on from these;
     /// ascending. A method that splits vertices tears edges there too: where the last vertex between the
-    /// rays is split, the edges beyond it are the plane's, and not the slit's. Faces with a vertex of
+    /// rays is split, the edges beyond it are the plane's, and not the slit's. And a seam that is snapped to
+    /// a vertex may end in a face that the plane itself meets beyond the rays. Faces with a vertex of
     /// another chain are left out, so that this is not split.
     pub(in crate::scissor) fn beyond_the_rays(
         &self,
@@ -187,6 +189,8 @@ struct Run {
     to: f64,
     /// How far each node is inside each side plane.
     depths: [[f64; 2]; 2],
+    /// Whether each node is a joint of each side.
+    joints: [[bool; 2]; 2],
 }
 
 impl Run {
@@ -203,12 +207,15 @@ impl Run {
                 }
             };
             let mut depths = bounded.depths(at, way.offsets.bound());
-            for (depth, joints) in depths.iter_mut().zip(way.joints) {
-                if matches!(site, Site::Vertex(v) if joints.contains(&v)) {
+            let is_joint =
+                |joints: &Vec<VertexId>| matches!(site, Site::Vertex(v) if joints.contains(&v));
+            let joints = way.joints.each_ref().map(is_joint);
+            for (depth, is_joint) in depths.iter_mut().zip(joints) {
+                if is_joint {
                     *depth = 0.0;
                 }
             }
-            (at, depths)
+            (at, depths, joints)
         };
         let [one, other] = piece.nodes.map(node);
         Run {
@@ -216,6 +223,7 @@ impl Run {
             from: piece.from,
             to: piece.to,
             depths: [one.1, other.1],
+            joints: [one.2, other.2],
         }
     }
 
@@ -224,10 +232,16 @@ impl Run {
     }
 }
 
-/// The first place where a ray meets a run, and its chain.
-fn hit(runs: &[(Run, u32)], rays: &[Ray; 2], side: usize) -> Option<(Point, u32)> {
+/// The first place where a ray meets a run, and its chain. A cut that comes from a joint goes on in the chain that
+/// has it. Of layers at one place, up to rounding, the one that was `chosen` for the other ray counts.
+fn hit(
+    runs: &[(Run, u32)],
+    rays: &[Ray; 2],
+    side: usize,
+    chosen: Option<u32>,
+) -> Option<(Point, u32)> {
     let ray = rays[side];
-    let mut first: Option<(f64, Point, u32)> = None;
+    let mut hits: Vec<(bool, f64, Point, u32)> = Vec::new();
     for (run, chain) in runs {
         let [start, end] = run.depths.map(|depths| depths[side]);
         let t = match (start == 0.0, end == 0.0) {
@@ -239,12 +253,29 @@ fn hit(runs: &[(Run, u32)], rays: &[Ray; 2], side: usize) -> Option<(Point, u32)
         };
         for t in t.into_iter().filter(|&t| run.from <= t && t <= run.to) {
             let far = dot(run.at(t) - ray.origin(), ray.direction());
-            if far >= 0.0 && first.is_none_or(|first| far < first.0) {
-                first = Some((far, run.at(t), *chain));
+            let is_joint = (t == 0.0 && run.joints[0][side]) || (t == 1.0 && run.joints[1][side]);
+            if far >= 0.0 {
+                hits.push((!is_joint, far, run.at(t), *chain));
             }
         }
     }
-    first.map(|(_, at, chain)| (at, chain))
+    let (is_apart, nearest, ..) = hits
+        .iter()
+        .min_by(|a, b| {
+            (a.0, a.1)
+                .partial_cmp(&(b.0, b.1))
+                .expect("distances are finite")
+        })
+        .copied()?;
+    let size = length(ray.direction());
+    let is_first = |hit: &&(bool, f64, Point, u32)| {
+        let reach = max_abs(hit.2.coords).max(max_abs(ray.origin().coords));
+        hit.0 == is_apart && hit.1 - nearest <= ROUNDING * reach * size
+    };
+    let mut first = hits.iter().filter(is_first);
+    let of_chosen = first.clone().find(|hit| Some(hit.3) == chosen);
+    let &(.., at, chain) = of_chosen.or_else(|| first.find(|hit| hit.1 == nearest))?;
+    Some((at, chain))
 }
 
 /// Where the first ray from one to the other meets a run, and the chain of that: the place in the
