@@ -18,7 +18,7 @@
 
 use std::fmt;
 
-use crate::exact::{exponent_above, power_of_two};
+use crate::exact::{ROUNDING, exponent_above, power_of_two};
 
 /// A point in space, in the units of the model.
 pub type Point = nalgebra::Point3<f64>;
@@ -218,6 +218,32 @@ impl Ray {
     #[must_use]
     pub fn direction(&self) -> Vector {
         self.direction
+    }
+
+    /// Returns whether another ray lies on the line of this one and has the same direction, up to rounding: whether
+    /// both are one ray, written in two ways.
+    ///
+    /// ```
+    /// use tearmesh::{Point, Ray, Vector};
+    ///
+    /// let down = |z: f64, length: f64| {
+    ///     Ray::new(Point::new(0.2, 0.3, z), Vector::new(0.0, 0.0, -length))
+    /// };
+    /// assert!(down(1.0, 1.0)?.is_along(&down(2.0, 5.0)?));
+    /// assert!(!down(1.0, 1.0)?.is_along(&down(1.0, -1.0)?));
+    /// # Ok::<(), tearmesh::RayError>(())
+    /// ```
+    #[must_use]
+    pub fn is_along(&self, other: &Ray) -> bool {
+        let directions = scaled(self.direction).zip(scaled(other.direction));
+        let Some((along, other_along)) = directions else {
+            return false;
+        };
+        let apart = other.origin - self.origin;
+        let reach = max_abs(self.origin.coords).max(max_abs(other.origin.coords));
+        dot(along, other_along) > 0.0
+            && max_abs(cross(along, other_along)) <= ROUNDING
+            && max_abs(cross(apart, along)) <= ROUNDING * reach
     }
 }
 

@@ -78,7 +78,7 @@ pub(crate) struct CutArgs {
     /// For each `v` of the output and each corner of its faces: the ones of the input that it lies
     /// between, with weights. For each face: the face that it was part of. All count from 0, and corners
     /// count through all faces. Use it to carry over weights, bones and materials.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["repair", "separate_fans"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["repair", "separate_fans", "weld"])]
     pub(crate) map: Option<PathBuf>,
 
     /// Write each piece to a file of its own in this folder.

@@ -187,7 +187,7 @@ impl Polyline {
     fn go_on(&mut self, edits: &Edits, cut: &Cut) {
         let before = self.ends.take();
         self.ends = cut.ends().map(|[begin, end]| {
-            let goes_on = |[_, last]: &[CutEnd; 2]| last.ray() == begin.ray();
+            let goes_on = |[_, last]: &[CutEnd; 2]| last.ray().is_along(&begin.ray());
             let first = before.filter(goes_on).map(|[mut first, _]| {
                 edits.replay(&mut first);
                 first
@@ -208,9 +208,9 @@ fn scissor(
     let scissor = match along {
         Along::Plane(plane) => Scissor::by_plane(*plane),
         Along::Rays(pair) => {
-            let goes_on = |[_, last]: &&[CutEnd; 2]| last.ray() == pair[0] && !args.through;
+            let goes_on = |[_, last]: &&[CutEnd; 2]| last.ray().is_along(&pair[0]) && !args.through;
             let scissor = match line.ends.as_ref().filter(goes_on) {
-                Some([first, last]) if first.ray() == pair[1] => {
+                Some([first, last]) if first.ray().is_along(&pair[1]) => {
                     Scissor::closed(last, first, positions)
                 }
                 Some([_, last]) => Scissor::continued(last, pair[1], positions),
