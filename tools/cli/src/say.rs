@@ -5,6 +5,7 @@ use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Group, Level as Title, Origin, Renderer, Snippet};
 use clap::ValueEnum;
+pub(crate) use tearmesh_cloth::text::{count, short, three_digits, two_digits};
 use tearmesh_obj::{Diagnostic, Excerpt, Level, Location};
 
 /// Something that has to be said: an error, a warning or a note.
@@ -182,11 +183,6 @@ pub(crate) fn is_colored(color: Color, is_terminal: bool) -> bool {
     }
 }
 
-/// A number of things.
-pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
-}
-
 /// A number of pieces, of which so many are crumbs.
 pub(crate) fn pieces(all: usize, crumbs: usize) -> String {
     let pieces = count(all - crumbs, "piece", "pieces");
@@ -224,69 +220,4 @@ pub(crate) fn quoted(name: &str) -> String {
 /// A point for people, as it can be typed.
 pub(crate) fn place(at: [f64; 3]) -> String {
     at.map(short).join(",")
-}
-
-/// A number for people: six digits.
-pub(crate) fn short(x: f64) -> String {
-    let rounded = format!("{x:.5e}").parse::<f64>();
-    let rounded = rounded.expect("a number that was just printed");
-    match rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) {
-        true => rounded.to_string(),
-        false => format!("{rounded:e}"),
-    }
-}
-
-/// Three digits or all of those before the point; nothing below a billionth.
-pub(crate) fn three_digits(x: f64) -> String {
-    if x.abs() < 1e-9 {
-        return "0".to_owned();
-    }
-    let mut scale = 1.0;
-    while (x * scale).abs() < 100.0 {
-        scale *= 10.0;
-    }
-    short((x * scale).round() / scale)
-}
-
-/// Two digits, rounded down: a step that is typed like this stays below its limit.
-pub(crate) fn two_digits(x: f64) -> String {
-    let mut scale = 1.0;
-    while x * scale < 10.0 && scale < 1e15 {
-        scale *= 10.0;
-    }
-    let rounded = (x * scale).floor() / scale;
-    rounded.to_string()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_for_people_have_six_digits() {
-        for (x, text) in [
-            (1.0, "1"),
-            (0.0, "0"),
-            (4.123_456_789, "4.12346"),
-            (0.1 + 0.2, "0.3"),
-            (1e-12, "1e-12"),
-            (123_456_789.0, "123457000"),
-            (1e300, "1e300"),
-        ] {
-            assert_eq!(short(x), text);
-        }
-    }
-
-    #[test]
-    fn steps_are_rounded_down() {
-        for (x, text) in [
-            (0.005_39, "0.0053"),
-            (0.0333, "0.033"),
-            (0.001_01, "0.001"),
-            (1.29e-5, "0.000012"),
-        ] {
-            assert_eq!(two_digits(x), text);
-            assert!(two_digits(x).parse::<f64>().expect("a number") <= x);
-        }
-    }
 }

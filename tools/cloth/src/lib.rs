@@ -45,6 +45,7 @@ mod method;
 pub mod scene;
 mod simulation;
 mod system;
+pub mod text;
 
 pub use cloth::fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};
 pub use cloth::seam::{Seam, SeamError, SeamFault};
