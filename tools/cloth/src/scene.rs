@@ -17,7 +17,7 @@ pub use run::error::RunError;
 pub use run::gain::EnergyGain;
 pub use run::{Run, RunTally};
 pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
-pub use warning::Warning;
+pub use warning::{Warning, Wording};
 
 use tearmesh::geometry::{Point, Ray, Vector, length};
 use tearmesh::{Mesh, Scissor, ScissorError, VertexId};

@@ -15,7 +15,7 @@ use std::time::Instant;
 use indicatif::ProgressBar;
 use tearmesh::{Cursor, CutReport, Scissor};
 use tearmesh_cloth::StepError;
-use tearmesh_cloth::scene::{Frame, Run, Scene, TearLog};
+use tearmesh_cloth::scene::{Frame, Run, Scene, TearLog, Warning};
 use tearmesh_obj::TornDocument;
 
 use self::frames::{Frames, places};
@@ -291,7 +291,7 @@ impl Play<'_> {
                 }
                 Err(error) => ended = Err(error),
             }
-            if ended.is_ok() && advice::has_exploded(run) {
+            if ended.is_ok() && Warning::has_exploded(run) {
                 ended = Ok(("gained energy", Exit::Simulation));
             }
             bar.set_position(run.tally().steps);

@@ -128,6 +128,15 @@ pub enum Quality {
     Unknown,
 }
 
+impl Quality {
+    /// Returns whether Provot's limiter has worked. Its work grows without bound as steps get shorter, on
+    /// particles that are held as well: joules that it has a part in say nothing of the cloth.
+    #[must_use]
+    pub fn has_limited(&self) -> bool {
+        matches!(self, Quality::Limiter(limited) if limited.steps_limited > 0)
+    }
+}
+
 /// What the limiter of [`Provot`](crate::Provot) did in all steps so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

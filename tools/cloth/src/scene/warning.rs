@@ -1,259 +1,430 @@
-//! Reasons to doubt a run: what is known before its first step, and what showed in the steps that it took.
+//! Reasons to doubt a run, in words: what is known before its first step, and what showed in the steps that it took.
+
+use std::fmt;
 
 use super::frame::Frame;
 use super::run::Run;
 use super::run::gain::EnergyGain;
-use crate::method::solver::{LimiterStats, Quality};
+use crate::method::solver::Quality;
 use crate::method::stability::frequency_bound;
+use crate::method::xpbd::Pbd;
 use crate::method::{Method, Softness};
-use crate::system::guard::Frequency;
 use crate::system::load::ColliderShape;
+use crate::text::{count, short, three_digits, two_digits};
 
-/// A reason to doubt what a run shows of its cloth.
+/// A reason to doubt what a run shows of its cloth. Its text is one sentence.
 ///
 /// ```
 /// use tearmesh_cloth::Method;
-/// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, Warning};
+/// use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, Warning, Wording};
 /// use tearmesh::shapes;
 ///
 /// let (mesh, positions) = shapes::grid(6, 6);
 /// let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
 /// let scene = Scene { solver: Method::pbd(), ..Scene::hang(&frame) };
 /// let run = Run::new(mesh, &positions, scene, &frame)?;
-/// let warnings = Warning::before(&run, &frame);
-/// assert!(warnings.contains(&Warning::Rigid));
-/// assert!(warnings.iter().any(|warning| warning.code() == "W-SIM-RIGID"));
+/// let warnings = Warning::before(&run, &frame, &Wording::default());
+/// let rigid = warnings.iter().find(|warning| warning.code() == "W-SIM-RIGID").unwrap();
+/// assert!(rigid.to_string().starts_with("pbd treats edges as rigid"));
+/// assert!(rigid.help().starts_with("solver verlet"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Warning {
-    /// The mesh is far smaller or larger than the garments and flags for which the default fabric is made.
-    /// Its diagonal is given, in metres.
-    Size(f64),
-    /// An explicit method needs so many steps that the run will hardly end.
-    /// The frequency is the one that asks for such short steps.
-    Endless(Frequency),
-    /// A cut comes after the last step.
-    /// Its time is given, in seconds.
-    LateCut(f64),
-    /// A seam would be unpicked after the last step.
-    /// Its time is given, in seconds.
-    LateUnpick(f64),
-    /// A hold begins after the last step.
-    LateHold {
-        /// The index of the hold, from 0.
-        hold: usize,
-        /// The time at which it begins, in seconds.
-        from_s: f64,
-    },
-    /// XPBD leaves the cloth softer than its fabric by more than [`Softness::TOLERABLE`].
-    Soft(Softness),
-    /// PBD takes steps that are too long for the mesh, so that cloth is stretched by its own weight.
-    /// The longest suitable step is given, in seconds.
-    Coarse(f64),
-    /// PBD treats edges as rigid, whatever the fabric.
-    Rigid,
-    /// A hold pins single vertices, whose strain grows as the mesh gets finer.
-    Pinned {
-        /// The index of the hold, from 0.
-        hold: usize,
-        /// The number of vertices.
-        pins: usize,
-    },
-    /// A ball is smaller than the longest edge, and may slip through the cloth between vertices.
-    SmallBall {
-        /// The index of the collider, from 0.
-        collider: usize,
-        /// The radius of the ball, in metres.
-        radius_m: f64,
-        /// The rest length of the longest edge, in metres.
-        longest_m: f64,
-    },
-    /// Vertices begin inside a body.
-    InsideBody {
-        /// The index of the collider, from 0.
-        collider: usize,
-        /// The number of such vertices.
-        vertices: usize,
-        /// The first of them.
-        first: usize,
-    },
-    /// All vertices are stronger than the cloth.
-    /// The least strength of a vertex is given.
-    Strong(f64),
-    /// Provot's limiter could not hold its limit, since held vertices were too far apart.
-    Limiter(LimiterStats),
-    /// A vertex moved so far in one step that it may have passed through a ball.
-    PassedBall {
-        /// The index of the collider, from 0.
-        collider: usize,
-        /// The radius of the ball, in metres.
-        radius_m: f64,
-        /// The distance that the vertex moved, in metres.
-        farthest_m: f64,
-    },
-    /// The method made energy out of nothing.
-    Energy(EnergyGain),
-    /// The method lost more than a tenth of the energy that went into motion.
-    Damped {
-        /// The numerical dissipation, in joules.
-        lost_j: f64,
-        /// The energy that was put in ([`EnergyBalance::put_in_j`](crate::EnergyBalance::put_in_j)) and
-        /// is not stored as strain, in joules.
-        moving_j: f64,
-    },
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    code: &'static str,
+    sentence: String,
+    help: String,
+    is_note: bool,
+}
+
+/// The names that a front end has for vertices and settings, as warnings use them. By default vertices
+/// have their indices, and settings the names of fields of [`Scene`](super::Scene).
+#[derive(Clone, Copy)]
+pub struct Wording<'a> {
+    /// The number of the vertex with this index.
+    pub vertex: &'a dyn Fn(usize) -> usize,
+    /// The setting of the duration, such as `--seconds`.
+    pub duration: &'a str,
+    /// The setting of the time step, such as `--dt`.
+    pub step: &'a str,
+    /// The setting of the method, such as `--solver`.
+    pub solver: &'a str,
+}
+
+impl Default for Wording<'_> {
+    fn default() -> Self {
+        Wording {
+            vertex: &|vertex| vertex,
+            duration: "duration_s",
+            step: "step_s",
+            solver: "solver",
+        }
+    }
+}
+
+impl fmt::Debug for Wording<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let settings = [self.duration, self.step, self.solver];
+        f.debug_tuple("Wording").field(&settings).finish()
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.sentence)
+    }
 }
 
 impl Warning {
+    fn new(code: &'static str, sentence: String, help: impl Into<String>) -> Warning {
+        Warning {
+            code,
+            sentence,
+            help: help.into(),
+            is_note: false,
+        }
+    }
+
+    fn note(code: &'static str, sentence: String, help: impl Into<String>) -> Warning {
+        Warning {
+            is_note: true,
+            ..Warning::new(code, sentence, help)
+        }
+    }
+
     /// Returns the code of this warning, such as `W-SIM-SOFT`.
     #[must_use]
     pub fn code(&self) -> &'static str {
-        match self {
-            Warning::Size(_) => "W-SIM-SIZE",
-            Warning::Endless(_) => "W-SIM-ENDLESS",
-            Warning::LateCut(_) | Warning::LateUnpick(_) | Warning::LateHold { .. } => {
-                "W-SCENE-LATE"
-            }
-            Warning::Soft(_) => "W-SIM-SOFT",
-            Warning::Coarse(_) => "W-SIM-COARSE",
-            Warning::Rigid => "W-SIM-RIGID",
-            Warning::Pinned { .. } => "W-SIM-PIN",
-            Warning::SmallBall { .. } | Warning::PassedBall { .. } => "W-SIM-COLLIDER",
-            Warning::InsideBody { .. } => "W-SIM-INSIDE",
-            Warning::Strong(_) => "W-SIM-STRONG",
-            Warning::Limiter(_) => "W-SIM-LIMIT",
-            Warning::Energy(_) => "W-SIM-ENERGY",
-            Warning::Damped { .. } => "W-SIM-DAMPED",
-        }
+        self.code
+    }
+
+    /// Returns what would help: other settings, or another mesh.
+    #[must_use]
+    pub fn help(&self) -> &str {
+        &self.help
+    }
+
+    /// Returns whether this is a mere note: it explains a result, and others put theirs in doubt.
+    #[must_use]
+    pub fn is_note(&self) -> bool {
+        self.is_note
     }
 
     /// Returns the warnings about a run that has not begun. `frame` is that of its scene. Takes linear time.
     #[must_use]
-    pub fn before(run: &Run, frame: &Frame) -> Vec<Warning> {
-        let scene = run.scene();
-        let size_m = frame.size_m();
-        let is_usual = (0.01..=8.0).contains(&size_m);
+    pub fn before(run: &Run, frame: &Frame, wording: &Wording<'_>) -> Vec<Warning> {
         let mut warnings = Vec::new();
-        warnings.extend((!is_usual).then_some(Warning::Size(size_m)));
-        warnings.extend(endless(run));
-        warnings.extend(late(run));
-        let softness = run.softness();
-        let softness = softness.filter(|softness| softness.extra > Softness::TOLERABLE);
-        warnings.extend(softness.map(Warning::Soft));
-        if matches!(scene.solver, Method::Pbd(_)) {
-            let speed_m_per_s = scene.fabric.speed_m_per_s(scene.areal_density_kg_per_m2);
-            let system = run.cloth().system();
-            let wanted_s = scene.solver.wanted_step_s(system, speed_m_per_s);
-            let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s);
-            warnings.extend(wanted_s.map(Warning::Coarse));
-            warnings.push(Warning::Rigid);
+        warnings.extend(size(frame));
+        warnings.extend(endless(run, wording));
+        warnings.extend(late(run, wording));
+        warnings.extend(soft(run, wording));
+        if let Method::Pbd(pbd) = &run.scene().solver {
+            warnings.extend(coarse(run, pbd, wording));
+            warnings.push(rigid(run, wording));
         }
-        if scene.tearing.is_some() {
-            let still = (0..scene.holds.len()).filter(|&hold| scene.holds[hold].moves.is_empty());
-            let pins = still.map(|hold| (hold, run.held[hold].pins(run.mesh())));
-            let pins = pins.filter(|&(_, pins)| pins > 0);
-            warnings.extend(pins.map(|(hold, pins)| Warning::Pinned { hold, pins }));
-        }
-        let edges = run.cloth().system().stretches().springs();
-        let longest_m = edges.map(|(_, rest, _)| rest).fold(0.0, f64::max);
-        let small = balls(run).filter(|(_, radius_m)| 2.0 * radius_m < longest_m);
-        warnings.extend(small.map(|(collider, radius_m)| Warning::SmallBall {
-            collider,
-            radius_m,
-            longest_m,
-        }));
-        warnings.extend(inside(run));
+        warnings.extend(pinned(run));
+        warnings.extend(small_balls(run));
+        warnings.extend(inside(run, wording));
         warnings.extend(strong(run));
         warnings
     }
 
+    /// Returns whether the method has made so much energy that a run shows nothing of the cloth: more than
+    /// three times what was put in, and more than a millijoule. Where Provot's limiter has worked, its energy
+    /// is not known, and the result is `false`.
+    #[must_use]
+    pub fn has_exploded(run: &Run) -> bool {
+        let is_absurd = |gain: EnergyGain| gain.made_j > f64::max(3.0 * gain.put_in_j, 1e-3);
+        run.energy_gain().is_some_and(is_absurd) && !run.quality().has_limited()
+    }
+
     /// Returns the warnings about the steps that a run has taken.
     #[must_use]
-    pub fn after(run: &Run) -> Vec<Warning> {
+    pub fn after(run: &Run, wording: &Wording<'_>) -> Vec<Warning> {
         let mut warnings = Vec::new();
-        if let Quality::Limiter(stats) = run.quality()
-            && stats.steps_infeasible > 0
-        {
-            warnings.push(Warning::Limiter(stats));
-        }
-        let farthest_m = run.tally().farthest_m;
-        let passed = balls(run).filter(|&(_, radius_m)| farthest_m > radius_m);
-        warnings.extend(passed.map(|(collider, radius_m)| Warning::PassedBall {
-            collider,
-            radius_m,
-            farthest_m,
-        }));
-        warnings.extend(run.energy_gain().map(Warning::Energy));
-        warnings.extend(damped(run));
+        warnings.extend(limiter(run, wording));
+        warnings.extend(passed_balls(run, wording));
+        warnings.extend(energy(run, wording));
+        warnings.extend(damped(run, wording));
         warnings
     }
 }
 
-/// An explicit method takes steps as short as the stiffest edge between the lightest vertices
-/// asks for, and one face without area is enough for years of them.
-fn endless(run: &Run) -> Option<Warning> {
+/// The mesh is far smaller or larger than the garments and flags for which the default fabric is made.
+fn size(frame: &Frame) -> Option<Warning> {
+    let size_m = frame.size_m();
+    let is_usual = (0.01..=8.0).contains(&size_m);
+    let size = short(size_m);
+    let sentence = format!("the mesh is {size} m across, and the fabric suits garments and flags");
+    let help = "units are metres: scale the mesh, or set [fabric] in a scene file";
+    (!is_usual).then(|| Warning::new("W-SIM-SIZE", sentence, help))
+}
+
+/// An explicit method needs so many steps that the run will hardly end: it takes steps as short as the stiffest
+/// edge between the lightest vertices asks for, and one face without area is enough for years of them.
+fn endless(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
     let is_explicit = matches!(run.scene().solver, Method::Verlet | Method::Provot(_));
-    let frequency = || frequency_bound(&mut run.cloth().system().clone());
-    let is_endless = is_explicit && run.steps_planned() >= STEPS_MANY;
-    is_endless.then(|| Warning::Endless(frequency()))
+    if !is_explicit || run.steps_planned() < STEPS_MANY {
+        return None;
+    }
+    let frequency = frequency_bound(&mut run.cloth().system().clone());
+    let at = frequency.ends.map(|ends| {
+        let [a, b] = ends.map(wording.vertex);
+        let omega = frequency.omega_rad_per_s;
+        format!(
+            ": the edge {a}-{b} may swing at {omega:.1e} rad/s, because it is stiff and its ends are light"
+        )
+    });
+    let (steps, at) = (run.steps_planned() as f64, at.unwrap_or_default());
+    let step = two_digits(run.step_s());
+    let sentence = format!("{steps:.1e} steps of {step} s are planned{at}");
+    let solver = wording.solver;
+    let help = format!("take a face without area out of the mesh, or use {solver} implicit");
+    Some(Warning::new("W-SIM-ENDLESS", sentence, help))
 }
 
 /// Hours of a mesh of a few thousand vertices.
 const STEPS_MANY: u64 = 10_000_000;
 
-/// Events after the last step. Where no step is taken at all, nothing has to be held.
-fn late(run: &Run) -> impl Iterator<Item = Warning> {
+/// Cuts, seams to be unpicked and holds that are due after the last step. Where no step is taken at all, nothing
+/// has to be held.
+fn late(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warning> {
     let scene = run.scene();
+    let over = short(run.steps_planned() as f64 * run.step_s());
     let cuts = scene.cuts.iter().map(|cut| cut.at_s);
-    let cuts = cuts.filter(|&at_s| !run.reaches(at_s));
-    let holds = scene.holds.iter().map(|hold| hold.from_s).enumerate();
-    let holds = holds.filter(|&(_, from_s)| run.steps_planned() > 0 && !run.reaches(from_s));
-    let holds = holds.map(|(hold, from_s)| Warning::LateHold { hold, from_s });
+    let cuts = cuts.map(|at_s| (at_s, format!("the cut at {} s is never made", short(at_s))));
     let unpicks = scene.unpicks.iter().map(|(at_s, _)| *at_s);
-    let unpicks = unpicks.filter(|&at_s| !run.reaches(at_s));
-    let cuts = cuts.map(Warning::LateCut);
-    cuts.chain(unpicks.map(Warning::LateUnpick)).chain(holds)
+    let unpicks = unpicks.map(|at_s| (at_s, format!("no seam is unpicked at {} s", short(at_s))));
+    let holds = scene
+        .holds
+        .iter()
+        .zip(1..)
+        .filter(|_| run.steps_planned() > 0);
+    let holds = holds.map(|(hold, n)| (hold.from_s, format!("hold {n} is never taken")));
+    let events = cuts.chain(unpicks).chain(holds);
+    let late = events.filter(|&(at_s, _)| !run.reaches(at_s));
+    late.map(move |(at_s, lack)| {
+        let sentence = format!("{lack}: the scene is over after {over} s");
+        let help = format!(
+            "{} above {}, or an earlier time",
+            wording.duration,
+            short(at_s)
+        );
+        Warning::new("W-SCENE-LATE", sentence, help)
+    })
 }
 
-/// The balls of a scene, by the indices of colliders, and their radii in metres.
+/// XPBD leaves the cloth softer than its fabric by more than [`Softness::TOLERABLE`].
+fn soft(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
+    let softness = run.softness();
+    let softness = softness.filter(|softness| softness.extra > Softness::TOLERABLE)?;
+    let step = short(run.step_s());
+    let extra = short((softness.extra * 100.0).round());
+    let (suited, most) = (
+        two_digits(softness.step_s),
+        short(Softness::TOLERABLE * 100.0),
+    );
+    let sentence = format!(
+        "xpbd with a step of {step} s leaves the cloth too soft: hanging cloth stretches {extra} % \
+         too far, and some edges far more"
+    );
+    let (dt, solver) = (wording.step, wording.solver);
+    let help = format!("{dt} {suited} for {most} %, or {solver} verlet, which is exact at rest");
+    Some(Warning::new("W-SIM-SOFT", sentence, help))
+}
+
+/// PBD takes steps that are too long for the mesh, so that cloth is stretched by its own weight.
+fn coarse(run: &Run, pbd: &Pbd, wording: &Wording<'_>) -> Option<Warning> {
+    let scene = run.scene();
+    let speed_m_per_s = scene.fabric.speed_m_per_s(scene.areal_density_kg_per_m2);
+    let system = run.cloth().system();
+    let wanted_s = scene.solver.wanted_step_s(system, speed_m_per_s);
+    let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s)?;
+    let step = short(run.step_s());
+    let sweeps = count(pbd.sweeps as usize, "sweep", "sweeps");
+    let times = short((run.step_s() / wanted_s * 10.0).round() / 10.0);
+    let and = scene.tearing.map_or("", |_| ", and may tear");
+    let sentence = format!(
+        "a step of {step} s with {sweeps} is {times} times too long for so fine a mesh: hanging \
+         cloth stretches too far{and}"
+    );
+    let (dt, wanted, solver) = (wording.step, two_digits(wanted_s), wording.solver);
+    let help = format!("{dt} {wanted}, or {solver} verlet");
+    Some(Warning::new("W-SIM-COARSE", sentence, help))
+}
+
+/// PBD treats edges as rigid, whatever the fabric.
+fn rigid(run: &Run, wording: &Wording<'_>) -> Warning {
+    let stiffness = short(run.scene().fabric.stretch_n_per_m());
+    let sentence = format!(
+        "pbd treats edges as rigid: their stretch depends on the step and the number of sweeps, not \
+         on the {stiffness} N/m of the fabric"
+    );
+    let solver = wording.solver;
+    let help = format!(
+        "{solver} verlet, or xpbd, whose edges are as stiff as the fabric's at short steps"
+    );
+    Warning::note("W-SIM-RIGID", sentence, help)
+}
+
+/// In a scene that tears, a hold pins single vertices, whose strain grows as the mesh gets finer.
+fn pinned(run: &Run) -> impl Iterator<Item = Warning> {
+    let scene = run.scene();
+    let still = (0..scene.holds.len()).filter(|&hold| scene.holds[hold].moves.is_empty());
+    let pins = still.filter(|_| scene.tearing.is_some());
+    let pins = pins.map(|hold| (hold + 1, run.held[hold].pins(run.mesh())));
+    pins.filter(|&(_, pins)| pins > 0).map(|(number, pins)| {
+        let (vertices, they) = match pins {
+            1 => ("a single vertex".to_owned(), "it"),
+            _ => (format!("{pins} single vertices"), "they"),
+        };
+        let sentence = format!(
+            "hold {number} pins {vertices}, whose strain grows as the mesh gets finer: {they} may tear \
+             where a clamp would not"
+        );
+        Warning::new("W-SIM-PIN", sentence, "give it a `radius`, such as 0.1")
+    })
+}
+
+/// The balls of a scene, by the numbers of colliders from 1, and their radii in metres.
 fn balls(run: &Run) -> impl Iterator<Item = (usize, f64)> {
-    let colliders = run.scene().colliders.iter().enumerate();
-    colliders.filter_map(|(index, collider)| match collider.shape {
-        ColliderShape::Sphere { radius_m, .. } => Some((index, radius_m)),
+    let colliders = (1..).zip(&run.scene().colliders);
+    colliders.filter_map(|(number, collider)| match collider.shape {
+        ColliderShape::Sphere { radius_m, .. } => Some((number, radius_m)),
         _ => None,
     })
 }
 
-/// The vertices that begin in bodies.
-fn inside(run: &Run) -> impl Iterator<Item = Warning> {
-    let colliders = run.scene().colliders.iter().enumerate();
-    colliders.filter_map(|(collider, one)| {
-        let ColliderShape::Body { body, motion, .. } = &one.shape else {
+/// A ball is smaller than the longest edge, and may slip through the cloth between vertices.
+fn small_balls(run: &Run) -> impl Iterator<Item = Warning> {
+    let edges = run.cloth().system().stretches().springs();
+    let longest_m = edges.map(|(_, rest, _)| rest).fold(0.0, f64::max);
+    let small = balls(run).filter(move |(_, radius_m)| 2.0 * radius_m < longest_m);
+    small.map(move |(number, radius_m)| {
+        let (across, long) = (short(2.0 * radius_m), two_digits(longest_m));
+        let sentence = format!(
+            "collider {number} is a ball {across} m across, and edges are up to {long} m long: only \
+             vertices collide, so the ball may pass between them"
+        );
+        Warning::new("W-SIM-COLLIDER", sentence, "a finer mesh, or a larger ball")
+    })
+}
+
+/// A vertex moved so far in one step that it may have passed through a ball.
+fn passed_balls(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warning> {
+    let farthest_m = run.tally().farthest_m;
+    let passed = balls(run).filter(move |&(_, radius_m)| farthest_m > radius_m);
+    passed.map(move |(number, radius_m)| {
+        let (far, radius) = (two_digits(farthest_m), short(radius_m));
+        let sentence = format!(
+            "a vertex moved {far} m in a step, and collider {number} is a ball of radius {radius} m: the \
+             vertex may have passed through it"
+        );
+        let suited = two_digits(run.step_s() * radius_m / farthest_m / 2.0);
+        Warning::new("W-SIM-COLLIDER", sentence, format!("{} {suited}", wording.step))
+    })
+}
+
+/// Vertices begin inside a body.
+fn inside(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warning> {
+    let colliders = (1..).zip(&run.scene().colliders);
+    colliders.filter_map(|(number, collider)| {
+        let ColliderShape::Body { body, motion, .. } = &collider.shape else {
             return None;
         };
         let pose = motion.at(0.0);
         let points = run.cloth().positions().iter().enumerate();
         let mut within = points.filter(|(_, x)| body.distance_m(pose.to_body(**x)) < 0.0);
-        let (first, _) = within.next()?;
-        Some(Warning::InsideBody {
-            collider,
-            vertices: 1 + within.count(),
-            first,
-        })
+        let first = (wording.vertex)(within.next()?.0);
+        let vertices = count(1 + within.count(), "vertex begins", "vertices begin");
+        let sentence = format!(
+            "{vertices} inside of the body of collider {number}, such as {first}: from deep inside \
+             there is no way out"
+        );
+        let help = "move the mesh or the body in its file";
+        Some(Warning::new("W-SIM-INSIDE", sentence, help))
     })
 }
 
-/// Strengths are those of vertices, and on a coarse mesh a small region may hold all that could tear.
+/// All vertices are stronger than the cloth: strengths are those of vertices, and on a coarse mesh a small region
+/// may hold all that could tear.
 fn strong(run: &Run) -> Option<Warning> {
     let tear = run.sim.tear.as_ref()?;
     let strengths = run.mesh().vertices().map(|v| tear.strength(v));
     let least = strengths.fold(f64::INFINITY, f64::min);
-    (least > 1.0 && least.is_finite()).then_some(Warning::Strong(least))
+    let vertices = count(run.mesh().vertex_count(), "vertex", "vertices");
+    let times = short(least);
+    let sentence = format!(
+        "all {vertices} are stronger than the cloth: nothing tears below {times} times the threshold"
+    );
+    let help = "a finer mesh, or smaller regions of strength";
+    (least > 1.0 && least.is_finite()).then(|| Warning::note("W-SIM-STRONG", sentence, help))
 }
 
-/// Of what Provot's limiter takes nothing is known.
-fn damped(run: &Run) -> Option<Warning> {
-    if matches!(run.quality(), Quality::Limiter(stats) if stats.steps_limited > 0) {
+/// Provot's limiter could not hold its limit, since held vertices were too far apart.
+fn limiter(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
+    let Quality::Limiter(stats) = run.quality() else {
+        return None;
+    };
+    if stats.steps_infeasible == 0 {
+        return None;
+    }
+    let limit = match &run.scene().solver {
+        Method::Provot(limiter) => limiter.stretch_ratio_max,
+        _ => 1.0,
+    };
+    let (some, all) = (stats.steps_infeasible, of_steps(run));
+    let most = short(limit + stats.excess_max);
+    let sentence = format!(
+        "in {some} of {all}, the holds were too far apart for the limiter: edges stayed up to {most} \
+         times their rest length, above its limit of {limit}"
+    );
+    let solver = wording.solver;
+    let help = format!("a larger limit_ratio in [solver] of a scene file, or {solver} verlet");
+    Some(Warning::new("W-SIM-LIMIT", sentence, help))
+}
+
+/// How many steps were taken; where they were divided, and the method had each part, how many parts.
+fn of_steps(run: &Run) -> String {
+    let substeps = run.cloth().system().counters().substeps;
+    match substeps == run.tally().steps {
+        true => count(substeps as usize, "step", "steps"),
+        false => count(substeps as usize, "substep", "substeps"),
+    }
+}
+
+/// The method made energy out of nothing. What a run that has exploded shows of tears is not worth a word.
+fn energy(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
+    let gain = run.energy_gain()?;
+    let since = short(gain.since_s);
+    let much = if run.quality().has_limited() {
+        format!("energy out of nothing, from {since} s on")
+    } else {
+        let [made, put_in] = [gain.made_j, gain.put_in_j].map(three_digits);
+        format!("{made} J out of nothing, from {since} s on, where {put_in} J were put in")
+    };
+    let so = match Warning::has_exploded(run) {
+        true => "",
+        false => ": what tore since then tore partly because of it",
+    };
+    let others = match run.scene().solver {
+        Method::Verlet => "implicit",
+        Method::Implicit(_) => "verlet",
+        _ => "verlet or implicit",
+    };
+    let (solver, dt, half) = (wording.solver, wording.step, two_digits(run.step_s() / 2.0));
+    let help = format!("{solver} {others}, {dt} {half}, or a larger drag_per_s in a scene file");
+    Some(Warning::new(
+        "W-SIM-ENERGY",
+        format!("the method made {much}{so}"),
+        help,
+    ))
+}
+
+/// The method lost more than a tenth of the energy that went into motion. Of what Provot's limiter takes
+/// nothing is known.
+fn damped(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
+    if run.quality().has_limited() {
         return None;
     }
     let balance = run.energy_balance();
@@ -261,7 +432,23 @@ fn damped(run: &Run) -> Option<Warning> {
     // A sheet in its frame holds most of what was put in, and rings with the rest.
     let moving_j = put_in_j - balance.elastic_j;
     let shows = put_in_j >= LEAST_J && lost_j > DISSIPATED * moving_j;
-    shows.then_some(Warning::Damped { lost_j, moving_j })
+    let (method, [lost, moving]) = (
+        run.scene().solver.name(),
+        [lost_j, moving_j].map(three_digits),
+    );
+    let sentence = format!(
+        "{method} lost {lost} J of the {moving} J that went into motion, which fades too soon"
+    );
+    let solver = wording.solver;
+    let or = match run.scene().solver {
+        Method::Verlet => String::new(),
+        Method::Implicit(_) => {
+            format!(", `order = \"2\"` in [solver] of a scene file, or {solver} verlet")
+        }
+        _ => format!(", or {solver} verlet"),
+    };
+    let (dt, half) = (wording.step, two_digits(run.step_s() / 2.0));
+    shows.then(|| Warning::note("W-SIM-DAMPED", sentence, format!("{dt} {half}{or}")))
 }
 
 /// The part of that energy that a method may lose unsaid, and the energy in joules below which nothing is

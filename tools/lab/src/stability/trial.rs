@@ -2,7 +2,7 @@
 
 use tearmesh::{CutMethod, Point, Ray, Vector, shapes};
 use tearmesh_cloth::scene::{
-    Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut, Warning,
+    Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut, Warning, Wording,
 };
 use tearmesh_cloth::{FRAME_S, Fabric, Method, StepError, Wind, energy};
 
@@ -289,7 +289,9 @@ impl Trial {
             let now_j = kinetic_j + if is_swept { 0.0 } else { elastic_j };
             energy = energy.max(now_j / start_j);
         }
-        let warnings = [Warning::before(&run, &frame), Warning::after(&run)].concat();
+        let wording = Wording::default();
+        let known = Warning::before(&run, &frame, &wording);
+        let warnings = [known, Warning::after(&run, &wording)].concat();
         let codes = warnings.iter().map(Warning::code);
         let system = run.cloth().system();
         let ratios = system.stretches().iter();

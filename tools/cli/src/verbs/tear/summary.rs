@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use tearmesh_cloth::scene::{Run, TearLog};
-use tearmesh_cloth::{Collider, ColliderShape, Quality};
+use tearmesh_cloth::{Collider, ColliderShape};
 
 use crate::report;
 use crate::say::{count, pieces, short, three_digits};
@@ -32,18 +32,12 @@ pub(super) fn simulation(tear: &report::Tear, has_cuts: bool) -> String {
     )
 }
 
-/// Whether Provot's limiter has worked. Its work grows without bound as steps get shorter, on what is
-/// held as well: joules that it has a part in say nothing of the cloth.
-pub(super) fn has_limited(run: &Run) -> bool {
-    matches!(run.quality(), Quality::Limiter(limited) if limited.steps_limited > 0)
-}
-
 /// The line of the summary that says where the energy went. What neither loads nor hands took is the
 /// method's.
 pub(super) fn balance(run: &Run) -> String {
     let balance = run.energy_balance();
     let stored = three_digits(balance.kinetic_j + balance.elastic_j);
-    if has_limited(run) {
+    if run.quality().has_limited() {
         return format!(
             "energy: {stored} J stored; what was put in and lost is not known, because the limiter's work grows without bound as steps get shorter"
         );
@@ -63,7 +57,7 @@ pub(super) fn balance(run: &Run) -> String {
 
 pub(super) fn energy(run: &Run) -> report::Energy {
     let balance = run.energy_balance();
-    let said = |joules: f64| Some(joules).filter(|_| !has_limited(run));
+    let said = |joules: f64| Some(joules).filter(|_| !run.quality().has_limited());
     report::Energy {
         torn_edges: run.tally().edge_energy_j,
         began: balance.began_j,
@@ -77,7 +71,7 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         colliders: balance.colliders_j,
         edits: balance.edits_j,
         numerical_dissipation: said(-balance.made_j()),
-        gain: run.energy_gain().filter(|_| !has_limited(run)),
+        gain: run.energy_gain().filter(|_| !run.quality().has_limited()),
     }
 }
 
