@@ -110,6 +110,9 @@ pub enum Step<'s> {
     Nothing,
 }
 
+/// Sees the world after each step.
+type Observe<'o> = dyn FnMut(&World, &Step<'_>) + 'o;
+
 impl Script {
     /// Builds the mesh, applies the operations in order, and calls `observe` with the world after
     /// each step. All followers have then replayed the log.
@@ -155,70 +158,28 @@ impl World {
     /// # Panics
     ///
     /// If the mesh has no vertex or no face.
-    pub fn apply(&mut self, operation: &Operation, observe: &mut dyn FnMut(&World, &Step<'_>)) {
+    pub fn apply(&mut self, operation: &Operation, observe: &mut Observe<'_>) {
         match *operation {
             Operation::Split {
                 vertex,
                 mask,
                 fault,
             } => {
-                let v = self.vertex(vertex);
-                let mut faces = self.faces(v);
-                let mut bit = 0..;
-                faces.retain(|_| bit.next().is_some_and(|i: u32| mask >> (i % 16) & 1 == 1));
-                match fault {
-                    Fault::Repeated(i) if !faces.is_empty() => {
-                        faces.push(faces[usize::from(i) % faces.len()]);
-                    }
-                    Fault::Foreign(i) => {
-                        let number = usize::from(i) % self.mesh.face_count();
-                        faces.push(FaceId::from_u32(number as u32));
-                    }
-                    _ => {}
-                }
-                self.split(v, &faces, observe);
+                let vertex = self.vertex(vertex);
+                let faces = self.some_faces(vertex, mask, fault);
+                self.split(vertex, &faces, observe);
             }
             Operation::Plane { vertex, normal } => {
-                let (vertex, normal) = (self.vertex(vertex), normal.map(f64::from));
-                let Ok(plane) = Plane::new(self.positions.at(vertex), normal.into()) else {
-                    return observe(self, &Step::Nothing);
-                };
-                let (mesh, edits) = (&mut self.mesh, &mut self.edits);
-                let split = split::by_plane(mesh, vertex, &plane, &self.positions, edits);
-                let outcome = split.map(|split| split.before);
-                let step = Step::Plane {
-                    vertex,
-                    normal,
-                    outcome,
-                };
-                self.end(&step, observe);
+                self.split_by_plane(self.vertex(vertex), normal.map(f64::from), observe);
             }
             Operation::Cut {
                 through,
                 tips,
                 rays,
-            } => {
-                let [a, b] = rays.map(|[origin, direction]| {
-                    let origin = origin.map(|x| f64::from(x) / 32.0);
-                    Ray::new(Point::from(origin), direction.map(f64::from).into()).ok()
-                });
-                let scissor = a.zip(b).and_then(|(a, b)| Scissor::new(a, b).ok());
-                let Some(scissor) = scissor else {
-                    return observe(self, &Step::Nothing);
-                };
-                let (first, scissor) = (self.edits.cursor(), scissor.through(through).tips(tips));
-                let (mesh, positions) = (&mut self.mesh, &mut self.positions);
-                let cut =
-                    scissor.cut_measured(CutMethod::Partition, mesh, positions, &mut self.edits);
-                match cut {
-                    Ok((_, report)) => {
-                        let report = &report;
-                        self.end(&Step::Cut { first, report }, observe);
-                    }
-                    Err(CutError::RaysCross { .. }) => observe(self, &Step::Nothing),
-                    Err(error) => panic!("positions are in step: {error}"),
-                }
-            }
+            } => match scissor(rays) {
+                Some(scissor) => self.cut(&scissor.through(through).tips(tips), observe),
+                None => observe(self, &Step::Nothing),
+            },
             Operation::Insert {
                 half_edge,
                 ref spots,
@@ -233,12 +194,7 @@ impl World {
                 any,
                 weights,
             } => {
-                let roots = self.mesh.all_roots();
-                let mut copies = vec![0; roots.len()];
-                roots.iter().for_each(|root| copies[root.index()] += 1);
-                let root = |v: VertexId| roots[v.index()];
-                let one = self.among(vertex, |v| copies[root(v).index()] > 1);
-                let other = self.among(other, |v| any || root(v) == root(one));
+                let [one, other] = self.copies(vertex, other, any);
                 self.merge(one, other, weights.map(f64::from), observe);
             }
             Operation::Slide {
@@ -248,41 +204,11 @@ impl World {
                 part,
             } => {
                 let vertex = self.vertex(vertex);
-                let faces = self.mesh.faces_of(vertex);
-                let around: Vec<_> = faces.flat_map(|f| self.mesh.face_vertices(f)).collect();
-                let toward = self.among(toward, |w| any || (w != vertex && around.contains(&w)));
-                let t = f64::from(part) / 64.0;
-                let slide = slide::toward(&mut self.mesh, vertex, toward, t, &mut self.edits);
-                let outcome = slide.map(|slide| slide.before);
-                let step = Step::Slide {
-                    vertex,
-                    toward,
-                    t,
-                    outcome,
-                };
-                self.end(&step, observe);
+                let toward = self.neighbour(vertex, toward, any);
+                self.slide(vertex, toward, f64::from(part) / 64.0, observe);
             }
-            Operation::Sew { mask } => {
-                let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
-                let stitches = mend::stitches(&self.mesh, chosen);
-                let first = self.edits.cursor();
-                let (mesh, edits) = (&mut self.mesh, &mut self.edits);
-                let (weight, far) = (|v| self.area.at(v), f64::INFINITY);
-                let merges = mend::sew(mesh, &self.positions, &stitches, weight, far, edits);
-                let step = Step::Sewn {
-                    first,
-                    stitches: &stitches,
-                    merges: merges.expect("copies have one root and a mass"),
-                };
-                self.end(&step, observe);
-            }
-            Operation::Tear => {
-                for v in self.mesh.vertices() {
-                    for &face in self.faces(v).iter().skip(1) {
-                        self.split(v, &[face], observe);
-                    }
-                }
-            }
+            Operation::Sew { mask } => self.sew_chosen(mask, observe),
+            Operation::Tear => self.tear_apart(observe),
             Operation::Clear => {
                 self.edits.clear();
                 observe(self, &Step::Cleared);
@@ -308,6 +234,42 @@ impl World {
         let mut faces: Vec<FaceId> = self.mesh.faces_of(v).collect();
         faces.sort();
         faces
+    }
+
+    /// The faces of a vertex that a mask chooses, and the fault in their list.
+    fn some_faces(&self, v: VertexId, mask: u16, fault: Fault) -> Vec<FaceId> {
+        let mut faces = self.faces(v);
+        let mut bit = 0..;
+        faces.retain(|_| bit.next().is_some_and(|i: u32| mask >> (i % 16) & 1 == 1));
+        match fault {
+            Fault::Repeated(i) if !faces.is_empty() => {
+                faces.push(faces[usize::from(i) % faces.len()]);
+            }
+            Fault::Foreign(i) => {
+                let number = usize::from(i) % self.mesh.face_count();
+                faces.push(FaceId::from_u32(number as u32));
+            }
+            _ => {}
+        }
+        faces
+    }
+
+    /// Two vertices to be merged: one that has copies, if any vertex has, and one of its copies or any vertex.
+    fn copies(&self, one: u16, other: u16, any: bool) -> [VertexId; 2] {
+        let roots = self.mesh.all_roots();
+        let mut copies = vec![0; roots.len()];
+        roots.iter().for_each(|root| copies[root.index()] += 1);
+        let root = |v: VertexId| roots[v.index()];
+        let one = self.among(one, |v| copies[root(v).index()] > 1);
+        let other = self.among(other, |v| any || root(v) == root(one));
+        [one, other]
+    }
+
+    /// A vertex toward which another may slide: a neighbour of it, if it has one, or any vertex.
+    fn neighbour(&self, v: VertexId, number: u16, any: bool) -> VertexId {
+        let faces = self.mesh.faces_of(v);
+        let around: Vec<_> = faces.flat_map(|f| self.mesh.face_vertices(f)).collect();
+        self.among(number, |w| any || (w != v && around.contains(&w)))
     }
 
     /// The insertion at these spots, counted from a half-edge.
@@ -338,12 +300,7 @@ impl World {
     }
 
     /// Splits a vertex by a set of faces, and calls `observe` after this step.
-    pub fn split(
-        &mut self,
-        vertex: VertexId,
-        faces: &[FaceId],
-        observe: &mut dyn FnMut(&World, &Step<'_>),
-    ) {
+    pub fn split(&mut self, vertex: VertexId, faces: &[FaceId], observe: &mut Observe<'_>) {
         let split = split::vertex(&mut self.mesh, vertex, faces, &mut self.edits);
         let outcome = split.map(|split| split.before);
         let step = Step::Split {
@@ -354,8 +311,46 @@ impl World {
         self.end(&step, observe);
     }
 
+    fn split_by_plane(&mut self, vertex: VertexId, normal: [f64; 3], observe: &mut Observe<'_>) {
+        let Ok(plane) = Plane::new(self.positions.at(vertex), normal.into()) else {
+            return observe(self, &Step::Nothing);
+        };
+        let (mesh, edits) = (&mut self.mesh, &mut self.edits);
+        let split = split::by_plane(mesh, vertex, &plane, &self.positions, edits);
+        let outcome = split.map(|split| split.before);
+        let step = Step::Plane {
+            vertex,
+            normal,
+            outcome,
+        };
+        self.end(&step, observe);
+    }
+
+    /// Splits off all faces of each vertex but one.
+    fn tear_apart(&mut self, observe: &mut Observe<'_>) {
+        for v in self.mesh.vertices() {
+            for &face in self.faces(v).iter().skip(1) {
+                self.split(v, &[face], observe);
+            }
+        }
+    }
+
+    fn cut(&mut self, scissor: &Scissor, observe: &mut Observe<'_>) {
+        let first = self.edits.cursor();
+        let (mesh, positions) = (&mut self.mesh, &mut self.positions);
+        let cut = scissor.cut_measured(CutMethod::Partition, mesh, positions, &mut self.edits);
+        match cut {
+            Ok((_, report)) => {
+                let report = &report;
+                self.end(&Step::Cut { first, report }, observe);
+            }
+            Err(CutError::RaysCross { .. }) => observe(self, &Step::Nothing),
+            Err(error) => panic!("positions are in step: {error}"),
+        }
+    }
+
     /// Inserts vertices, and calls `observe` after this step.
-    pub fn insert(&mut self, plan: &Plan, observe: &mut dyn FnMut(&World, &Step<'_>)) {
+    pub fn insert(&mut self, plan: &Plan, observe: &mut Observe<'_>) {
         let insert = plan.apply(&mut self.mesh, &mut self.edits);
         let outcome = insert.map(|insert| insert.before);
         if outcome.is_ok() {
@@ -370,7 +365,7 @@ impl World {
         one: VertexId,
         other: VertexId,
         weights: [f64; 2],
-        observe: &mut dyn FnMut(&World, &Step<'_>),
+        observe: &mut Observe<'_>,
     ) {
         let merge = mend::merge(&mut self.mesh, one, other, weights, &mut self.edits);
         let outcome = merge.map(|merge| merge.before);
@@ -383,8 +378,36 @@ impl World {
         self.end(&step, observe);
     }
 
+    fn slide(&mut self, vertex: VertexId, toward: VertexId, t: f64, observe: &mut Observe<'_>) {
+        let slide = slide::toward(&mut self.mesh, vertex, toward, t, &mut self.edits);
+        let outcome = slide.map(|slide| slide.before);
+        let step = Step::Slide {
+            vertex,
+            toward,
+            t,
+            outcome,
+        };
+        self.end(&step, observe);
+    }
+
+    /// Sews the copies of the vertices that a mask chooses.
+    fn sew_chosen(&mut self, mask: u16, observe: &mut Observe<'_>) {
+        let chosen = |v: VertexId| mask >> (v.index() % 16) & 1 == 1;
+        let stitches = mend::stitches(&self.mesh, chosen);
+        let first = self.edits.cursor();
+        let (mesh, edits) = (&mut self.mesh, &mut self.edits);
+        let (weight, far) = (|v| self.area.at(v), f64::INFINITY);
+        let merges = mend::sew(mesh, &self.positions, &stitches, weight, far, edits);
+        let step = Step::Sewn {
+            first,
+            stitches: &stitches,
+            merges: merges.expect("copies have one root and a mass"),
+        };
+        self.end(&step, observe);
+    }
+
     /// Lets the followers replay a step, and shows it.
-    fn end(&mut self, step: &Step<'_>, observe: &mut dyn FnMut(&World, &Step<'_>)) {
+    fn end(&mut self, step: &Step<'_>, observe: &mut Observe<'_>) {
         if let Some(half) = &mut self.half {
             self.edits.replay(half);
         }
@@ -392,4 +415,13 @@ impl World {
         self.edits.replay(&mut { beside });
         observe(self, step);
     }
+}
+
+/// The scissor of two rays, each an origin in 32nds and a direction, if they span a plane.
+fn scissor(rays: [[[i8; 3]; 2]; 2]) -> Option<Scissor> {
+    let [a, b] = rays.map(|[origin, direction]| {
+        let origin = origin.map(|x| f64::from(x) / 32.0);
+        Ray::new(Point::from(origin), direction.map(f64::from).into()).ok()
+    });
+    Scissor::new(a?, b?).ok()
 }
