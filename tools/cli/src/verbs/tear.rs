@@ -113,86 +113,104 @@ impl Records<'_> {
     }
 }
 
-impl Play<'_> {
-    fn perform(&self, mut run: Run, session: &mut Session<'_, '_>) -> Result<(), Stop> {
-        let pieces_before = Piece::all(run.mesh(), run.cloth().positions());
-        let vertices_before = run.mesh().vertex_count();
+/// What the end of a run is compared with.
+struct Beginning {
+    vertices: usize,
+    pieces: usize,
+    crumbs: usize,
+    torn_m: f64,
+}
+
+impl Beginning {
+    fn of(run: &Run) -> Beginning {
+        let pieces = Piece::all(run.mesh(), run.cloth().positions());
         // A seam that is still open at the end counts as torn.
         let is_garment = !run.scene().seams.is_empty();
-        let torn_before_m = if is_garment { 0.0 } else { run.torn_length_m() };
+        Beginning {
+            vertices: run.mesh().vertex_count(),
+            pieces: pieces.len(),
+            crumbs: Piece::crumbs(&pieces),
+            torn_m: if is_garment { 0.0 } else { run.torn_length_m() },
+        }
+    }
+}
+
+/// How the steps ended, unless one failed: the status in the report, and the exit status.
+type Ended = Result<(&'static str, Exit), StepError>;
+
+/// Verifies the mesh, its masses and the momentum, and returns the masses.
+fn verify(run: &Run, session: &mut Session<'_, '_>) -> Result<report::Mass, Stop> {
+    let drift = run.tally().momentum_drift;
+    // Each of some millions of terms is rounded; a lost particle, our bug, is far more.
+    let broken =
+        (drift > 1e-6).then(|| format!("edits changed the momentum by the fraction {drift:e}"));
+    let ledger = run.cloth().masses().ledger();
+    session.verify(run.mesh(), &ledger, report::KILOGRAM, broken)
+}
+
+impl Play<'_> {
+    fn perform(&self, mut run: Run, session: &mut Session<'_, '_>) -> Result<(), Stop> {
+        let beginning = Beginning::of(&run);
+        let mut records = self.records(&run)?;
+        session.check_places()?; // One may be in the folder of the frames.
+        let start = Instant::now();
+        let ended = self.steps(&mut run, &mut records, session)?;
+        session.timing.simulate = Some(milliseconds(start));
+        let mass = verify(&run, session)?;
+        self.report(&run, &records, &beginning, &ended, session);
+        if let Err(error) = ended {
+            session.faults.push(simulation::failure(&error, &run));
+            if run.tally().steps == 0 && run.edits().cursor() == Cursor::START {
+                session.words.clear();
+                return self.finish(records, &run, session);
+            }
+        }
+        self.write(&run, &records, session)?;
+        session.end(beginning.vertices, run.mesh(), mass);
+        self.finish(records, &run, session)
+    }
+
+    /// The records before the first step.
+    fn records(&self, run: &Run) -> Result<Records<'_>, Stop> {
         let files = &self.args.files;
         let name = files.input.display().to_string();
         let title = format!("{}: {}", crate::page::title(Some(&name)), self.name);
         let up = self.frame.up.vector();
         let is_drawn = files.wanted(&files.picture).is_some();
-        let mut records = Records {
+        Ok(Records {
             torn: TornDocument::new(&self.opened.document),
-            frames: Frames::open(self.args, &run)?,
-            tear_log: TearLog::new(&run),
+            frames: Frames::open(self.args, run)?,
+            tear_log: TearLog::new(run),
             recorder: files
                 .wanted(&files.view)
                 .map(|_| Recorder::new(&title, up, &run.scene().colliders)),
             still: is_drawn
                 .then(|| Still::new(self.args.picture_at, Texture::of(&self.opened.document))),
-        };
-        session.check_places()?; // One may be in the folder of the frames.
-        let start = Instant::now();
-        let ended = self.steps(&mut run, &mut records, session)?;
-        session.timing.simulate = Some(milliseconds(start));
+        })
+    }
 
-        let ledger = run.cloth().masses().ledger();
-        let drift = run.tally().momentum_drift;
-        // Each of some millions of terms is rounded; a lost particle, our bug, is far more.
-        let broken =
-            (drift > 1e-6).then(|| format!("edits changed the momentum by the fraction {drift:e}"));
-        let mass = session.verify(run.mesh(), &ledger, report::KILOGRAM, broken)?;
-
-        let tally = run.tally();
-        let (status, exit) = match &ended {
+    /// Reports the steps in numbers and words, with what gives reason to doubt them, and sets the exit status.
+    fn report(
+        &self,
+        run: &Run,
+        records: &Records<'_>,
+        beginning: &Beginning,
+        ended: &Ended,
+        session: &mut Session<'_, '_>,
+    ) {
+        let (status, exit) = match ended {
             Ok(ended) => *ended,
             Err(StepError::BlowUp { .. }) => ("blown up", Exit::Simulation),
             Err(StepError::Implicit { .. }) => ("unsolved", Exit::Simulation),
             Err(_) => ("unstable", Exit::Simulation),
         };
-        let pieces = Piece::all(run.mesh(), run.cloth().positions());
-        let tear = report::Tear {
-            scene: self.name.clone(),
-            solver: run.scene().solver.name(),
-            status,
-            steps: tally.steps,
-            dt_s: run.step_s(),
-            bodies: summary::bodies(&run),
-            time_simulated_s: run.elapsed_s(),
-            time_planned_s: run.scene().duration_s,
-            splits: tally.splits,
-            cap_hit: tally.steps_at_cap > 0,
-            steps_at_cap: tally.steps_at_cap,
-            pieces_before: pieces_before.len(),
-            crumbs_before: Piece::crumbs(&pieces_before),
-            pieces: pieces.len(),
-            crumbs: Piece::crumbs(&pieces),
-            tear_length_m: run.torn_length_m() - torn_before_m + 0.0, // Which is never −0.
-            max_stretch: tally.stretch_ratio_max,
-            momentum_drift: tally.momentum_drift,
-            energy_j: summary::energy(&run),
-            quality: run.quality(),
-            counters: report::Counters {
-                counters: run.cloth().system().counters(),
-                features: summary::features(&run),
-            },
-            largest_force_n: records.tear_log.largest_force_n(),
-            peak_force_n: records.tear_log.peak_force_n(),
-            first_tear: records.tear_log.first_tear(),
-            tears: records.tear_log.events().to_vec(),
-            frames: None,
-            cache: None,
-        };
-        session.faults.extend(advice::after(&run));
+        let tear = self.numbers(run, &records.tear_log, beginning, status);
+        session.faults.extend(advice::after(run));
         session.words.extend(tear.bodies.iter().map(summary::body));
         let has_cuts = !session.report.cuts.is_empty();
         session.words.push(summary::simulation(&tear, has_cuts));
         session.words.extend(summary::first_tear(&records.tear_log));
-        session.words.push(summary::balance(&run));
+        session.words.push(summary::balance(run));
         if self.args.files.verbose {
             session.words.push(summary::cost(&tear.counters.features));
         }
@@ -201,31 +219,77 @@ impl Play<'_> {
             Exit::Done if self.guard.is_interrupted() => Exit::Interrupted,
             exit => exit,
         };
-        if let Err(error) = ended {
-            session.faults.push(simulation::failure(&error, &run));
-            if tally.steps == 0 && run.edits().cursor() == Cursor::START {
-                session.words.clear();
-                return self.finish(records, &run, session);
-            }
+    }
+
+    /// The numbers of the report.
+    fn numbers(
+        &self,
+        run: &Run,
+        log: &TearLog,
+        beginning: &Beginning,
+        status: &'static str,
+    ) -> report::Tear {
+        let tally = run.tally();
+        let pieces = Piece::all(run.mesh(), run.cloth().positions());
+        report::Tear {
+            scene: self.name.clone(),
+            solver: run.scene().solver.name(),
+            status,
+            steps: tally.steps,
+            dt_s: run.step_s(),
+            bodies: summary::bodies(run),
+            time_simulated_s: run.elapsed_s(),
+            time_planned_s: run.scene().duration_s,
+            splits: tally.splits,
+            cap_hit: tally.steps_at_cap > 0,
+            steps_at_cap: tally.steps_at_cap,
+            pieces_before: beginning.pieces,
+            crumbs_before: beginning.crumbs,
+            pieces: pieces.len(),
+            crumbs: Piece::crumbs(&pieces),
+            tear_length_m: run.torn_length_m() - beginning.torn_m + 0.0, // Which is never −0.
+            max_stretch: tally.stretch_ratio_max,
+            momentum_drift: tally.momentum_drift,
+            energy_j: summary::energy(run),
+            quality: run.quality(),
+            counters: report::Counters {
+                counters: run.cloth().system().counters(),
+                features: summary::features(run),
+            },
+            largest_force_n: log.largest_force_n(),
+            peak_force_n: log.peak_force_n(),
+            first_tear: log.first_tear(),
+            tears: log.events().to_vec(),
+            frames: None,
+            cache: None,
         }
-        let positions = places(&run)?;
+    }
+
+    /// Writes the mesh, the picture and the table of forces.
+    fn write(
+        &self,
+        run: &Run,
+        records: &Records<'_>,
+        session: &mut Session<'_, '_>,
+    ) -> Result<(), Stop> {
+        let positions = places(run)?;
         let mesh = run.mesh();
         let fill = |mut out: &mut dyn Write| records.torn.write(mesh, &positions, &mut out);
         session.write(mesh, fill)?;
         if let Some(still) = &records.still {
             let end = (mesh, positions.as_slice());
             let (shown, time_s) = still.shown(end, run.elapsed_s());
-            let colliders = &run.scene().colliders;
-            let (shown, points, texture) = with_bodies(shown, colliders, time_s);
+            let (shown, points, texture) = with_bodies(shown, &run.scene().colliders, time_s);
+            let up = self.frame.up.vector();
             session.show_mesh(&self.opened.document, &shown, &points[..], up, &texture)?;
         }
         // A measurement, like the report: a dry run is often made for it.
         if let Some(path) = &self.args.forces {
-            let log = &records.tear_log;
-            output::write(path, |out| summary::write_forces(&run, log, out))?;
+            output::write(path, |out| {
+                summary::write_forces(run, &records.tear_log, out)
+            })?;
         }
-        session.end(vertices_before, mesh, mass);
-        self.finish(records, &run, session)
+        Ok(())
     }
 
     /// Writes the page, which ends with the mesh as it was written, and then the frames that waited.
@@ -260,13 +324,13 @@ impl Play<'_> {
         Ok(())
     }
 
-    /// Takes all steps, or as many as can be, and gives the status in the report with the exit status, unless one failed.
+    /// Takes all steps, or as many as can be.
     fn steps(
         &self,
         run: &mut Run,
         records: &mut Records<'_>,
         session: &mut Session<'_, '_>,
-    ) -> Result<Result<(&'static str, Exit), StepError>, Stop> {
+    ) -> Result<Ended, Stop> {
         let bar = self.bar(run.steps_planned(), "step {pos} of {len}", session);
         let mut ended = Ok(("done", Exit::Done));
         records.record(run)?;
