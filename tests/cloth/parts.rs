@@ -12,8 +12,8 @@ use tearmesh::geometry::length;
 use tearmesh::{Plane, Point, Ray, Vector, VertexId};
 use tearmesh_cloth::implicit::{Method, Settings, Stats};
 use tearmesh_cloth::{
-    Balance, Collider, ConstraintId, Implicit, LimiterStats, Loads, Path, Pbd, Provot, Quality,
-    Solver, System, Unstable, Verlet, Wind, Xpbd, energy,
+    Balance, Collider, ConstraintId, Implicit, Loads, Path, Pbd, Provot, Quality, Solver, System,
+    Unstable, Verlet, Wind, Xpbd, energy,
 };
 
 use crate::plain_verlet::PlainVerlet;
@@ -183,11 +183,15 @@ pub(crate) fn order([coarse, fine]: [f64; 2]) -> f64 {
     (coarse / fine).log2()
 }
 
-/// What Provot's limiter did in all steps so far.
-pub(crate) fn limited(provot: &Provot, system: &System) -> LimiterStats {
+/// The passes of Provot's limiter in all steps so far, and the steps in which it shortened an edge.
+pub(crate) fn limited(provot: &Provot, system: &System) -> [u64; 2] {
     match provot.quality(system) {
-        Quality::Limiter(stats) => stats,
-        _ => LimiterStats::default(),
+        Quality::Limiter {
+            passes,
+            steps_limited,
+            ..
+        } => [passes, steps_limited],
+        _ => unreachable!("Provot's model tells what its limiter did"),
     }
 }
 

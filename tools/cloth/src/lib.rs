@@ -54,7 +54,7 @@ pub use cloth::tearing::{Tearing, TearingError, Threshold};
 pub use cloth::{Cloth, ClothError};
 pub use method::implicit::{self, Implicit};
 pub use method::provot::{Limiter, Provot};
-pub use method::solver::{Abilities, Failure, LimiterStats, Quality, Solver, StepError, StepLimit};
+pub use method::solver::{Abilities, Failure, Quality, Solver, StepError, StepLimit};
 pub use method::stability::{frequency_bound, recommended_step_s, stable_step_s};
 pub use method::verlet::Verlet;
 pub use method::xpbd::{Pbd, Xpbd};

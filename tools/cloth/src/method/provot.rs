@@ -11,7 +11,7 @@
 //! with what it did itself the force that each constraint carried ([`force_n`](crate::force::force_n)).
 
 use crate::method::motion::{force_scale, kick_and_drift};
-use crate::method::solver::{Abilities, Failure, LimiterStats, Quality, Solver};
+use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::method::spring;
 use crate::system::System;
 use crate::system::error::SettingError;
@@ -26,7 +26,12 @@ use crate::system::model::Recorded;
 pub struct Provot {
     /// Infinite without a limiter.
     limiter: Limiter,
-    stats: LimiterStats,
+    // What it did so far: see [`Quality::Limiter`].
+    passes: u64,
+    steps_short: u64,
+    steps_infeasible: u64,
+    excess_max: f64,
+    steps_limited: u64,
 }
 
 /// The settings of Provot's limiter.
@@ -52,8 +57,10 @@ impl Default for Limiter {
 impl Provot {
     /// Creates the model with this limiter.
     pub fn new(limiter: Limiter) -> Provot {
-        let stats = LimiterStats::default();
-        Provot { limiter, stats }
+        Provot {
+            limiter,
+            ..Provot::default()
+        }
     }
 
     /// Creates the model without a limiter.
@@ -95,8 +102,8 @@ impl Provot {
         let scale = force_scale(model, dt_s);
         model.multipliers_mut().for_each(|lambda| *lambda *= scale);
         model.recorded = Recorded::Limiter;
-        self.stats.passes += u64::from(passes);
-        self.stats.steps_limited += u64::from(has_shortened);
+        self.passes += u64::from(passes);
+        self.steps_limited += u64::from(has_shortened);
         if largest > ratio_max {
             let stretches = system.stretches().iter();
             let longest = stretches.map(|id| system.stretch_ratio(id));
@@ -105,9 +112,9 @@ impl Provot {
             // Rounding leaves some 1e-14 of an edge that was shortened to the limit.
             let is_short = excess > 1e-9;
             let is_infeasible = is_short && last - largest < 0.01 * excess;
-            self.stats.steps_short += u64::from(is_short);
-            self.stats.steps_infeasible += u64::from(is_infeasible);
-            self.stats.excess_max = self.stats.excess_max.max(excess);
+            self.steps_short += u64::from(is_short);
+            self.steps_infeasible += u64::from(is_infeasible);
+            self.excess_max = self.excess_max.max(excess);
         }
     }
 }
@@ -123,7 +130,13 @@ impl Solver for Provot {
     }
 
     fn quality(&self, _system: &System) -> Quality {
-        Quality::Limiter(self.stats)
+        Quality::Limiter {
+            passes: self.passes,
+            steps_short: self.steps_short,
+            steps_infeasible: self.steps_infeasible,
+            excess_max: self.excess_max,
+            steps_limited: self.steps_limited,
+        }
     }
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {

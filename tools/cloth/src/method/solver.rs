@@ -116,8 +116,23 @@ pub enum Quality {
         /// the damping ratio.
         damping_capped: f64,
     },
-    /// For Provot's model: what its limiter did.
-    Limiter(LimiterStats),
+    /// For Provot's model: what its limiter did in all steps so far. Where a step was divided, each
+    /// substep counts as a step.
+    Limiter {
+        /// The number of passes over all constraints.
+        passes: u64,
+        /// The number of steps after which some edge was still longer than the limit.
+        steps_short: u64,
+        /// The number of steps in which further passes no longer helped, because held particles are
+        /// too far apart: the passes ran out, and the last one removed less than a hundredth of the
+        /// excess.
+        steps_infeasible: u64,
+        /// The largest excess of a stretch ratio over the limit after a step; 0 if the limit was
+        /// always met.
+        excess_max: f64,
+        /// The number of steps in which some edge was longer than the limit and was shortened.
+        steps_limited: u64,
+    },
     /// For XPBD: the largest difference, in newtons, between the force on a particle that the last
     /// substep used and the one that the springs have now.
     #[cfg_attr(feature = "serde", serde(rename = "residual_n"))]
@@ -133,28 +148,8 @@ impl Quality {
     /// particles that are held as well: joules that it has a part in say nothing of the cloth.
     #[must_use]
     pub fn has_limited(&self) -> bool {
-        matches!(self, Quality::Limiter(limited) if limited.steps_limited > 0)
+        matches!(self, Quality::Limiter { steps_limited, .. } if *steps_limited > 0)
     }
-}
-
-/// What the limiter of [`Provot`](crate::Provot) did in all steps so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct LimiterStats {
-    /// The number of passes over all constraints.
-    pub passes: u64,
-    /// The number of steps (or substeps) after which some edge was still longer than the limit.
-    pub steps_short: u64,
-    /// The number of steps (or substeps) in which further passes no longer helped, because held
-    /// particles are too far apart: the passes ran out, and the last one removed less than a hundredth
-    /// of the excess.
-    pub steps_infeasible: u64,
-    /// The largest excess of a stretch ratio over the limit after a step; 0 if the limit was always
-    /// met.
-    pub excess_max: f64,
-    /// The number of steps (or substeps) in which some edge was longer than the limit and was
-    /// shortened.
-    pub steps_limited: u64,
 }
 
 /// The reason why a method did not advance a system.

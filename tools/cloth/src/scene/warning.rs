@@ -363,18 +363,19 @@ fn strong(run: &Run) -> Option<Warning> {
 
 /// Provot's limiter could not hold its limit, since held vertices were too far apart.
 fn limiter(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
-    let Quality::Limiter(stats) = run.quality() else {
+    let Quality::Limiter {
+        steps_infeasible: some @ 1..,
+        excess_max,
+        ..
+    } = run.quality()
+    else {
         return None;
     };
-    if stats.steps_infeasible == 0 {
-        return None;
-    }
     let limit = match &run.scene().solver {
         Method::Provot(limiter) => limiter.stretch_ratio_max,
         _ => 1.0,
     };
-    let (some, all) = (stats.steps_infeasible, of_steps(run));
-    let most = short(limit + stats.excess_max);
+    let (all, most) = (of_steps(run), short(limit + excess_max));
     let sentence = format!(
         "in {some} of {all}, the holds were too far apart for the limiter: edges stayed up to {most} \
          times their rest length, above its limit of {limit}"
