@@ -284,8 +284,11 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
                     };
                     (format!("bound of frequencies {omega} rad/s{at}"), or)
                 }
-                StepLimit::Air(rate) => {
-                    let (vertex, per_s) = (rate.particle + 1, short(rate.rate_per_s.round()));
+                StepLimit::Air {
+                    rate_per_s,
+                    particle,
+                } => {
+                    let (vertex, per_s) = (particle + 1, short(rate_per_s.round()));
                     let why = format!("the air slows vertex {vertex} at a rate of {per_s} /s");
                     (why, "")
                 }

@@ -63,7 +63,7 @@ pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
     Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
 };
-pub use system::air::{self, AirRate};
+pub use system::air;
 pub use system::balance::{Balance, EnergyBalance};
 pub use system::bend::Buckling;
 pub use system::blow_up::BlowUpSite;

@@ -7,7 +7,6 @@ use tearmesh::CutError;
 
 use crate::method::implicit::settings as implicit;
 use crate::system::System;
-use crate::system::air::AirRate;
 use crate::system::blow_up::{BlowUpSite, Digits};
 use crate::system::error::SettingError;
 use crate::system::guard::Frequency;
@@ -253,7 +252,12 @@ pub enum StepLimit {
     /// The frequency of springs.
     Springs(Frequency),
     /// The rate at which the air slows a particle.
-    Air(AirRate),
+    Air {
+        /// A bound of the rate ([`air_rate`](crate::air::air_rate)), in 1/s.
+        rate_per_s: f64,
+        /// The index of the particle that sets the bound.
+        particle: usize,
+    },
 }
 
 impl StepError {
@@ -301,10 +305,10 @@ impl fmt::Display for StepError {
                             at.unwrap_or_default()
                         )
                     }
-                    StepLimit::Air(AirRate {
+                    StepLimit::Air {
                         rate_per_s,
                         particle,
-                    }) => {
+                    } => {
                         let per_s = Digits(*rate_per_s);
                         format!("the air slows particle {particle} at a rate of {per_s} /s")
                     }

@@ -1,13 +1,13 @@
 //! The stability limit of a step of an explicit method, given by springs and air.
 
 use crate::method::solver::{Abilities, Solver, StepError, StepLimit};
-use crate::system::air::{self, AirRate};
+use crate::system::air;
 use crate::system::guard::{Frequency, Guard};
 use crate::system::{System, Unstable};
 
-/// What the air takes of a step: the rate at which it slows, and one over the longest step in seconds that is
-/// stable without springs.
-type AirShare = (AirRate, f64);
+/// What the air takes of a step: the rate at which it slows, with the particle ([`air_rate`](air::air_rate)),
+/// and one over the longest step in seconds that is stable without springs.
+type AirShare = ((f64, usize), f64);
 
 /// How many substeps a step takes, by the springs of an explicit method, and by air that a method takes in by
 /// the velocities before. With light particles carried there are none up to twice the step that suits, and
@@ -56,7 +56,7 @@ fn limit(system: &mut System, abilities: Abilities) -> (f64, Option<AirShare>) {
     };
     let air_share = |limit| {
         let rate = air::air_rate(system, abilities.takes_drag_explicitly)?;
-        Some((rate, rate.rate_per_s / limit))
+        Some((rate, rate.0 / limit))
     };
     (springs_s, abilities.air_limit.and_then(air_share))
 }
@@ -69,7 +69,10 @@ fn refused(
     air: Option<AirShare>,
 ) -> StepError {
     let by = match air.filter(|(_, per_s)| per_s * springs_s > 1.0) {
-        Some((rate, _)) => StepLimit::Air(rate),
+        Some(((rate_per_s, particle), _)) => StepLimit::Air {
+            rate_per_s,
+            particle,
+        },
         None => StepLimit::Springs(frequency_bound(system)),
     };
     StepError::Unstable {

@@ -29,18 +29,10 @@ use tearmesh::geometry::{cross, dot};
 
 use crate::system::System;
 
-/// A bound on the rate at which air slows a system, and the particle that sets it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AirRate {
-    /// The rate λ, in 1/s.
-    pub rate_per_s: f64,
-    /// The index of the particle that sets the bound.
-    pub particle: usize,
-}
-
-/// Returns a bound on the rate at which wind slows the system with its present areas, and drag if it is to
-/// count; `None` if nothing slows it. Costs a pass over all faces if there is wind.
-pub fn air_rate(system: &mut System, counts_drag: bool) -> Option<AirRate> {
+/// Returns a bound on the rate λ at which wind slows the system with its present areas, and drag if it is to
+/// count, in 1/s, with the index of the particle that sets the bound; `None` if nothing slows it. Costs a pass
+/// over all faces if there is wind.
+pub fn air_rate(system: &mut System, counts_drag: bool) -> Option<(f64, usize)> {
     let (loads, areas) = (&system.model.loads, &mut system.scratch.areas);
     let coefficient = loads.wind.map_or(0.0, |wind| wind.coefficient);
     let drag_per_s = loads.drag_per_s.filter(|_| counts_drag).unwrap_or(0.0);
@@ -62,17 +54,11 @@ pub fn air_rate(system: &mut System, counts_drag: bool) -> Option<AirRate> {
     }
     let particles = areas.iter().zip(&system.model.inverse_masses).enumerate();
     let free = particles.filter(|(_, (_, w))| **w > 0.0);
-    let rates = free.map(|(particle, (area, w))| AirRate {
-        rate_per_s: w * coefficient * area / 3.0 + drag_per_s,
-        particle,
+    let rates = free.map(|(particle, (area, w))| {
+        let rate_per_s = w * coefficient * area / 3.0 + drag_per_s;
+        (rate_per_s, particle)
     });
     // A state that is not finite is for the step to find.
-    let finite = rates.filter(|one| one.rate_per_s > 0.0 && one.rate_per_s.is_finite());
-    finite.reduce(|most, one| {
-        if one.rate_per_s > most.rate_per_s {
-            one
-        } else {
-            most
-        }
-    })
+    let finite = rates.filter(|&(per_s, _)| per_s > 0.0 && per_s.is_finite());
+    finite.reduce(|most, one| if one.0 > most.0 { one } else { most })
 }
