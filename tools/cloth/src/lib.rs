@@ -58,7 +58,7 @@ pub use method::solver::{Abilities, Failure, Quality, Solver, StepError, StepLim
 pub use method::stability::{frequency_bound, recommended_step_s, stable_step_s};
 pub use method::verlet::Verlet;
 pub use method::xpbd::{Pbd, Xpbd};
-pub use method::{FRAME_S, Method, Softness};
+pub use method::{FRAME_S, Method};
 pub use simulation::{
     BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
     Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,

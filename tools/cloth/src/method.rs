@@ -207,18 +207,16 @@ fn reach(sweeps: u32, fraction: f64) -> f64 {
     (f64::from(sweeps.max(1)) * fraction).sqrt()
 }
 
-/// The excess softness of a cloth compared with its fabric: the result of
-/// [`Run::softness`](crate::scene::Run::softness).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Softness {
+/// How much softer a cloth is left than its fabric.
+pub(crate) struct Softness {
     /// The mean excess stretch of the edges of a cloth that hangs at rest, as a fraction of the
     /// stretch that the fabric's stiffness gives.
-    pub extra: f64,
-    /// The longest step in seconds at which the excess is at most a twentieth.
-    pub step_s: f64,
+    pub(crate) extra: f64,
+    /// The longest step in seconds at which the excess is tolerable.
+    pub(crate) step_s: f64,
 }
 
 impl Softness {
     /// The excess stretch up to which no warning is given, as a fraction.
-    pub const TOLERABLE: f64 = 0.05;
+    pub(crate) const TOLERABLE: f64 = 0.05;
 }

@@ -21,7 +21,6 @@ use super::frame::Frame;
 use super::{Scene, SwayingWind};
 use crate::cloth::Cloth;
 use crate::cloth::tearing::apply::TearReport;
-use crate::method::Softness;
 use crate::method::solver::{Quality, Solver, StepError};
 use crate::simulation::Simulation;
 use crate::simulation::definition::SimulationDef;
@@ -430,11 +429,14 @@ impl Run {
     }
 
     /// Returns an estimate, from the masses, of how much softer XPBD leaves the cloth than its
-    /// fabric at the step of this scene; `None` for other methods. Takes linear time.
+    /// fabric at the step of this scene: the mean excess stretch of the edges of a cloth that hangs
+    /// at rest, as a fraction of the stretch that the fabric's stiffness gives; `None` for other
+    /// methods. Takes linear time.
     #[must_use]
-    pub fn softness(&self) -> Option<Softness> {
+    pub fn softness(&self) -> Option<f64> {
         let system = self.cloth().system();
-        self.scene.solver.softness(system, self.step_s())
+        let softness = self.scene.solver.softness(system, self.step_s());
+        softness.map(|softness| softness.extra)
     }
 
     /// Returns the time simulated so far, in seconds.

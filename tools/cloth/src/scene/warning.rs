@@ -214,9 +214,12 @@ fn late(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warning> {
     })
 }
 
-/// XPBD leaves the cloth softer than its fabric by more than [`Softness::TOLERABLE`].
+/// XPBD leaves the cloth softer than its fabric by more than is tolerable.
 fn soft(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
-    let softness = run.softness();
+    let softness = run
+        .scene()
+        .solver
+        .softness(run.cloth().system(), run.step_s());
     let softness = softness.filter(|softness| softness.extra > Softness::TOLERABLE)?;
     let step = short(run.step_s());
     let extra = short((softness.extra * 100.0).round());
