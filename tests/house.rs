@@ -101,7 +101,7 @@ const FLOORS: [&str; 5] = [
 
 /// The floors of the rooms of `tools/cloth`, from below, and of the files that stand beside them.
 const CLOTH_FLOORS: [&str; 6] = [
-    "system statistics text",
+    "system text digest",
     "method",
     "cloth",
     "simulation",

@@ -40,11 +40,14 @@ pub use tearmesh;
 mod cloth;
 #[cfg(feature = "serde")]
 mod data;
+#[doc(hidden)]
+pub mod digest;
 pub mod guide;
 mod method;
 pub mod scene;
 mod simulation;
 mod system;
+#[doc(hidden)]
 pub mod text;
 
 pub use cloth::fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};

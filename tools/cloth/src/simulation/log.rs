@@ -17,6 +17,8 @@ use std::str::FromStr;
 
 use tearmesh::{Mesh, Positions};
 
+use crate::digest;
+
 /// The inputs of a [`Simulation`](super::Simulation), and the number of steps that it took.
 /// [`Display`](fmt::Display) writes the log as text, and [`FromStr`] reads it.
 ///
@@ -176,8 +178,7 @@ fn at_end<'t>(
     }
 }
 
-/// A digest of a mesh, its positions and a definition (the 64 bits of FNV-1a). It tells apart what
-/// differs by accident. The definition goes in as its `Debug` text, in which every number is told
+/// A digest of a mesh, its positions and a definition. The definition goes in as its `Debug` text, in which every number is told
 /// from every other.
 pub(super) fn digest(mesh: &Mesh, positions: &Positions, def: &impl fmt::Debug) -> u64 {
     let words = mesh.indices().iter().copied().chain(mesh.roots());
@@ -185,7 +186,5 @@ pub(super) fn digest(mesh: &Mesh, positions: &Positions, def: &impl fmt::Debug) 
     let bytes = words.flat_map(u32::to_le_bytes);
     let bytes = bytes.chain(points.flat_map(f64::to_le_bytes));
     let bytes = bytes.chain(format!("{def:?}").into_bytes());
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+    digest::after(digest::EMPTY, bytes)
 }

@@ -19,6 +19,8 @@ use std::fmt;
 use tearmesh::DisjointSets;
 use tearmesh::geometry::{Point, Vector, check_point, cross, dot, length};
 
+use crate::digest;
+
 /// The cells within which distances are exact, on both sides of the skin.
 const BAND: f64 = 3.0;
 
@@ -242,10 +244,8 @@ fn between(c: [f64; 8], [u, v, w]: [f64; 3]) -> f64 {
 /// The numbers of the grid, and a digest of all distances.
 impl fmt::Debug for Body {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let bits = self.distances.iter().map(|d| u64::from(d.to_bits()));
-        let digest = bits.fold(0xcbf2_9ce4_8422_2325_u64, |hash, bits| {
-            (hash ^ bits).wrapping_mul(0x0100_0000_01b3)
-        });
+        let bits = self.distances.iter().map(|d| d.to_bits());
+        let digest = digest::after(digest::EMPTY, bits);
         f.debug_struct("Body")
             .field("grid", &self.grid)
             .field("error_worst_m", &self.error_worst_m)

@@ -7,6 +7,7 @@ use tearmesh::{CutLayers, Edits, Mesh, Positions, Scissor, VertexId};
 use tearmesh_cloth::scene::{Frame, SwayingWind};
 use tearmesh_cloth::{
     ClothBuffers, Collider, Event, HandId, InputLog, Simulation, SimulationDef, Wind, Wounds,
+    digest,
 };
 use tearmesh_obj::{Document, TornDocument};
 
@@ -146,7 +147,7 @@ impl<'d> Player<'d> {
             is_wind_of_scene: true,
             grip_radius_m: Simulation::GRIP_RADIUS_M * size_m,
             hands: Vec::new(),
-            events_hash: FNV_BASIS,
+            events_hash: digest::EMPTY,
             facts: Facts::default(),
             sim,
         }
@@ -178,7 +179,7 @@ impl<'d> Player<'d> {
 
     fn note_events(&mut self) {
         for event in self.sim.events() {
-            self.events_hash = hashed(self.events_hash, format!("{event:?}").into_bytes());
+            self.events_hash = digest::after(self.events_hash, format!("{event:?}").into_bytes());
             match event {
                 Event::Tore { .. } => self.facts.tears += 1,
                 Event::Cut { splits, .. } => self.facts.cut_splits = splits,
@@ -330,7 +331,7 @@ impl<'d> Player<'d> {
         let ids = mesh.indices().iter().copied().chain(mesh.roots());
         let bytes = numbers.flat_map(f64::to_le_bytes);
         let bytes = bytes.chain(ids.flat_map(u32::to_le_bytes));
-        hashed(self.events_hash, bytes)
+        digest::after(self.events_hash, bytes)
     }
 
     /// Returns what the cloth is drawn from: see [`Simulation::draw_buffers`].
@@ -431,13 +432,4 @@ pub(crate) fn words<T>(done: Result<T, impl Display>) -> Result<T, String> {
 fn split_log(log: &str) -> Option<(&str, &str)> {
     let rest = log.strip_prefix(HEAD)?;
     Some(rest.split_at(rest.find("tearmesh inputs")?))
-}
-
-/// The 64 bits of FNV-1a.
-const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
-
-fn hashed(basis: u64, bytes: impl IntoIterator<Item = u8>) -> u64 {
-    bytes.into_iter().fold(basis, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
 }
