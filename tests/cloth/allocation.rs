@@ -3,8 +3,8 @@
 use allocation_counter::measure;
 use tearmesh::{Point, Scissor, Vector, shapes};
 use tearmesh_cloth::{
-    Bending, Buckling, Fabric, HandId, Method, Simulation, SimulationDef, Tearing, Threshold,
-    Unbend, Unstable, Wounds,
+    BendRemoval, Bending, Buckling, Fabric, HandId, Method, Simulation, SimulationDef, Tearing,
+    Threshold, Unstable, Wounds,
 };
 
 use crate::parts::cloths::{bent, loaded};
@@ -26,7 +26,7 @@ fn steps_of_a_cloth_do_not_allocate() {
     let springs = bent(Fabric::new(50.0), 1.0);
     let woven = Fabric {
         bend: buckling,
-        ..Fabric::woven(weave())
+        ..Fabric::orthotropic(weave())
     };
     for (fabric, names) in [
         (springs, ["guarded", "limited", "PBD", "XPBD", "RK4"]),
@@ -91,7 +91,7 @@ fn steps_of_a_simulation_do_not_allocate() {
 #[test]
 fn tears_of_a_simulation_do_not_allocate() {
     let bending = Fabric {
-        unbend: Unbend::Vertex,
+        bend_removal: BendRemoval::Vertex,
         ..bent(Fabric::new(1000.0), 2.0)
     };
     let explicit = Method::NAMES.into_iter().filter(|name| *name != "implicit");

@@ -4,8 +4,8 @@ use tearmesh::{Edits, Point, Vector, mend, shapes, split};
 use tearmesh_cloth::implicit;
 use tearmesh_cloth::scene::{EnergyGain, Frame, Scene};
 use tearmesh_cloth::{
-    Balance, Collider, Copies, EnergyBalance, Fabric, Limiter, Loads, Method, Solver, System,
-    Tearing, Threshold, Unstable, Verlet, Xpbd,
+    Balance, Collider, EnergyBalance, Fabric, Limiter, Loads, Method, Solver, System, Tearing,
+    Threshold, TornStiffness, Unstable, Verlet, Xpbd,
 };
 
 use crate::parts::cloths::{cloth, loaded, of_edges};
@@ -222,7 +222,7 @@ fn an_impact_takes_motion() {
 #[test]
 fn edits_make_what_is_there_after_and_was_not_before() {
     let loads = pulled(Vector::y() * -10.0, 0.0);
-    let (mut mesh, mut cloth) = loaded(4, of_edges(50.0, Copies::Whole), loads);
+    let (mut mesh, mut cloth) = loaded(4, of_edges(50.0, TornStiffness::Whole), loads);
     let system = cloth.system_mut();
     let (x, v) = system.state_mut();
     for (i, (x, v)) in x.iter_mut().zip(v).enumerate() {

@@ -6,8 +6,8 @@ use tearmesh::{
     VertexId, mend, shapes, split,
 };
 use tearmesh_cloth::{
-    Bending, Buckling, Cloth, Constraint, Copies, Fabric, Stretch, Tear, Tearing, Threshold,
-    Unbend, Unstable, Xpbd, energy, frequency_bound,
+    BendRemoval, Bending, Buckling, Cloth, Constraint, Fabric, Stretch, Tear, Tearing, Threshold,
+    TornStiffness, Unstable, Xpbd, energy, frequency_bound,
 };
 
 use crate::parts::cloths::{Done, bent, cloth, edit, momentum, of_edges, split_off};
@@ -105,15 +105,15 @@ pub(crate) fn check_anew(mesh: &Mesh, cloth: &Cloth, fabric: Fabric, bends: bool
     let anew = Cloth::with_rest(mesh, &now, corners, masses, fabric).expect("a cloth made anew");
     let [triangles, others] = [cloth, &anew].map(|cloth| cloth.system().triangles());
     assert_eq!(triangles, others);
-    let woven = fabric.weave.map_or(0, |_| mesh.face_count());
+    let woven = fabric.orthotropic.map_or(0, |_| mesh.face_count());
     assert_eq!(triangles.len(), woven);
     let counted = cloth.system().counters().features.triangle;
-    assert!(fabric.weave.is_some() || counted == 0);
+    assert!(fabric.orthotropic.is_some() || counted == 0);
     let double_area = |[p, q, r]: [Point; 3]| (q - p).cross(&(r - p));
     // By definition: at rest warp and weft are unit vectors in the face, warp along the projection of its
     // direction.
     for (f, triangle) in mesh.faces().zip(triangles) {
-        let (corners, weave) = (mesh.face_vertices(f), fabric.weave.expect("a weave"));
+        let (corners, weave) = (mesh.face_vertices(f), fabric.orthotropic.expect("a weave"));
         assert_eq!(triangle.vertices, corners.map(|v| v.index() as u32));
         let normal = double_area(rest(f));
         near(triangle.area, 0.5 * normal.norm(), 1e-12);
@@ -169,10 +169,13 @@ fn bends_of(cloth: &Cloth) -> Vec<([usize; 2], [u64; 2])> {
     all
 }
 
-fn fabric(copies: Copies, unbend: Unbend, bend: bool) -> Fabric {
-    let edges = of_edges(50.0, copies);
+fn fabric(torn: TornStiffness, bend_removal: BendRemoval, bend: bool) -> Fabric {
+    let edges = of_edges(50.0, torn);
     let fabric = if bend { bent(edges, 3.0) } else { edges };
-    Fabric { unbend, ..fabric }
+    Fabric {
+        bend_removal,
+        ..fabric
+    }
 }
 
 /// What a cloth tears by, one split at a time, with strengths of its vertices; and what these must be: values that
@@ -229,7 +232,7 @@ fn torn_j(cloth: &Cloth, edits: &Edits) -> Vec<f64> {
 /// What the last record made, by a cloth that has followed it and what its links stored before. By halves that is
 /// nothing, and by whole copies as much again. Sides that disagree on the length of an edge strained each other in
 /// it, which shows once they part.
-fn made_j(cloth: &Cloth, edits: &Edits, before: &[f64], copies: Copies) -> f64 {
+fn made_j(cloth: &Cloth, edits: &Edits, before: &[f64], torn: TornStiffness) -> f64 {
     let Some(Edit::Split(split)) = edits.iter().last() else {
         return 0.0;
     };
@@ -237,10 +240,10 @@ fn made_j(cloth: &Cloth, edits: &Edits, before: &[f64], copies: Copies) -> f64 {
     let of = |(link, &before_j): (&TornLink, &f64)| {
         let sides = [link.stayed, link.moved];
         let [one, other] = sides.map(|h| (rest(h.next()) - rest(h)).norm());
-        match copies {
+        match torn {
             _ if one != other => sides.map(|h| stretch_j(cloth, h)).iter().sum::<f64>() - before_j,
-            Copies::Whole => before_j,
-            Copies::Halved => 0.0,
+            TornStiffness::Whole => before_j,
+            TornStiffness::Halved => 0.0,
         }
     };
     split.torn.iter().zip(before).map(of).sum()
@@ -258,15 +261,19 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             2 => shapes::tube(4, 3),
             _ => shapes::octahedron(),
         };
-        let copies = [Copies::Whole, Copies::Halved, Copies::Halved][seed as usize % 3];
+        let copies = [
+            TornStiffness::Whole,
+            TornStiffness::Halved,
+            TornStiffness::Halved,
+        ][seed as usize % 3];
         let with_bends = seed % 5 < 3;
-        let unbend = [Unbend::Seam, Unbend::Vertex][usize::from(seed % 5 == 2)];
-        let bends = with_bends && unbend == Unbend::Seam;
+        let unbend = [BendRemoval::Seam, BendRemoval::Vertex][usize::from(seed % 5 == 2)];
+        let bends = with_bends && unbend == BendRemoval::Seam;
         let mut fabric = fabric(copies, unbend, with_bends);
         // Thirty are of triangles, every second of them without springs along edges.
         if (60..90).contains(&seed) {
             let warp = Vector::new(1.0, 0.3, 0.15);
-            fabric.weave = Some(of_moduli([60.0, 35.0, 4.0], warp));
+            fabric.orthotropic = Some(of_moduli([60.0, 35.0, 4.0], warp));
             if seed % 2 == 1 {
                 fabric.stretch = Stretch::Slack;
             }
@@ -324,7 +331,7 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             let shapes: Vec<Vector> = (0..mesh.vertex_count()).map(shape).collect();
             assert!(rayleigh_quotient(cloth.system(), &shapes) <= known * known);
             if random.next() < 0.3 {
-                let takes_springs_alone = fabric.weave.is_none()
+                let takes_springs_alone = fabric.orthotropic.is_none()
                     && !matches!(fabric.bend, Some(Bending::Buckling { .. }));
                 let name = if takes_springs_alone { "XPBD" } else { "RK4" };
                 let taken = cloth.step(&mut *method(name, 1), 1e-3);
@@ -432,8 +439,8 @@ fn pieces_of_a_face_without_area_fall_and_meet_again() {
 #[test]
 fn a_merge_undoes_a_split_and_pins_are_inherited() {
     let (mut mesh, positions) = shapes::grid(4, 4);
-    for copies in [Copies::Halved, Copies::Whole] {
-        let fabric = fabric(copies, Unbend::Seam, true);
+    for copies in [TornStiffness::Halved, TornStiffness::Whole] {
+        let fabric = fabric(copies, BendRemoval::Seam, true);
         let mut cloth = cloth(&mesh, &positions, fabric);
         cloth.system_mut().hold(12);
         let sets = |cloth: &Cloth| {

@@ -18,6 +18,7 @@ mod held;
 mod implicit;
 mod limiter;
 mod meshes;
+mod orthotropic;
 mod overstretched;
 mod parsimony;
 mod parts;
@@ -47,7 +48,6 @@ mod tearing_order;
 #[path = "../support/vectors.rs"]
 mod vectors;
 mod watch;
-mod weave;
 mod wheel;
 
 use support::{digest, plain, random};

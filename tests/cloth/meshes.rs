@@ -57,7 +57,7 @@ fn springs() -> Fabric {
 
 fn triangles() -> Fabric {
     let moduli = [1.0, 1.0, 0.5].map(|part| part * MODULUS_N_PER_M);
-    Fabric::woven(of_moduli(moduli, Vector::y()))
+    Fabric::orthotropic(of_moduli(moduli, Vector::y()))
 }
 
 /// The droop of the lower edge's middle, and the 99th percentile of the strains of edges that lie further

@@ -84,10 +84,10 @@ fn a_scene_pays_for_what_it_uses_and_for_nothing_else() {
 /// The log of a cut changes what is there to be visited, and visits nothing.
 #[test]
 fn a_cut_through_a_cloth_visits_no_element() {
-    for fabric in [Fabric::default(), Fabric::woven(weave())] {
+    for fabric in [Fabric::default(), Fabric::orthotropic(weave())] {
         let (run, counters) = cost(2, |scene| scene.fabric = fabric);
         let triangles = counters.features.triangle;
-        assert_eq!(triangles > 0, fabric.weave.is_some());
+        assert_eq!(triangles > 0, fabric.orthotropic.is_some());
         assert_eq!(triangles % run.mesh().face_count() as u64, 0);
         let (mut mesh, mut cloth) = (run.mesh().clone(), run.cloth().clone());
         let now = cloth.positions().iter().map(|p| [p.x, p.y, p.z]);

@@ -107,7 +107,7 @@ fn a_step_is_the_dense_solution_where_some_are_held() {
 #[test]
 fn a_solver_that_has_followed_tears_steps_as_a_new_one() {
     let fabric = Fabric {
-        weave: Some(weave()),
+        orthotropic: Some(weave()),
         bend: Some(Bending::Buckling {
             rigidity_n_m: 1e-3,
             law: Buckling::new(0.9).expect("a law"),

@@ -5,7 +5,9 @@ use tearmesh::{
     Edit, Edits, ExactSum, FaceId, HalfEdgeId, Masses, Mesh, Point, Positions, VertexId, mend,
     shapes, slide, split,
 };
-use tearmesh_cloth::{Bending, Cloth, Copies, Fabric, Loads, Stretch, Tear, TearReport, Tearing};
+use tearmesh_cloth::{
+    Bending, Cloth, Fabric, Loads, Stretch, Tear, TearReport, Tearing, TornStiffness,
+};
 
 use crate::random::Random;
 
@@ -34,10 +36,10 @@ pub(crate) fn split_off(mesh: &mut Mesh, cloth: &mut Cloth, v: VertexId, faces: 
 }
 
 /// Springs of one stiffness, whose copies are as stiff as that.
-pub(crate) fn of_edges(stiffness_n_per_m: f64, copies: Copies) -> Fabric {
+pub(crate) fn of_edges(stiffness_n_per_m: f64, torn: TornStiffness) -> Fabric {
     let stretch = Stretch::Edges {
         stiffness_n_per_m,
-        copies,
+        torn,
     };
     Fabric {
         stretch,

@@ -1,7 +1,7 @@
 //! Cloth of triangles.
 
 use tearmesh::{Mesh, Point, Positions, Vector, shapes};
-use tearmesh_cloth::{Cloth, Fabric, System, Unstable, Weave};
+use tearmesh_cloth::{Cloth, Fabric, Orthotropic, System, Unstable};
 
 use super::cloths::cloth;
 use super::gravity;
@@ -40,8 +40,8 @@ pub(crate) fn strip(rows: usize, mass: f64, stiffness: f64, rest: f64, apart: Ve
 }
 
 /// A weave of these moduli, by warp, by weft and in shear.
-pub(crate) fn of_moduli([warp, weft, shear]: [f64; 3], along: Vector) -> Weave {
-    Weave {
+pub(crate) fn of_moduli([warp, weft, shear]: [f64; 3], along: Vector) -> Orthotropic {
+    Orthotropic {
         warp_n_per_m: warp,
         weft_n_per_m: weft,
         shear_n_per_m: shear,
@@ -50,20 +50,20 @@ pub(crate) fn of_moduli([warp, weft, shear]: [f64; 3], along: Vector) -> Weave {
 }
 
 /// A soft weave whose warp lies in no edge of a grid.
-pub(crate) fn weave() -> Weave {
+pub(crate) fn weave() -> Orthotropic {
     of_moduli([120.0, 80.0, 15.0], Vector::new(1.0, 0.4, 0.0))
 }
 
 /// A square metre in n × n cells, of this weave.
-pub(crate) fn sheet(n: u32, weave: Weave) -> (Mesh, Positions, Cloth) {
+pub(crate) fn sheet(n: u32, weave: Orthotropic) -> (Mesh, Positions, Cloth) {
     let (mesh, positions) = shapes::grid(n, n);
-    let cloth = cloth(&mesh, &positions, Fabric::woven(weave));
+    let cloth = cloth(&mesh, &positions, Fabric::orthotropic(weave));
     (mesh, positions, cloth)
 }
 
 /// A square metre in n × n cells, of this weave, held at its whole border and sagging, with so much
 /// drag that it comes to rest.
-pub(crate) fn framed(n: u32, weave: Weave) -> Cloth {
+pub(crate) fn framed(n: u32, weave: Orthotropic) -> Cloth {
     let (mesh, positions, mut cloth) = sheet(n, weave);
     for v in mesh.vertices() {
         let p = positions.at(v);

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use tearmesh::{Point, Vector};
-use tearmesh_cloth::{Cloth, Solver, System, Weave, energy, force, frequency_bound};
+use tearmesh_cloth::{Cloth, Orthotropic, Solver, System, energy, force, frequency_bound};
 
 use super::{Links, METHODS, theory};
 use crate::parts::nets::{framed, relaxed, relaxed_net, row};
@@ -251,7 +251,7 @@ fn r11(links: Links, name: &str) -> Cell {
 
 /// Where a sheet of triangles rests that is flat without loads.
 fn relaxed_sheet(sheet: &Cloth) -> Vec<Point> {
-    let Weave {
+    let Orthotropic {
         warp_n_per_m: k_u,
         weft_n_per_m: k_v,
         shear_n_per_m: k_s,

@@ -3,7 +3,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tearmesh::{CutLayers, CutMethod, CutTips};
 use tearmesh_cloth::scene::{Axis, Preset, Scene};
-use tearmesh_cloth::{Copies, Method, Unbend, implicit};
+use tearmesh_cloth::{BendRemoval, Method, TornStiffness, implicit};
 
 /// A type of which users choose a value by a word.
 pub(crate) trait Choice: Copy + Send + Sync + 'static {
@@ -88,14 +88,16 @@ pub(crate) fn method() -> impl TypedValueParser<Value = Method> {
     names.map(|name| Method::named(&name).expect("the parser knows no other name"))
 }
 
-impl Choice for Copies {
-    const ALL: &'static [(&'static str, Copies)] =
-        &[("halved", Copies::Halved), ("whole", Copies::Whole)];
+impl Choice for TornStiffness {
+    const ALL: &'static [(&'static str, TornStiffness)] = &[
+        ("halved", TornStiffness::Halved),
+        ("whole", TornStiffness::Whole),
+    ];
 }
 
-impl Choice for Unbend {
-    const ALL: &'static [(&'static str, Unbend)] =
-        &[("seam", Unbend::Seam), ("vertex", Unbend::Vertex)];
+impl Choice for BendRemoval {
+    const ALL: &'static [(&'static str, BendRemoval)] =
+        &[("seam", BendRemoval::Seam), ("vertex", BendRemoval::Vertex)];
 }
 
 /// The order of an implicit method.

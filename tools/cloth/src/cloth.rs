@@ -3,9 +3,9 @@
 pub(crate) mod fabric;
 pub(crate) mod follow;
 pub(crate) mod held_set;
+mod orthotropic;
 pub(crate) mod seam;
 pub(crate) mod tearing;
-mod weave;
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ use crate::system::error::SettingError;
 use crate::system::incidence::room_for;
 
 /// A system with a particle for each vertex and a stretch constraint for each edge of a mesh, and
-/// with a [`Weave`](crate::Weave) a triangle for each face.
+/// with a [`Orthotropic`](crate::Orthotropic) a triangle for each face.
 ///
 /// The mesh stays with the caller; a cloth is one more [`Follower`](tearmesh::Follower) of its log.
 /// A split, an insertion or a merge in a running simulation costs time proportional to the valence
@@ -217,7 +217,7 @@ impl Cloth {
                 }
             }
         }
-        cloth.weave()?;
+        cloth.add_triangles()?;
         Ok(cloth)
     }
 
@@ -502,7 +502,7 @@ pub enum ClothError {
         /// The rest length between them, in metres.
         given: f64,
     },
-    /// A face of a cloth with a [`Weave`](crate::Weave) has no area at rest, or the direction of
+    /// A face of a cloth with a [`Orthotropic`](crate::Orthotropic) has no area at rest, or the direction of
     /// warp is perpendicular to it.
     Face {
         /// The face that cannot be used.

@@ -24,7 +24,7 @@
 //! Explicit Euler (never stable) and the one-step midpoint rule (gains energy) are not offered.
 //!
 //! Stretch is resisted by springs along edges ([`Stretch`]), by triangles with a modulus for warp, weft and shear
-//! ([`Weave`]), or by both. Bending is resisted by springs across edges, or by arcs that buckle
+//! ([`Orthotropic`]), or by both. Bending is resisted by springs across edges, or by arcs that buckle
 //! ([`Bending`]). [`Pbd`] and [`Xpbd`] project springs alone, and are refused if there are
 //! triangles or arcs.
 //!
@@ -50,7 +50,7 @@ mod system;
 #[doc(hidden)]
 pub mod text;
 
-pub use cloth::fabric::{Bending, Copies, Fabric, Stretch, Unbend, Weave};
+pub use cloth::fabric::{BendRemoval, Bending, Fabric, Orthotropic, Stretch, TornStiffness};
 pub use cloth::seam::{Seam, SeamError, SeamFault};
 pub use cloth::tearing::apply::{Tear, TearReport};
 pub use cloth::tearing::{Tearing, TearingError, Threshold};

@@ -74,7 +74,7 @@ pub struct Scene {
 impl Scene {
     /// The version of scenes as data. It is raised whenever a field is added, renamed or removed, or means something
     /// else, so that a program can refuse to hand a scene to another one that would misread it.
-    pub const FORMAT: u32 = 1;
+    pub const FORMAT: u32 = 2;
 
     /// Returns the loads with which the scene begins.
     #[must_use]

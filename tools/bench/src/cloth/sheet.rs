@@ -1,7 +1,7 @@
 //! A sheet that hangs by its upper edge.
 
 use tearmesh::{Masses, Mesh, Point, Vector, shapes};
-use tearmesh_cloth::{Cloth, Fabric, Loads, Method, System, Weave, Xpbd};
+use tearmesh_cloth::{Cloth, Fabric, Loads, Method, System, Orthotropic, Xpbd};
 
 use crate::options::Options;
 
@@ -21,13 +21,13 @@ pub(super) fn hanging(n: u32) -> (Mesh, Cloth) {
 /// The same mesh, masses and held row, of triangles in place of constraints: as stiff along warp and
 /// weft, and a tenth of that in shear.
 pub(super) fn woven(n: u32) -> (Mesh, Cloth) {
-    let weave = Weave {
+    let moduli = Orthotropic {
         warp_n_per_m: STIFFNESS_N_PER_M,
         weft_n_per_m: STIFFNESS_N_PER_M,
         shear_n_per_m: 0.1 * STIFFNESS_N_PER_M,
         warp: Vector::x(),
     };
-    hung(n, Fabric::woven(weave))
+    hung(n, Fabric::orthotropic(moduli))
 }
 
 fn hung(n: u32, fabric: Fabric) -> (Mesh, Cloth) {

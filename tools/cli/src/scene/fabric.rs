@@ -2,7 +2,7 @@
 
 use tearmesh_cloth::Method;
 use tearmesh_cloth::scene::{Frame, Scene};
-use tearmesh_cloth::{Bending, Buckling, Stretch, Weave};
+use tearmesh_cloth::{Bending, Buckling, Orthotropic, Stretch};
 
 use super::apply::vector;
 use super::kinds::set;
@@ -19,7 +19,7 @@ impl SceneFile {
         let density = table.get("density_kg_per_m2");
         set(&mut scene.areal_density_kg_per_m2, density);
         set(&mut fabric.damping_s, table.get("damping_s"));
-        set(&mut fabric.unbend, table.word("unbend"));
+        set(&mut fabric.bend_removal, table.word("unbend"));
         faults.extend(self.stretch(table, scene).err());
         faults.extend(self.bend(table, scene).err());
         faults.extend(self.weave(table, scene, frame).err());
@@ -33,7 +33,7 @@ impl SceneFile {
         if let Some(stiffness_n_per_m) = table.get("stretch_n_per_m") {
             *stretch = Stretch::Edges {
                 stiffness_n_per_m,
-                copies: table.word("copies").unwrap_or_default(),
+                torn: table.word("copies").unwrap_or_default(),
             };
         }
         let has = |key| table.has(key);
@@ -88,7 +88,7 @@ impl SceneFile {
             return Ok(());
         };
         let modulus = |key| table.get(key).ok_or_else(|| self.missing(table, key));
-        scene.fabric.weave = Some(Weave {
+        scene.fabric.orthotropic = Some(Orthotropic {
             warp_n_per_m: modulus(keys[0])?,
             weft_n_per_m: modulus(keys[1])?,
             shear_n_per_m: table.get("shear_n_per_m").unwrap_or(0.0),

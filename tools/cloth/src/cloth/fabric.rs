@@ -16,7 +16,7 @@ pub struct Fabric {
     /// The resistance of edges to stretch.
     pub stretch: Stretch,
     /// The moduli of triangles that resist stretch and shear; `None` for no triangles.
-    pub weave: Option<Weave>,
+    pub orthotropic: Option<Orthotropic>,
     /// The bending resistance across each interior edge; `None` for no resistance.
     pub bend: Option<Bending>,
     /// The damping as a time τ, in seconds; zero for none. A spring of stiffness k is damped along its edge
@@ -26,7 +26,7 @@ pub struct Fabric {
     /// lose energy of their own.
     pub damping_s: f64,
     /// The bend constraints that a split removes.
-    pub unbend: Unbend,
+    pub bend_removal: BendRemoval,
 }
 
 /// The resistance of the edges of a cloth to stretch.
@@ -51,9 +51,9 @@ pub enum Stretch {
         /// The stiffness of an edge, in N/m; positive.
         stiffness_n_per_m: f64,
         /// How the stiffness of a torn edge is divided between its two constraints.
-        copies: Copies,
+        torn: TornStiffness,
     },
-    /// Edges that are measured, for thresholds of stretch, but exert no force. The cloth needs a [`Weave`].
+    /// Edges that are measured, for thresholds of stretch, but exert no force. The cloth needs a [`Orthotropic`].
     Slack,
 }
 
@@ -75,11 +75,11 @@ impl Fabric {
     }
 
     /// Returns a fabric whose edges all have this stiffness in N/m, without bending resistance and
-    /// damping. Tears conserve energy ([`Copies::Halved`]).
+    /// damping. Tears conserve energy ([`TornStiffness::Halved`]).
     pub fn of_edges(stiffness_n_per_m: f64) -> Fabric {
         Fabric::of(Stretch::Edges {
             stiffness_n_per_m,
-            copies: Copies::default(),
+            torn: TornStiffness::default(),
         })
     }
 
@@ -87,10 +87,10 @@ impl Fabric {
     /// resistance.
     ///
     /// ```
-    /// use tearmesh_cloth::{implicit, Cloth, Fabric, Implicit, Pbd, StepError, Weave};
+    /// use tearmesh_cloth::{implicit, Cloth, Fabric, Implicit, Orthotropic, Pbd, StepError};
     /// use tearmesh::{shapes, Masses, Vector};
     ///
-    /// let weave = Weave {
+    /// let moduli = Orthotropic {
     ///     warp_n_per_m: 800.0,
     ///     weft_n_per_m: 500.0,
     ///     shear_n_per_m: 40.0,
@@ -98,7 +98,7 @@ impl Fabric {
     /// };
     /// let (mesh, positions) = shapes::grid(4, 4);
     /// let masses = Masses::area(&mesh, &positions, 0.15)?;
-    /// let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::woven(weave))?;
+    /// let mut cloth = Cloth::new(&mesh, &positions, masses, Fabric::orthotropic(moduli))?;
     /// cloth.step(&mut Implicit::new(implicit::Settings::default()), 1.0 / 60.0)?;
     ///
     /// // What projects springs alone would leave it without force, and is refused.
@@ -106,9 +106,9 @@ impl Fabric {
     /// assert!(matches!(error, StepError::NotSprings { count: 32, .. }));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn woven(weave: Weave) -> Fabric {
+    pub fn orthotropic(moduli: Orthotropic) -> Fabric {
         Fabric {
-            weave: Some(weave),
+            orthotropic: Some(moduli),
             ..Fabric::of(Stretch::Slack)
         }
     }
@@ -116,10 +116,10 @@ impl Fabric {
     fn of(stretch: Stretch) -> Fabric {
         Fabric {
             stretch,
-            weave: None,
+            orthotropic: None,
             bend: None,
             damping_s: 0.0,
-            unbend: Unbend::default(),
+            bend_removal: BendRemoval::default(),
         }
     }
 
@@ -143,8 +143,8 @@ impl Fabric {
 
     /// Whether the two constraints of a torn edge have half its stiffness each.
     pub(super) fn halves_copies(&self) -> bool {
-        let halved = Copies::Halved;
-        matches!(self.stretch, Stretch::Edges { copies, .. } if copies == halved)
+        let halved = TornStiffness::Halved;
+        matches!(self.stretch, Stretch::Edges { torn, .. } if torn == halved)
     }
 
     /// The part of a whole edge's strength that this edge has: half where it has half the stiffness.
@@ -157,17 +157,17 @@ impl Fabric {
     }
 
     pub(crate) fn check(&self) -> Result<(), SettingError> {
-        if let Some(weave) = self.weave {
-            SettingError::unless_above_0("weave.warp_n_per_m", weave.warp_n_per_m)?;
-            SettingError::unless_above_0("weave.weft_n_per_m", weave.weft_n_per_m)?;
-            SettingError::unless_positive("weave.shear_n_per_m", weave.shear_n_per_m)?;
+        if let Some(moduli) = self.orthotropic {
+            SettingError::unless_above_0("orthotropic.warp_n_per_m", moduli.warp_n_per_m)?;
+            SettingError::unless_above_0("orthotropic.weft_n_per_m", moduli.weft_n_per_m)?;
+            SettingError::unless_positive("orthotropic.shear_n_per_m", moduli.shear_n_per_m)?;
         }
         let field = match self.stretch {
             Stretch::Membrane { .. } => "modulus_n_per_m",
             Stretch::Edges { .. } => "stiffness_n_per_m",
             Stretch::Slack => "stretch",
         };
-        if self.stretch != Stretch::Slack || self.weave.is_none() {
+        if self.stretch != Stretch::Slack || self.orthotropic.is_none() {
             SettingError::unless_above_0(field, self.stretch_n_per_m())?;
         }
         if let Some(bend) = self.bend {
@@ -182,7 +182,7 @@ impl Fabric {
 /// zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Weave {
+pub struct Orthotropic {
     /// The modulus along warp, in N/m; positive.
     pub warp_n_per_m: f64,
     /// The modulus along weft, across warp, in N/m; positive.
@@ -267,7 +267,7 @@ impl Bending {
 /// The stiffness of the two constraints that replace the constraint of a torn edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Copies {
+pub enum TornStiffness {
     /// Each copy has half the stiffness, so a split does not change the energy.
     #[default]
     Halved,
@@ -279,7 +279,7 @@ pub enum Copies {
 /// The bend constraints that a split removes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Unbend {
+pub enum BendRemoval {
     /// The bend constraints across the edges that the split tears.
     #[default]
     Seam,

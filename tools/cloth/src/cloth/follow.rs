@@ -7,7 +7,7 @@ use tearmesh::{
     VertexId, VertexOp,
 };
 
-use crate::cloth::fabric::{Stretch, Unbend};
+use crate::cloth::fabric::{BendRemoval, Stretch};
 use crate::cloth::{Cloth, NO_BEND, Piece, weight};
 use crate::system::System;
 use crate::system::constraint::Constraint;
@@ -64,7 +64,7 @@ impl Cloth {
                 self.system.model.bend.repoint(id, old, new);
             }
         }
-        if self.fabric.unbend == Unbend::Vertex {
+        if self.fabric.bend_removal == BendRemoval::Vertex {
             for particle in [old, new] {
                 self.scratch.ids.clear();
                 self.scratch.ids.extend(self.system.model.bend.of(particle));

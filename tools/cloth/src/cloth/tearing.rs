@@ -96,12 +96,12 @@ pub enum Threshold {
     /// An edge tears at the strain √(2 G / (E h)), where G is an energy per length of tear, in J/m,
     /// h the rest length of the edge, and E the modulus of the fabric. E is
     /// [`Fabric::stretch_n_per_m`](crate::Fabric::stretch_n_per_m), the mean of warp and weft of the
-    /// [`Weave`](crate::Weave), or the sum of both; for a link without a mesh it is its own
+    /// [`Orthotropic`](crate::Orthotropic), or the sum of both; for a link without a mesh it is its own
     /// stiffness. At that strain ½ E (l − L)² is G h.
     Toughness(f64),
     /// An edge tears when its force reaches this many newtons, as the method of the last step
     /// exerted it ([`force_n`](crate::force::force_n)). An edge of a membrane with a face on one side
-    /// alone bears half that force, and so does a copy with half the stiffness. This is for springs: the edges of a [`Weave`](crate::Weave) have no force,
+    /// alone bears half that force, and so does a copy with half the stiffness. This is for springs: the edges of a [`Orthotropic`](crate::Orthotropic) have no force,
     /// except with a method that projects.
     Force(f64),
     /// A face tears at its most stretched edge when its largest stretch in any direction

@@ -5,7 +5,7 @@ use tearmesh::{HalfEdgeId, Mesh};
 
 use super::Threshold;
 use crate::cloth::Cloth;
-use crate::cloth::fabric::Weave;
+use crate::cloth::fabric::Orthotropic;
 use crate::system::System;
 use crate::system::constraint::ConstraintId;
 use crate::system::force;
@@ -149,8 +149,8 @@ pub(super) fn find_stretched(system: &System, ratio: f64, mut found: impl FnMut(
 /// warp and weft, of triangles.
 fn modulus(cloth: &Cloth) -> f64 {
     let fabric = &cloth.fabric;
-    let woven = |weave: Weave| (weave.warp_n_per_m + weave.weft_n_per_m) / 2.0;
-    fabric.stretch_n_per_m() + fabric.weave.map_or(0.0, woven)
+    let mean = |moduli: Orthotropic| (moduli.warp_n_per_m + moduli.weft_n_per_m) / 2.0;
+    fabric.stretch_n_per_m() + fabric.orthotropic.map_or(0.0, mean)
 }
 
 /// √(2 G / (E h)).

@@ -27,7 +27,7 @@ fn r8_moduli_are_those_asked_for_whatever_the_mesh() {
                 Vector::new(-angle.sin(), angle.cos(), 0.0),
             ];
             let weave = of_moduli([1000.0, 300.0, 70.0], axes[0] + Vector::z());
-            let mut cloth = cloth(&mesh, &positions, Fabric::woven(weave));
+            let mut cloth = cloth(&mesh, &positions, Fabric::orthotropic(weave));
             let area: f64 = cloth.system().triangles().iter().map(|t| t.area).sum();
             let c = moduli(cloth.system(), area, axes);
             let truth = [[1000.0, 0.0, 0.0], [0.0, 300.0, 0.0], [0.0, 0.0, 70.0]];
@@ -82,10 +82,12 @@ fn what_cannot_be_woven_is_refused() {
     let (mut none, mut endless) = (weave(), weave());
     (none.warp_n_per_m, endless.warp.x) = (f64::NAN, f64::INFINITY);
     for (weave, named) in [
-        (none, "weave.warp_n_per_m is NaN,"),
+        (none, "orthotropic.warp_n_per_m is NaN,"),
         (endless, "the face f0 has no area"),
     ] {
-        let error = made(Fabric::woven(weave)).expect_err(named).to_string();
+        let error = made(Fabric::orthotropic(weave))
+            .expect_err(named)
+            .to_string();
         assert!(error.starts_with(named), "{error}");
     }
     let mut system = particles([[0.0; 3], [1.0, 1.0, 0.0], [2.0, 4.0, 0.0]], 1.0);

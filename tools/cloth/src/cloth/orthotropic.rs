@@ -14,14 +14,14 @@
 use tearmesh::geometry::{Point, Vector, cross, dot, length};
 use tearmesh::{FaceId, HalfEdgeId};
 
-use crate::cloth::fabric::Weave;
+use crate::cloth::fabric::Orthotropic;
 use crate::cloth::{Cloth, ClothError};
 use crate::system::triangle::Triangle;
 
 impl Cloth {
     /// Makes a triangle for each face, if the fabric asks for them.
-    pub(super) fn weave(&mut self) -> Result<(), ClothError> {
-        let Some(Weave { warp, .. }) = self.fabric.weave else {
+    pub(super) fn add_triangles(&mut self) -> Result<(), ClothError> {
+        let Some(Orthotropic { warp, .. }) = self.fabric.orthotropic else {
             return Ok(());
         };
         for f in (0..self.indices().len() / 3).filter_map(FaceId::new) {
@@ -34,8 +34,12 @@ impl Cloth {
     }
 
     fn triangle_of(&self, f: FaceId, material: [[f64; 2]; 3]) -> Option<Triangle> {
-        let stiffness = self.fabric.weave.map_or([0.0; 3], |weave| {
-            [weave.warp_n_per_m, weave.weft_n_per_m, weave.shear_n_per_m]
+        let stiffness = self.fabric.orthotropic.map_or([0.0; 3], |moduli| {
+            [
+                moduli.warp_n_per_m,
+                moduli.weft_n_per_m,
+                moduli.shear_n_per_m,
+            ]
         });
         Triangle::new(self.face_vertices(f), material, stiffness)
     }
@@ -53,7 +57,7 @@ impl Cloth {
 
     /// Gives corners of triangles to another particle.
     pub(super) fn relabel_triangles(&mut self, corners: &[HalfEdgeId], to: usize) {
-        if self.fabric.weave.is_some() {
+        if self.fabric.orthotropic.is_some() {
             let triangles = &mut self.system.model.triangles;
             for corner in corners {
                 triangles.repoint(corner.face().index(), corner.corner(), to);
@@ -63,7 +67,7 @@ impl Cloth {
 
     /// Makes the triangle of a face anew, or that of a face that has come, if the fabric asks for them.
     pub(super) fn weave_face(&mut self, f: FaceId) {
-        if self.fabric.weave.is_some() {
+        if self.fabric.orthotropic.is_some() {
             let triangle = self.woven(f);
             self.system.model.triangles.put(f.index(), triangle);
         }
@@ -107,7 +111,7 @@ impl Cloth {
     /// there is no area at rest.
     fn material(&self, f: FaceId) -> Option<[[f64; 2]; 3]> {
         let rest = self.rest_face(f);
-        let warp = self.fabric.weave.map(|weave| weave.warp);
+        let warp = self.fabric.orthotropic.map(|moduli| moduli.warp);
         let named = warp.and_then(|warp| material(rest, warp));
         named.or_else(|| material(rest, default_warp(rest)))
     }
