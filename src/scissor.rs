@@ -10,20 +10,20 @@
 
 mod aim;
 mod cut;
+mod cut_context;
+mod cut_result;
+mod encode;
 mod error;
 mod exact;
 mod hub;
 mod measure;
 mod neck;
 mod offsets;
-mod outcome;
 mod paper;
 mod partition;
 mod pieces;
 mod seam;
 mod strip;
-mod way;
-mod words;
 
 pub use aim::CutAim;
 pub use cut::{Cut, CutEnd, CutPieces};
@@ -41,12 +41,12 @@ use crate::id::VertexId;
 use crate::mesh::Mesh;
 use crate::place::{Place, Positions};
 use aim::{ALONG_EDGES, Aim, Aims};
+use cut_context::CutContext;
+use cut_result::CutResult;
 use exact::layers;
-use measure::Survey;
+use measure::CutMeasurer;
 use offsets::Offsets;
-use outcome::Outcome;
 use strip::Strip;
-use way::Way;
 
 /// The description of a cut: a plane and, for a cut between two rays, the two side planes that
 /// bound it.
@@ -476,7 +476,7 @@ impl Scissor {
             Some(end) if is_exact => end.vertices.clone(),
             _ => Vec::new(),
         });
-        let mut way = Way {
+        let mut context = CutContext {
             strip: &self.strip,
             among: offsets.touched(),
             joints: &joints,
@@ -485,37 +485,39 @@ impl Scissor {
         let mut choice;
         let mut hits = [None; 2];
         if let (CutLayers::First, Some(rays)) = (self.layers, &self.rays) {
-            choice = layers::first(&way, rays, mesh, positions);
+            choice = layers::first(&context, rays, mesh, positions);
             hits = choice.hits;
             choice.faces = choice.beyond_the_rays(mesh, offsets);
-            way = Way {
+            context = CutContext {
                 among: &choice.faces,
                 joints: &choice.joints,
-                ..way
+                ..context
             };
         }
-        let trace = is_exact.then(|| exact::trace(&way, self.snap, mesh, positions));
+        let trace = is_exact.then(|| exact::trace(&context, self.snap, mesh, positions));
         let aims = is_measured.then(|| self.aims(method, mesh, positions));
-        let survey = aims.map(|aims| Survey::new(&way, aims, mesh, positions, trace.as_ref()));
+        let measurer =
+            aims.map(|aims| CutMeasurer::new(&context, aims, mesh, positions, trace.as_ref()));
         let judged = |mesh: &Mesh, edits: &Edits| {
-            let survey = survey.as_ref();
-            survey.map_or_else(Vec::new, |survey| survey.judged(mesh, edits, first))
+            let measurer = measurer.as_ref();
+            measurer.map_or_else(Vec::new, |measurer| measurer.judged(mesh, edits, first))
         };
-        let outcome: Outcome = match (method, trace) {
+        let outcome: CutResult = match (method, trace) {
             (CutMethod::Uniform | CutMethod::Alternating, _) => {
                 let is_alternating = method == CutMethod::Alternating;
-                paper::cut(&way, is_alternating, mesh, positions, &judged, edits)
+                paper::cut(&context, is_alternating, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact, Some(trace)) => {
                 let snap_move = self.snap_move.then_some(self.snap);
-                exact::cut(&way, trace, snap_move, mesh, positions, &judged, edits)
+                exact::cut(&context, trace, snap_move, mesh, positions, &judged, edits)
             }
             (CutMethod::Exact | CutMethod::Partition, _) => {
-                partition::cut(&way, self.tips, mesh, positions, &judged, edits)
+                partition::cut(&context, self.tips, mesh, positions, &judged, edits)
             }
         };
         edits.replay(positions);
-        let report = survey.map(|survey| survey.report(mesh, positions, &outcome, edits, first));
+        let report =
+            measurer.map(|measurer| measurer.report(mesh, positions, &outcome, edits, first));
         let report = report.unwrap_or_default();
         let lines = seam::lines(edits, first, mesh, vertices_before, &outcome.touched);
         let mut ends = outcome.ends.into_iter();

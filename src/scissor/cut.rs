@@ -1,8 +1,8 @@
 //! The result of a cut: its sides, seam, tips and pieces, and the ends from which another cut can
 //! continue.
 
+use super::cut_result::{Sides, side_of};
 use super::exact::layers::LayerHit;
-use super::outcome::{Sides, side_of};
 use super::seam::SeamLine;
 use crate::edit::{Cursor, Edit, Follower};
 use crate::geometry::{Ray, Side};

@@ -3,7 +3,7 @@
 //! 1. **Signs**, once a vertex. A sign that rounding cannot vouch for is zero: *on* the plane.
 //! 2. **Snap**, as a fraction of the edge: where the slit crosses an edge nearer to an end than
 //!    that, the end counts as on the plane, for all its edges. It is not moved, so the seam
-//!    deviates by as much, unless that is asked for (`exact/slip.rs`). What is left are crossings
+//!    deviates by as much, unless that is asked for (`exact/snap.rs`). What is left are crossings
 //!    well inside their edges, and so no child has an altitude below r (1 − r) of its parent's.
 //!    A vertex that would leave such a child if it moved stays.
 //! 3. **Trace** (`exact/trace.rs`, found by `exact/tracer.rs`): in each face the slit runs from
@@ -28,14 +28,14 @@
 mod label;
 pub(super) mod layers;
 mod planner;
-mod slip;
+mod snap;
 mod tips;
 mod trace;
 mod tracer;
 
-use super::outcome::{Judged, Outcome, Sides, faces_at};
-use super::pieces::{Census, Pinch};
-use super::way::Way;
+use super::cut_context::CutContext;
+use super::cut_result::{CrumbFilter, CutResult, Sides, faces_at};
+use super::pieces::{PieceCounts, Pinch};
 use crate::edit::{Cursor, Edit, Edits};
 use crate::geometry::Point;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -54,12 +54,17 @@ pub(super) fn nearest_tip(snap: f64) -> f64 {
 }
 
 /// Finds where the slit runs, and where it has to end so that no face gets thin.
-pub(super) fn trace(way: &Way<'_>, snap: f64, mesh: &Mesh, positions: &Positions) -> Trace {
+pub(super) fn trace(
+    context: &CutContext<'_>,
+    snap: f64,
+    mesh: &Mesh,
+    positions: &Positions,
+) -> Trace {
     // Nodes that the slit does not meet but has to go on to. Each round adds one that was not
     // there.
     let mut met: Vec<Site> = Vec::new();
     loop {
-        let mut trace = tracer::trace(way, snap, &met, mesh, positions);
+        let mut trace = tracer::trace(context, snap, &met, mesh, positions);
         let beyond = tips::settle(&mut trace, snap, mesh, positions);
         let known = met.len();
         met.extend(beyond);
@@ -75,26 +80,31 @@ pub(super) fn trace(way: &Way<'_>, snap: f64, mesh: &Mesh, positions: &Positions
 /// the trace ends nearer than the snap to a boundary, which it opens. And the necks that it
 /// severs although the slit does not.
 pub(super) fn pieces_expected(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     trace: &Trace,
-    census: &Census,
+    counts: &PieceCounts,
     mesh: &Mesh,
     positions: &Positions,
 ) -> (usize, Vec<Pinch>) {
-    let unsnapped = tracer::trace(way, 0.0, &[], mesh, positions);
-    let (whole, _) = pieces_of(way, &unsnapped, census, mesh);
-    let (pieces, pinches) = pieces_of(way, trace, census, mesh);
+    let unsnapped = tracer::trace(context, 0.0, &[], mesh, positions);
+    let (whole, _) = pieces_of(context, &unsnapped, counts, mesh);
+    let (pieces, pinches) = pieces_of(context, trace, counts, mesh);
     let more: usize = pinches.iter().map(|pinch| pinch.at.len()).sum();
     (whole.max(pieces - more), pinches)
 }
 
-fn pieces_of(way: &Way<'_>, trace: &Trace, census: &Census, mesh: &Mesh) -> (usize, Vec<Pinch>) {
+fn pieces_of(
+    context: &CutContext<'_>,
+    trace: &Trace,
+    counts: &PieceCounts,
+    mesh: &Mesh,
+) -> (usize, Vec<Pinch>) {
     let mut on_plane: Vec<VertexId> = trace.snapped.iter().map(|one| one.vertex).collect();
-    on_plane.extend(way.joints.iter().flatten());
+    on_plane.extend(context.joints.iter().flatten());
     on_plane.sort_unstable();
     let sign = |v: VertexId| match on_plane.binary_search(&v) {
         Ok(_) => 0.0,
-        Err(_) => way.offsets.of(v),
+        Err(_) => context.offsets.of(v),
     };
     let (mut faces, mut edges) = (Vec::new(), Vec::new());
     let pieces = trace.pieces.iter();
@@ -112,22 +122,22 @@ fn pieces_of(way: &Way<'_>, trace: &Trace, census: &Census, mesh: &Mesh) -> (usi
         edges.binary_search(&h).is_ok() || edges.binary_search(&pair).is_ok()
     };
     let passed = |v: VertexId| match on_plane.binary_search(&v) {
-        Ok(_) => way.offsets.of(v),
+        Ok(_) => context.offsets.of(v),
         Err(_) => 0.0,
     };
-    census.expected(mesh, sign, is_slit, is_slit_along, passed)
+    counts.expected(mesh, sign, is_slit, is_slit_along, passed)
 }
 
 /// Cuts along a trace. Where vertices are to be moved onto the plane, `snap_move` is the snap.
 pub(super) fn cut(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     mut trace: Trace,
     snap_move: Option<f64>,
     mesh: &mut Mesh,
     positions: &mut Positions,
-    judged: Judged<'_>,
+    judged: CrumbFilter<'_>,
     edits: &mut Edits,
-) -> Outcome {
+) -> CutResult {
     let faces_before = mesh.face_count();
     let (slit, insertion) = loop {
         let (plan, slit) = Slit::plan(&trace, mesh);
@@ -144,21 +154,21 @@ pub(super) fn cut(
     };
     if let Some(snap) = snap_move {
         let children = insertion.as_ref().map_or(&[][..], |one| &one.children);
-        slip::onto_plane(way, &trace, snap, children, mesh, positions, edits);
+        snap::onto_plane(context, &trace, snap, children, mesh, positions, edits);
     }
     if let Some(insertion) = insertion {
         insertion.carry_out(mesh, edits);
     }
     edits.replay(positions);
     let [touched, judged] = [faces_at(mesh, &slit.nodes), judged(mesh, edits)]
-        .map(|faces| sides(way, faces, faces_before, mesh, positions, &trace, &slit));
+        .map(|faces| sides(context, faces, faces_before, mesh, positions, &trace, &slit));
     let before = edits.cursor();
     let edges = slit.edges.iter();
     let torn = edges.flat_map(|&ends| pair_between(mesh, ends));
     let mut torn: Vec<HalfEdgeId> = torn.collect();
     torn.sort_unstable();
     unshare::by_fan(mesh, &slit.nodes, |h| torn.binary_search(&h).is_ok(), edits);
-    Outcome {
+    CutResult {
         touched,
         judged,
         refused: 0,
@@ -171,7 +181,7 @@ pub(super) fn cut(
 /// has none: it is round a tip, beside a piece that leaves the plane, or where nothing was to be
 /// cut.
 fn sides(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     faces: Vec<FaceId>,
     faces_before: usize,
     mesh: &Mesh,
@@ -183,9 +193,9 @@ fn sides(
     let mut on_plane: Vec<VertexId> = snapped.chain(slit.nodes.iter().copied()).collect();
     on_plane.sort_unstable();
     // Only the passive twin of a crossing is new and not on the plane.
-    let offset = |v: VertexId| match v.index() < way.offsets.len() {
-        true => way.offsets.of(v),
-        false => way.strip.plane.offset(positions.at(v)),
+    let offset = |v: VertexId| match v.index() < context.offsets.len() {
+        true => context.offsets.of(v),
+        false => context.strip.plane.offset(positions.at(v)),
     };
     let sign = |v: VertexId| match on_plane.binary_search(&v) {
         Ok(_) => 0.0,
@@ -195,8 +205,8 @@ fn sides(
         let corners = mesh.face_vertices(f);
         let mut ends = slit.tips.iter().chain([&slit.off_plane]);
         ends.any(|of_side| corners.iter().any(|v| of_side.contains(v)))
-            || !meets(way, corners.map(|v| positions.at(v)))
-            || (f.index() < faces_before && way.among.binary_search(&f).is_err())
+            || !meets(context, corners.map(|v| positions.at(v)))
+            || (f.index() < faces_before && context.among.binary_search(&f).is_err())
     };
     let lies_on_both = |f: FaceId| {
         let signs = mesh.face_vertices(f).map(sign);
@@ -211,9 +221,10 @@ fn sides(
 }
 
 /// Whether the plane crosses a triangle between the side planes.
-fn meets(way: &Way<'_>, corners: [Point; 3]) -> bool {
-    let is_inside = |[p, q]: [Point; 2]| way.strip.clip(p, q, way.offsets.bound()).is_some();
-    way.strip.section(corners).is_some_and(is_inside)
+fn meets(context: &CutContext<'_>, corners: [Point; 3]) -> bool {
+    let is_inside =
+        |[p, q]: [Point; 2]| context.strip.clip(p, q, context.offsets.bound()).is_some();
+    context.strip.section(corners).is_some_and(is_inside)
 }
 
 /// The edges that are to be torn, and that are in the mesh once all points are inserted.

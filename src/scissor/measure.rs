@@ -1,18 +1,18 @@
 //! Measures what a cut should do, and what it did.
 //!
-//! A [`Survey`] looks at the mesh before a cut: where the slit (the part of the plane
+//! A [`CutMeasurer`] looks at the mesh before a cut: where the slit (the part of the plane
 //! between the side planes) meets it, how long it is there, and into how many pieces an ideal
 //! cut would divide it. The [`CutReport`] compares that with the mesh after the cut.
 //! Nothing is denied: loose crumbs, pieces that stayed together and vertices that both sides
 //! still share are counted.
 
 use super::aim::{Aim, Aims, CutAim};
+use super::cut_context::CutContext;
+use super::cut_result::{CutResult, side_of};
 use super::exact::{self, Trace, with_copies};
 use super::neck::{self, CutNeck};
-use super::outcome::{Outcome, side_of};
-use super::pieces::{Census, Pinch};
+use super::pieces::{PieceCounts, Pinch};
 use super::seam::Nodes;
-use super::way::Way;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
 use crate::geometry::{Point, Side, altitude, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -83,10 +83,10 @@ pub struct CutReport {
 }
 
 /// The mesh before a cut, as the slit sees it.
-pub(super) struct Survey<'w> {
-    way: &'w Way<'w>,
+pub(super) struct CutMeasurer<'w> {
+    context: &'w CutContext<'w>,
     aims: Aims,
-    census: Census,
+    counts: PieceCounts,
     /// The faces that the slit meets, ascending.
     slit: Vec<FaceId>,
     slit_length: f64,
@@ -96,44 +96,46 @@ pub(super) struct Survey<'w> {
     report: CutReport,
 }
 
-impl<'w> Survey<'w> {
+impl<'w> CutMeasurer<'w> {
     /// `trace` is that of a method that decides where the slit runs before it cuts.
     pub(super) fn new(
-        way: &'w Way<'w>,
+        context: &'w CutContext<'w>,
         aims: Aims,
         mesh: &Mesh,
         positions: &Positions,
         trace: Option<&Trace>,
-    ) -> Survey<'w> {
-        let mut touched = way.offsets.touched().to_vec();
-        let joints = way.joints.iter().flatten();
+    ) -> CutMeasurer<'w> {
+        let mut touched = context.offsets.touched().to_vec();
+        let joints = context.joints.iter().flatten();
         touched.extend(joints.flat_map(|&v| mesh.faces_of(v)));
-        let census = Census::new(mesh, &touched);
-        let mut survey = Survey {
-            way,
+        let counts = PieceCounts::new(mesh, &touched);
+        let mut measurer = CutMeasurer {
+            context,
             aims,
             slit: Vec::new(),
             slit_length: 0.0,
             pinches: Vec::new(),
             mean_edge: mean_edge(mesh, positions),
             report: CutReport {
-                pieces_before: census.count(mesh),
-                nearest_vertex: nearest_vertex(way, mesh, positions),
+                pieces_before: counts.count(mesh),
+                nearest_vertex: nearest_vertex(context, mesh, positions),
                 ..CutReport::default()
             },
-            census,
+            counts,
         };
-        survey.follow_slit(mesh, positions);
-        (survey.report.pieces_expected, survey.pinches) = match trace {
-            Some(trace) => exact::pieces_expected(way, trace, &survey.census, mesh, positions),
-            None => (survey.pieces_expected(mesh, positions), Vec::new()),
+        measurer.follow_slit(mesh, positions);
+        (measurer.report.pieces_expected, measurer.pinches) = match trace {
+            Some(trace) => {
+                exact::pieces_expected(context, trace, &measurer.counts, mesh, positions)
+            }
+            None => (measurer.pieces_expected(mesh, positions), Vec::new()),
         };
-        survey
+        measurer
     }
 
     /// Measures the slit: where the plane runs between the side planes.
     fn follow_slit(&mut self, mesh: &Mesh, positions: &Positions) {
-        let among = self.way.among;
+        let among = self.context.among;
         for &f in among {
             let crossing = self.crossing(mesh, positions, f);
             if let Some(length) = crossing.and_then(|ends| self.length_inside(ends)) {
@@ -157,7 +159,10 @@ impl<'w> Survey<'w> {
 
     /// The length of a segment inside the strip; `None` if it lies outside.
     fn length_inside(&self, [p, q]: [Point; 2]) -> Option<f64> {
-        let (from, to) = self.way.strip.clip(p, q, self.way.offsets.bound())?;
+        let (from, to) = self
+            .context
+            .strip
+            .clip(p, q, self.context.offsets.bound())?;
         Some((to - from) * length(q - p))
     }
 
@@ -165,7 +170,7 @@ impl<'w> Survey<'w> {
     fn faces_apart(&self, mesh: &Mesh, h: HalfEdgeId) -> Option<[FaceId; 2]> {
         let faces = [h, mesh.pair(h)?].map(HalfEdgeId::face);
         let ends = [mesh.origin(h), mesh.target(h)];
-        let on_plane = ends.map(|v| self.way.offsets.of(v)) == [0.0; 2];
+        let on_plane = ends.map(|v| self.context.offsets.of(v)) == [0.0; 2];
         let [one, other] = faces.map(|f| self.lone_side(mesh, f));
         (on_plane && one != other).then_some(faces)
     }
@@ -173,8 +178,9 @@ impl<'w> Survey<'w> {
     /// The pieces that a cut leaves which divides every face that the slit crosses.
     fn pieces_expected(&self, mesh: &Mesh, positions: &Positions) -> usize {
         let is_met = |f: FaceId| self.slit.binary_search(&f).is_ok();
-        let bound = self.way.offsets.bound();
-        let is_whole = |[p, q]: [Point; 2]| self.way.strip.clip(p, q, bound) == Some((0.0, 1.0));
+        let bound = self.context.offsets.bound();
+        let is_whole =
+            |[p, q]: [Point; 2]| self.context.strip.clip(p, q, bound) == Some((0.0, 1.0));
         let is_slit =
             |f: FaceId| is_met(f) && self.crossing(mesh, positions, f).is_some_and(is_whole);
         let is_slit_along = |h: HalfEdgeId| {
@@ -182,9 +188,9 @@ impl<'w> Survey<'w> {
                 .is_some_and(|faces| faces.into_iter().all(is_met))
                 && is_whole(ends_of(mesh, positions, h))
         };
-        let sign = |v| self.way.offsets.of(v);
-        let census = &self.census;
-        let (pieces, _) = census.expected(mesh, sign, is_slit, is_slit_along, |_| 0.0);
+        let sign = |v| self.context.offsets.of(v);
+        let counts = &self.counts;
+        let (pieces, _) = counts.expected(mesh, sign, is_slit, is_slit_along, |_| 0.0);
         pieces
     }
 
@@ -211,29 +217,29 @@ impl<'w> Survey<'w> {
 
     /// The faces whose sides a report asks for.
     pub(super) fn judged(&self, mesh: &Mesh, edits: &Edits, first_edit: Cursor) -> Vec<FaceId> {
-        self.census.round(mesh, &self.slit_now(edits, first_edit))
+        self.counts.round(mesh, &self.slit_now(edits, first_edit))
     }
 
     /// The side of a face that is not crossed; one that lies on the plane is in front.
     fn lone_side(&self, mesh: &Mesh, f: FaceId) -> Side {
-        let offsets = mesh.face_vertices(f).map(|v| self.way.offsets.of(v));
+        let offsets = mesh.face_vertices(f).map(|v| self.context.offsets.of(v));
         Side::of(offsets.into_iter().fold(0.0, f64::min))
     }
 
     /// Where the plane enters and leaves a crossed face: at a vertex, or on an edge.
     fn crossing(&self, mesh: &Mesh, positions: &Positions, f: FaceId) -> Option<[Point; 2]> {
-        if !self.way.offsets.cross(mesh, f) {
+        if !self.context.offsets.cross(mesh, f) {
             return None;
         }
         let point = |h: HalfEdgeId| {
             let (a, b) = (mesh.origin(h), mesh.target(h));
-            if self.way.offsets.of(a) == 0.0 {
+            if self.context.offsets.of(a) == 0.0 {
                 return Some(positions.at(a));
             }
             // From the smaller vertex, so that both faces of the edge agree on the point.
             let [a, b] = [a.min(b), a.max(b)];
             let [p, q] = [a, b].map(|v| positions.at(v));
-            let [a, b] = [a, b].map(|v| self.way.offsets.of(v));
+            let [a, b] = [a, b].map(|v| self.context.offsets.of(v));
             let is_between = (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0);
             is_between.then(|| p + (q - p) * (a.abs() / (a.abs() + b.abs())))
         };
@@ -247,13 +253,13 @@ impl<'w> Survey<'w> {
         &self,
         mesh: &Mesh,
         positions: &Positions,
-        outcome: &Outcome,
+        outcome: &CutResult,
         edits: &Edits,
         first_edit: Cursor,
     ) -> CutReport {
-        let nodes = Nodes::new(edits, first_edit, self.way.offsets.len());
+        let nodes = Nodes::new(edits, first_edit, self.context.offsets.len());
         let (mut ends, mut torn): (Vec<VertexId>, Vec<HalfEdgeId>) = Default::default();
-        let (pieces, expected) = (self.census.count(mesh), self.report.pieces_expected);
+        let (pieces, expected) = (self.counts.count(mesh), self.report.pieces_expected);
         let places = mesh
             .faces()
             .map(|f| mesh.face_vertices(f).map(|v| positions.at(v)));
@@ -269,7 +275,7 @@ impl<'w> Survey<'w> {
                         let at = ends_of(mesh, positions, link.stayed);
                         seam_length += length(at[1] - at[0]);
                         for end in at {
-                            let deviation = self.way.strip.plane.distance(end).abs();
+                            let deviation = self.context.strip.plane.distance(end).abs();
                             seam_deviation_max = seam_deviation_max.max(deviation);
                         }
                         ends.extend(nodes.of_edge(mesh, link.stayed));
@@ -295,7 +301,13 @@ impl<'w> Survey<'w> {
             lost: expected.saturating_sub(pieces),
             necks: {
                 let copies = |of: &[VertexId]| with_copies(of.to_vec(), edits, first_edit);
-                neck::severed(&self.pinches, copies, self.way, (mesh, positions), outcome)
+                neck::severed(
+                    &self.pinches,
+                    copies,
+                    self.context,
+                    (mesh, positions),
+                    outcome,
+                )
             },
             separated: {
                 let slit = self.slit_now(edits, first_edit);
@@ -310,7 +322,7 @@ impl<'w> Survey<'w> {
             missed: self.slit.is_empty(),
             tip_overshoots: self.overshoots(mesh, positions, ends),
             aims: {
-                let plane = &self.way.strip.plane;
+                let plane = &self.context.strip.plane;
                 let compare = |aim: Aim| {
                     aim.compare(plane, &torn, mesh, positions)
                         .filter(|_| !torn.is_empty())
@@ -324,7 +336,7 @@ impl<'w> Survey<'w> {
     /// Of each vertex with one edge of the seam that has not been split: how far beyond the
     /// nearer side plane it is. `ends` are those of all edges of the seam, as before any was split.
     fn overshoots(&self, mesh: &Mesh, positions: &Positions, mut ends: Vec<VertexId>) -> Vec<f64> {
-        let Some(sides) = self.way.strip.bounds() else {
+        let Some(sides) = self.context.strip.bounds() else {
             return Vec::new();
         };
         ends.sort_unstable();
@@ -347,9 +359,9 @@ impl<'w> Survey<'w> {
         mesh: &Mesh,
         positions: &Positions,
         slit: &[FaceId],
-        outcome: &Outcome,
+        outcome: &CutResult,
     ) -> bool {
-        let (strip, bound) = (self.way.strip, self.way.offsets.bound());
+        let (strip, bound) = (self.context.strip, self.context.offsets.bound());
         // `tip_overshoots` tells of tips.
         // Beside what leaves the plane, its sides are not those of the seam.
         let mut unjudged: Vec<VertexId> = outcome.ends.concat();
@@ -407,12 +419,12 @@ fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
 }
 
 /// How far the vertex nearest to the slit is from it.
-fn nearest_vertex(way: &Way<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
-    let bounds = way.strip.bounds();
+fn nearest_vertex(context: &CutContext<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
+    let bounds = context.strip.bounds();
     let with_faces = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
     let distances = with_faces.map(|v| {
         let p = positions.at(v);
-        let off = way.strip.plane.distance(p);
+        let off = context.strip.plane.distance(p);
         let outside = bounds.map_or(0.0, |sides| {
             let [a, b] = sides.map(|side| -side.distance(p));
             a.max(b).max(0.0)

@@ -13,9 +13,9 @@
 //!
 //! Vertices are snapped all the same, since a face as thin as that neck is what a snap keeps away.
 
-use super::outcome::{Outcome, side_of};
+use super::cut_context::CutContext;
+use super::cut_result::{CutResult, side_of};
 use super::pieces::Pinch;
-use super::way::Way;
 use crate::geometry::{Point, Side};
 use crate::id::VertexId;
 use crate::mesh::Mesh;
@@ -42,9 +42,9 @@ pub struct CutNeck {
 pub(super) fn severed(
     pinches: &[Pinch],
     copies: impl Fn(&[VertexId]) -> Vec<VertexId>,
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     (mesh, positions): (&Mesh, &Positions),
-    outcome: &Outcome,
+    outcome: &CutResult,
 ) -> Vec<CutNeck> {
     if pinches.is_empty() {
         return Vec::new();
@@ -57,7 +57,7 @@ pub(super) fn severed(
         let mut chain = pinch.chain.clone();
         chain.sort_unstable();
         chain.dedup();
-        let side = Side::of(way.offsets.of(chain[0]));
+        let side = Side::of(context.offsets.of(chain[0]));
         let chain = copies(&chain);
         let around = chain.iter().flat_map(|&v| mesh.faces_of(v));
         let on_side = around.filter(|&f| side_of(&outcome.touched, f) == Some(side));
@@ -67,7 +67,7 @@ pub(super) fn severed(
         severed.extend(pinch.at.iter().zip(pieces).map(|(&vertex, piece)| CutNeck {
             vertex,
             at: positions.at(vertex),
-            width: (way.offsets.of(vertex) / way.strip.plane.offset_of_unit()).abs(),
+            width: (context.offsets.of(vertex) / context.strip.plane.offset_of_unit()).abs(),
             faces: faces[piece],
         }));
     }

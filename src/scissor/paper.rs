@@ -18,9 +18,9 @@
 //! [`CutMethod::Exact`](super::CutMethod::Exact), or
 //! [`CutMethod::Partition`](super::CutMethod::Partition) for a cut that adds no faces.
 
+use super::cut_context::CutContext;
+use super::cut_result::{CrumbFilter, CutResult, faces_at};
 use super::hub::Hubs;
-use super::outcome::{Judged, Outcome, faces_at};
-use super::way::Way;
 use crate::edit::Edits;
 use crate::geometry::{Plane, Side, Vector, cross};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
@@ -28,15 +28,15 @@ use crate::mesh::Mesh;
 use crate::place::Positions;
 
 pub(super) fn cut(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     is_alternating: bool,
     mesh: &mut Mesh,
     positions: &mut Positions,
-    judged: Judged<'_>,
+    judged: CrumbFilter<'_>,
     edits: &mut Edits,
-) -> Outcome {
+) -> CutResult {
     let is_positive = |mesh: &Mesh, positions: &Positions, h: HalfEdgeId| {
-        Side::of(way.strip.plane.offset(positions.at(mesh.origin(h)))) == Side::Front
+        Side::of(context.strip.plane.offset(positions.at(mesh.origin(h)))) == Side::Front
     };
     let positive = |mesh: &Mesh, positions: &Positions, f: FaceId| {
         f.half_edges()
@@ -44,7 +44,7 @@ pub(super) fn cut(
             .filter(|&h| is_positive(mesh, positions, h))
             .count()
     };
-    let among = way.among.iter().copied();
+    let among = context.among.iter().copied();
     let crossed: Vec<FaceId> = among
         .filter(|&f| matches!(positive(mesh, positions, f), 1 | 2))
         .collect();
@@ -60,10 +60,10 @@ pub(super) fn cut(
     let mut vertices: Vec<VertexId> = corners.collect();
     vertices.sort_unstable();
     vertices.dedup();
-    let mut outcome = Outcome {
+    let mut outcome = CutResult {
         touched: labelled(faces_at(mesh, &vertices)),
         judged: labelled(judged(mesh, edits)),
-        ..Outcome::default()
+        ..CutResult::default()
     };
     let mut hubs = Hubs::default();
     for f in crossed {
@@ -78,12 +78,12 @@ pub(super) fn cut(
         for h in corners {
             let v = mesh.origin(h);
             let at = positions.at(v);
-            if !is_positive(mesh, positions, h) || way.strip.depth(at, 0.0) < 0.0 {
+            if !is_positive(mesh, positions, h) || context.strip.depth(at, 0.0) < 0.0 {
                 continue;
             }
             let plane = match along_edge {
                 Some(normal) => Plane::new(at, normal).ok(),
-                None => Some(way.strip.plane.through(at)),
+                None => Some(context.strip.plane.through(at)),
             };
             let is_split = plane.is_some_and(|plane| {
                 let plane = (&plane, along_edge.is_none());

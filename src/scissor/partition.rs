@@ -12,9 +12,9 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
+use super::cut_context::CutContext;
+use super::cut_result::{CrumbFilter, CutResult, faces_at};
 use super::offsets::Offsets;
-use super::outcome::{Judged, Outcome, faces_at};
-use super::way::Way;
 use crate::classify;
 use crate::edit::Edits;
 use crate::geometry::{Point, Side};
@@ -36,22 +36,22 @@ pub enum CutTips {
 }
 
 pub(super) fn cut(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     tips: CutTips,
     mesh: &mut Mesh,
     positions: &Positions,
-    judged: Judged<'_>,
+    judged: CrumbFilter<'_>,
     edits: &mut Edits,
-) -> Outcome {
-    let offsets = way.offsets;
+) -> CutResult {
+    let offsets = context.offsets;
     let mut labels: Vec<Side> = mesh
         .faces()
         .map(|f| classify::side(mesh, f, |v| offsets.of(v)))
         .collect();
     smooth(mesh, offsets, &mut labels);
     // Decided before the first split: positions know no vertex that is made on the way.
-    let inside = |p: Point| way.strip.depth(p, offsets.bound()) >= 0.0;
-    let may_cut = |h: HalfEdgeId| way.among.binary_search(&h.face()).is_ok();
+    let inside = |p: Point| context.strip.depth(p, offsets.bound()) >= 0.0;
+    let may_cut = |h: HalfEdgeId| context.among.binary_search(&h.face()).is_ok();
     let is_at_midpoint = tips == CutTips::Midpoint;
     let is_cut = |h: HalfEdgeId| {
         let Some(pair) = mesh.pair(h) else {
@@ -78,10 +78,10 @@ pub(super) fn cut(
         let faces = faces.into_iter();
         faces.map(|f| (f, Some(labels[f.index()]))).collect()
     };
-    let outcome = Outcome {
+    let outcome = CutResult {
         touched: labelled(faces_at(mesh, &vertices)),
         judged: labelled(judged(mesh, edits)),
-        ..Outcome::default()
+        ..CutResult::default()
     };
     unshare::by_fan(mesh, &vertices, |h| seam[h.index()], edits);
     outcome

@@ -17,7 +17,7 @@ use crate::mesh::{Mesh, UNSEEN};
 use crate::sets::DisjointSets;
 
 /// The faces near the plane, and the parts of the rest that hang together.
-pub(super) struct Census {
+pub(super) struct PieceCounts {
     /// By face, the part that it is in if it is far away; `parts` and more of those near the plane, in
     /// their order.
     part: Vec<u32>,
@@ -37,9 +37,9 @@ pub(super) struct Pinch {
 
 const NEAR: u32 = u32::MAX - 1;
 
-impl Census {
+impl PieceCounts {
     /// Looks at a mesh that is to be cut where `touched` faces are. Linear.
-    pub(super) fn new(mesh: &Mesh, touched: &[FaceId]) -> Census {
+    pub(super) fn new(mesh: &Mesh, touched: &[FaceId]) -> PieceCounts {
         let is_marked = corners(mesh, touched);
         let triangles = mesh.indices().as_chunks::<3>().0.iter();
         let is_round = |&[a, b, c]: &[u32; 3]| {
@@ -58,7 +58,7 @@ impl Census {
         for (f, node) in near.iter().zip(parts..) {
             part[f.index()] = node;
         }
-        Census { part, parts, near }
+        PieceCounts { part, parts, near }
     }
 
     /// The faces that share a vertex with some that the cut met, once vertices are inserted;

@@ -1,6 +1,6 @@
 //! The seam of a cut: the edges that it tore, in order.
 
-use super::outcome::side_of;
+use super::cut_result::side_of;
 use crate::edit::{Cursor, Edit, Edits};
 use crate::geometry::Side;
 use crate::id::{FaceId, HalfEdgeId, VertexId};

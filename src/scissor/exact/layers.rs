@@ -11,8 +11,8 @@ use crate::geometry::{Point, Ray, between, dot, length, max_abs};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
+use crate::scissor::cut_context::CutContext;
 use crate::scissor::offsets::Offsets;
-use crate::scissor::way::Way;
 use crate::sets::DisjointSets;
 
 /// The layers of the mesh that a cut passes through.
@@ -57,16 +57,16 @@ pub(in crate::scissor) struct Choice {
 
 /// Chooses the chains that the rays hit first.
 pub(in crate::scissor) fn first(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     rays: &[Ray; 2],
     mesh: &Mesh,
     positions: &Positions,
 ) -> Choice {
-    let trace = tracer::trace(way, 0.0, &[], mesh, positions);
+    let trace = tracer::trace(context, 0.0, &[], mesh, positions);
     let chains = chains(&trace, mesh, positions);
     let pieces = || trace.pieces.iter().zip(chains.iter().copied());
     let runs =
-        pieces().map(|(piece, chain)| (Run::new(way, &trace, piece, mesh, positions), chain));
+        pieces().map(|(piece, chain)| (Run::new(context, &trace, piece, mesh, positions), chain));
     let runs: Vec<(Run, u32)> = runs.collect();
     let faces_of = |is_one: &dyn Fn(u32) -> bool| {
         let pieces = pieces().filter(|&(_, chain)| is_one(chain));
@@ -77,7 +77,7 @@ pub(in crate::scissor) fn first(
     let mut chosen = Vec::new();
     for side in 0..2 {
         let hit = hit(&runs, rays, side, chosen.first().copied());
-        let Some((at, chain)) = hit.or_else(|| beside(way, &runs, rays, side)) else {
+        let Some((at, chain)) = hit.or_else(|| beside(context, &runs, rays, side)) else {
             continue;
         };
         let faces = faces_of(&|other| other == chain);
@@ -91,7 +91,7 @@ pub(in crate::scissor) fn first(
     choice.faces.dedup();
     let faces = &choice.faces;
     let is_chosen = |v: &VertexId| mesh.faces_of(*v).any(|f| faces.binary_search(&f).is_ok());
-    choice.joints = way.joints.each_ref().map(|of_side| {
+    choice.joints = context.joints.each_ref().map(|of_side| {
         let of_side = of_side.iter().copied();
         of_side.filter(is_chosen).collect()
     });
@@ -194,8 +194,14 @@ struct Run {
 }
 
 impl Run {
-    fn new(way: &Way<'_>, trace: &Trace, piece: &Piece, mesh: &Mesh, positions: &Positions) -> Run {
-        let bounded = way.strip.bounded();
+    fn new(
+        context: &CutContext<'_>,
+        trace: &Trace,
+        piece: &Piece,
+        mesh: &Mesh,
+        positions: &Positions,
+    ) -> Run {
+        let bounded = context.strip.bounded();
         let node = |site: Site| {
             let at = match site {
                 Site::Vertex(v) => positions.at(v),
@@ -206,10 +212,10 @@ impl Run {
                     between(p, q, crossing.t)
                 }
             };
-            let mut depths = bounded.depths(at, way.offsets.bound());
+            let mut depths = bounded.depths(at, context.offsets.bound());
             let is_joint =
                 |joints: &Vec<VertexId>| matches!(site, Site::Vertex(v) if joints.contains(&v));
-            let joints = way.joints.each_ref().map(is_joint);
+            let joints = context.joints.each_ref().map(is_joint);
             for (depth, is_joint) in depths.iter_mut().zip(joints) {
                 if is_joint {
                     *depth = 0.0;
@@ -281,12 +287,12 @@ fn hit(
 /// Where the first ray from one to the other meets a run, and the chain of that: the place in the
 /// strip that is least far from the side plane of the ray as a part of the way to the other's.
 fn beside(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     runs: &[(Run, u32)],
     rays: &[Ray; 2],
     side: usize,
 ) -> Option<(Point, u32)> {
-    let (bounded, bound) = (way.strip.bounded(), way.offsets.bound());
+    let (bounded, bound) = (context.strip.bounded(), context.offsets.bound());
     let sides = bounded.sides?;
     let [ray, other] = [rays[side], rays[1 - side]];
     let [along, other_along] = [ray, other].map(|ray| ray.direction() / length(ray.direction()));

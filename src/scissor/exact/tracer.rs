@@ -6,7 +6,7 @@ use crate::geometry::{Point, between};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::scissor::way::Way;
+use crate::scissor::cut_context::CutContext;
 
 /// Tips nearer to a node than this part of the way between nodes are the node, also where
 /// snapping is off: the faces round them could not be told from nothing.
@@ -15,14 +15,14 @@ pub(super) const TIP_MIN: f64 = 1.0 / (1u64 << 40) as f64;
 /// Traces the slit. `snap` is how near an end of its edge a crossing is taken for that end; `met` are
 /// nodes beyond the side planes that are snapped like those between them, ascending.
 pub(in crate::scissor) fn trace(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     snap: f64,
     met: &[Site],
     mesh: &Mesh,
     positions: &Positions,
 ) -> Trace {
     let mut tracer = Tracer {
-        way,
+        context,
         mesh,
         positions,
         snap,
@@ -31,8 +31,14 @@ pub(in crate::scissor) fn trace(
         snapped: Vec::new(),
         passed: Vec::new(),
     };
-    let mut touched = way.among.to_vec();
-    touched.extend(way.joints.iter().flatten().flat_map(|&v| mesh.faces_of(v)));
+    let mut touched = context.among.to_vec();
+    touched.extend(
+        context
+            .joints
+            .iter()
+            .flatten()
+            .flat_map(|&v| mesh.faces_of(v)),
+    );
     touched.sort_unstable();
     touched.dedup();
     tracer.look_round_joints();
@@ -59,7 +65,7 @@ struct Node {
 
 /// A trace in the making.
 struct Tracer<'t> {
-    way: &'t Way<'t>,
+    context: &'t CutContext<'t>,
     mesh: &'t Mesh,
     positions: &'t Positions,
     snap: f64,
@@ -77,11 +83,18 @@ impl Tracer<'_> {
     /// Zero on the plane, else the sign of the side.
     fn sign(&self, v: VertexId) -> f64 {
         let is_on = self.snap_of(v).is_some() || self.is_joint(v);
-        if is_on { 0.0 } else { self.way.offsets.of(v) }
+        if is_on {
+            0.0
+        } else {
+            self.context.offsets.of(v)
+        }
     }
 
     fn is_joint(&self, v: VertexId) -> bool {
-        self.way.joints.iter().any(|of_side| of_side.contains(&v))
+        self.context
+            .joints
+            .iter()
+            .any(|of_side| of_side.contains(&v))
     }
 
     fn snap_of(&self, v: VertexId) -> Option<&Snapped> {
@@ -91,7 +104,7 @@ impl Tracer<'_> {
 
     /// How far a point is inside each side plane.
     fn depths(&self, p: Point) -> [f64; 2] {
-        self.way.strip.depths(p, self.way.offsets.bound())
+        self.context.strip.depths(p, self.context.offsets.bound())
     }
 
     /// The side plane passes through one joint, and by the others, on other sheets, as far
@@ -101,8 +114,8 @@ impl Tracer<'_> {
         self.round_joints = Default::default();
         let round = [0, 1].map(|side| {
             let mut round = Vec::new();
-            for &v in &self.way.joints[side] {
-                let sides = self.way.strip.sides.expect("what has a joint has rays");
+            for &v in &self.context.joints[side] {
+                let sides = self.context.strip.sides.expect("what has a joint has rays");
                 let depth = sides[side].offset(self.positions.at(v));
                 let faces = self.mesh.faces_of(v).filter_map(|f| self.nodes(f));
                 round.extend(faces.flatten().map(|node| (node.site, depth)));
@@ -119,7 +132,7 @@ impl Tracer<'_> {
     /// it by. It goes along the edge between them, and that neighbour counts as where the joint is.
     fn look_beside_joints(&mut self) {
         for side in 0..2 {
-            for &joint in &self.way.joints[side] {
+            for &joint in &self.context.joints[side] {
                 let is_node = |f: FaceId| {
                     let mut nodes = self.nodes(f).into_iter().flatten();
                     nodes.any(|node| node.site == Site::Vertex(joint))
@@ -169,7 +182,7 @@ impl Tracer<'_> {
         let half_edge = self.mesh.pair(h).map_or(h, |pair| pair.min(h));
         let forward = self.is_forward(half_edge);
         let ends = half_edge.ends(forward).map(|h| self.mesh.origin(h));
-        let [near, far] = ends.map(|v| self.way.offsets.of(v).abs());
+        let [near, far] = ends.map(|v| self.context.offsets.of(v).abs());
         Crossing {
             half_edge,
             t: near / (near + far),
@@ -379,7 +392,7 @@ impl Tracer<'_> {
     /// Adds the edges on the plane whose faces lie on different sides of it.
     fn along_edges(&self, trace: &mut Trace, edges: &[HalfEdgeId]) {
         let sign = |v: VertexId| self.sign(v);
-        let offset = |v: VertexId| self.way.offsets.of(v);
+        let offset = |v: VertexId| self.context.offsets.of(v);
         let faces = edges.iter().flat_map(|&h| {
             let pair = self.mesh.pair(h);
             std::iter::once(h).chain(pair).map(HalfEdgeId::face)

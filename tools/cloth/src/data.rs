@@ -53,7 +53,7 @@ impl TryFrom<Vec<(f64, Point)>> for Path {
 
 /// Refuses a scene that no mesh could be played with.
 fn check(scene: &Scene) -> Result<(), Box<dyn Error>> {
-    SettingError::unless_positive("duration_s", scene.duration_s)?;
+    SettingError::unless_at_least_0("duration_s", scene.duration_s)?;
     let factors = scene.strengths.iter().map(|(_, factor)| *factor);
     let numbers = [scene.areal_density_kg_per_m2, scene.step_s.unwrap_or(1.0)];
     for number in factors.chain(numbers) {

@@ -497,7 +497,7 @@ impl System {
     ///
     /// [`SettingError`] if the time is negative or not finite.
     pub fn set_damping(&mut self, time_s: f64) -> Result<(), SettingError> {
-        SettingError::unless_positive("damping_s", time_s)?;
+        SettingError::unless_at_least_0("damping_s", time_s)?;
         self.model.damping_s = time_s;
         self.rebuilt();
         Ok(())

@@ -160,7 +160,7 @@ impl Fabric {
         if let Some(moduli) = self.orthotropic {
             SettingError::unless_above_0("orthotropic.warp_n_per_m", moduli.warp_n_per_m)?;
             SettingError::unless_above_0("orthotropic.weft_n_per_m", moduli.weft_n_per_m)?;
-            SettingError::unless_positive("orthotropic.shear_n_per_m", moduli.shear_n_per_m)?;
+            SettingError::unless_at_least_0("orthotropic.shear_n_per_m", moduli.shear_n_per_m)?;
         }
         let field = match self.stretch {
             Stretch::Membrane { .. } => "modulus_n_per_m",
@@ -174,7 +174,7 @@ impl Fabric {
             let (field, given) = bend.number();
             SettingError::unless_above_0(field, given)?;
         }
-        SettingError::unless_positive("damping_s", self.damping_s)
+        SettingError::unless_at_least_0("damping_s", self.damping_s)
     }
 }
 

@@ -29,7 +29,7 @@ impl SettingError {
     }
 
     /// Refuses a number that is negative or not finite.
-    pub(crate) fn unless_positive(setting: &'static str, given: f64) -> Result<(), SettingError> {
+    pub(crate) fn unless_at_least_0(setting: &'static str, given: f64) -> Result<(), SettingError> {
         let holds = given >= 0.0 && given.is_finite();
         SettingError::unless(holds, setting, given, "finite and at least 0")
     }

@@ -100,18 +100,18 @@ impl Loads {
         };
         let gravity = self.gravity_m_per_s2.unwrap_or_default();
         finite("gravity_m_per_s2", gravity)?;
-        SettingError::unless_positive("drag_per_s", self.drag_per_s.unwrap_or(0.0))?;
+        SettingError::unless_at_least_0("drag_per_s", self.drag_per_s.unwrap_or(0.0))?;
         if let Some(wind) = self.wind {
             finite("wind.velocity_m_per_s", wind.velocity_m_per_s)?;
-            SettingError::unless_positive("wind.coefficient", wind.coefficient)?;
+            SettingError::unless_at_least_0("wind.coefficient", wind.coefficient)?;
         }
         for collider in &self.colliders {
-            SettingError::unless_positive("colliders.friction", collider.friction)?;
+            SettingError::unless_at_least_0("colliders.friction", collider.friction)?;
             match &collider.shape {
                 ColliderShape::Plane(_) => {}
                 ColliderShape::Sphere { centre, radius_m } => {
                     finite("colliders.centre", centre.coords)?;
-                    SettingError::unless_positive("colliders.radius_m", *radius_m)?;
+                    SettingError::unless_at_least_0("colliders.radius_m", *radius_m)?;
                 }
                 ColliderShape::Body {
                     body,

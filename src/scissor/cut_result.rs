@@ -1,4 +1,4 @@
-//! What a cut of any method hands on to whoever tells of it.
+//! The result of a cut, from which reports are made.
 
 use crate::edit::Edits;
 use crate::geometry::Side;
@@ -15,11 +15,11 @@ pub(super) fn side_of(sides: &[(FaceId, Option<Side>)], f: FaceId) -> Option<Sid
 }
 
 /// The faces whose sides a report asks for, once all vertices are inserted.
-pub(super) type Judged<'j> = &'j dyn Fn(&Mesh, &Edits) -> Vec<FaceId>;
+pub(super) type CrumbFilter<'j> = &'j dyn Fn(&Mesh, &Edits) -> Vec<FaceId>;
 
-/// What a method has to tell.
+/// The result of a cut by any method.
 #[derive(Default)]
-pub(super) struct Outcome {
+pub(super) struct CutResult {
     /// The side on which the method meant each face to be that has a vertex on the seam.
     pub(super) touched: Sides,
     /// The sides of the faces that the caller asked for.

@@ -1,11 +1,11 @@
-//! What every stage of a cut reads, from the trace to the report.
+//! The input that every stage of a cut reads, from the trace to the report.
 
 use super::offsets::Offsets;
 use super::strip::Strip;
 use crate::id::{FaceId, VertexId};
 
-/// Where a cut may go.
-pub(super) struct Way<'w> {
+/// The faces and planes that bound a cut.
+pub(super) struct CutContext<'w> {
     pub(super) strip: &'w Strip,
     /// The faces that it may cross, ascending.
     pub(super) among: &'w [FaceId],

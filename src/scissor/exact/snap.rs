@@ -14,7 +14,7 @@ use crate::geometry::{Point, altitude, between, cross, dot, max_abs};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::scissor::way::Way;
+use crate::scissor::cut_context::CutContext;
 use crate::slide;
 
 /// The least part of its smallest altitude that a face keeps when its vertices slide.
@@ -24,7 +24,7 @@ const ALTITUDE_KEPT: f64 = 0.3;
 /// [`Scissor::snap_move`](super::super::Scissor::snap_move). A vertex near which the plane merely
 /// passes stays: nothing is cut there. `children` are the faces that the cut will insert.
 pub(super) fn onto_plane(
-    way: &Way<'_>,
+    context: &CutContext<'_>,
     trace: &Trace,
     snap: f64,
     children: &[ChildFace],
@@ -41,7 +41,7 @@ pub(super) fn onto_plane(
     let mut due: Vec<&Snapped> = trace.snapped.iter().filter(is_due).collect();
     // The other end of the edge is farther from the plane. So it slides later, and a vertex slides along the
     // edge on which the crossing was found.
-    let distance = |one: &Snapped| way.offsets.of(one.vertex).abs();
+    let distance = |one: &Snapped| context.offsets.of(one.vertex).abs();
     due.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
     let mut trial = Trial {
         mesh,
