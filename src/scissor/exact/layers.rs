@@ -236,6 +236,19 @@ impl Run {
     fn at(&self, t: f64) -> Point {
         between(self.nodes[0], self.nodes[1], t)
     }
+
+    /// Whether a joint of a side is at this end.
+    fn is_joint(&self, t: f64, side: usize) -> bool {
+        (t == 0.0 && self.joints[0][side]) || (t == 1.0 && self.joints[1][side])
+    }
+}
+
+/// A place where a ray meets a run.
+struct Hit {
+    far: f64,
+    at: Point,
+    chain: u32,
+    is_joint: bool,
 }
 
 /// The first place where a ray meets a run, and its chain. A cut that comes from a joint goes on in the chain that
@@ -247,7 +260,7 @@ fn hit(
     chosen: Option<u32>,
 ) -> Option<(Point, u32)> {
     let ray = rays[side];
-    let mut hits: Vec<(bool, f64, Point, u32)> = Vec::new();
+    let mut hits: Vec<Hit> = Vec::new();
     for (run, chain) in runs {
         let [start, end] = run.depths.map(|depths| depths[side]);
         let t = match (start == 0.0, end == 0.0) {
@@ -258,30 +271,30 @@ fn hit(
             (false, false) => continue,
         };
         for t in t.into_iter().filter(|&t| run.from <= t && t <= run.to) {
-            let far = dot(run.at(t) - ray.origin(), ray.direction());
-            let is_joint = (t == 0.0 && run.joints[0][side]) || (t == 1.0 && run.joints[1][side]);
+            let at = run.at(t);
+            let far = dot(at - ray.origin(), ray.direction());
             if far >= 0.0 {
-                hits.push((!is_joint, far, run.at(t), *chain));
+                hits.push(Hit {
+                    far,
+                    at,
+                    chain: *chain,
+                    is_joint: run.is_joint(t, side),
+                });
             }
         }
     }
-    let (is_apart, nearest, ..) = hits
-        .iter()
-        .min_by(|a, b| {
-            (a.0, a.1)
-                .partial_cmp(&(b.0, b.1))
-                .expect("distances are finite")
-        })
-        .copied()?;
+    let has_joint = hits.iter().any(|hit| hit.is_joint);
+    hits.retain(|hit| hit.is_joint == has_joint);
+    let nearest = hits.iter().map(|hit| hit.far).min_by(f64::total_cmp)?;
     let size = length(ray.direction());
-    let is_first = |hit: &&(bool, f64, Point, u32)| {
-        let reach = max_abs(hit.2.coords).max(max_abs(ray.origin().coords));
-        hit.0 == is_apart && hit.1 - nearest <= ROUNDING * reach * size
+    let is_first = |hit: &&Hit| {
+        let reach = max_abs(hit.at.coords).max(max_abs(ray.origin().coords));
+        hit.far - nearest <= ROUNDING * reach * size
     };
     let mut first = hits.iter().filter(is_first);
-    let of_chosen = first.clone().find(|hit| Some(hit.3) == chosen);
-    let &(.., at, chain) = of_chosen.or_else(|| first.find(|hit| hit.1 == nearest))?;
-    Some((at, chain))
+    let of_chosen = first.clone().find(|hit| Some(hit.chain) == chosen);
+    let hit = of_chosen.or_else(|| first.find(|hit| hit.far == nearest))?;
+    Some((hit.at, hit.chain))
 }
 
 /// Where the first ray from one to the other meets a run, and the chain of that: the place in the
