@@ -27,9 +27,10 @@ pub enum CutLayers {
     /// mesh is moved and turned toward the other until it hits. A cut by a plane has no rays and passes
     /// through all layers.
     ///
-    /// The cut runs through the faces of these chains and, at the ends of a chain, where a snapped seam ends
-    /// or a method tears along edges, through faces in which the plane continues beyond the rays. A layer is cut as if
-    /// the others were absent, but a vertex that belongs only to other chains is never split.
+    /// The cut runs through the faces of these chains. At the ends of a chain, where a snapped seam ends
+    /// or a method tears along edges, it also runs through faces in which the plane continues beyond the
+    /// rays. A layer is cut as if the others were absent, but a vertex that belongs only to other chains is
+    /// never split. A cut that continues another stays in the layer of that one.
     First,
 }
 
