@@ -11,8 +11,8 @@ mod shares;
 mod sheet;
 mod splits;
 
-use tearmesh_lab::statistics::median;
 use tearmesh_cloth::{Cloth, Pbd, Solver, Xpbd};
+use tearmesh_lab::statistics::median;
 
 use crate::measure::timed_on_cpu;
 use crate::options::Options;

@@ -7,8 +7,8 @@ mod rival;
 mod tables;
 mod ways;
 
-use tearmesh_lab::statistics::median;
 use tearmesh_lab::sheet::through;
+use tearmesh_lab::statistics::median;
 
 use crate::measure::{Contestant, median_of, rounds, timed_on_cpu};
 use crate::options::Options;

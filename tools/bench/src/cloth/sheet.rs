@@ -1,7 +1,7 @@
 //! A sheet that hangs by its upper edge.
 
 use tearmesh::{Masses, Mesh, Point, Vector, shapes};
-use tearmesh_cloth::{Cloth, Fabric, Loads, Method, System, Orthotropic, Xpbd};
+use tearmesh_cloth::{Cloth, Fabric, Loads, Method, Orthotropic, System, Xpbd};
 
 use crate::options::Options;
 

@@ -3,8 +3,8 @@
 //! Beside our figures stand those of the experiments that the rules of the scissor come from.
 
 use tearmesh::CutMethod;
-use tearmesh_lab::statistics::{Random, median};
 use tearmesh_lab::sheet::through;
+use tearmesh_lab::statistics::{Random, median};
 
 use super::facts::{Facts, Sheet, sheet};
 use super::ways::{Form, time};
