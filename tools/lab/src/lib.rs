@@ -13,7 +13,7 @@
 #![forbid(unsafe_code)]
 
 pub mod cut;
-pub mod ensemble;
+mod ensemble;
 pub mod experiment;
 pub mod fig7;
 pub mod guide;

@@ -1,15 +1,17 @@
 //! Time steps: whether the result of a scene depends on its time step.
 //!
 //! Tearing is chaotic, so two single runs say nothing. The scene is played with many seeds
-//! ([`ensemble`]) at its step and at half of it, and the medians of both are compared.
+//! (an ensemble) at its step and at half of it, and the medians of both are compared.
 
 mod chart;
+
+pub use crate::ensemble::Subject;
 
 use std::num::NonZero;
 
 use serde::{Deserialize, Serialize};
 
-use crate::ensemble::{self, Subject};
+use crate::ensemble;
 use crate::experiment::{Bounds, Experiment, Status};
 
 /// The experiment on the time step of a scene, and its options.

@@ -9,7 +9,7 @@
 //! strong ([`Tearing::weakening`]).
 //!
 //! After the first tear a scene is chaotic, and two single runs of it differ by a fifth in half of all pairs. So
-//! every method plays it with many seeds ([`ensemble`]), at its step and at a half and a quarter of it. A method
+//! every method plays it with many seeds (an ensemble), at its step and at a half and a quarter of it. A method
 //! has *converged* in a quantity if its ensembles at half and at a quarter of its step have the same median. If
 //! the finest ensembles of two methods that converged have the same median, they are the reference with which all
 //! methods are compared. If no two of them agree, there is no reference.

@@ -7,14 +7,13 @@ use clap::{Args as _, Command, CommandFactory as _};
 use cpu_time::ThreadTime;
 use tearmesh_cloth::scene::{Frame, Run};
 use tearmesh_lab::cut::Cuts;
-use tearmesh_lab::ensemble::Subject;
 use tearmesh_lab::experiment::{Bounds, Chart, Provenance, processor, workers};
 use tearmesh_lab::fig7::Fig7;
 use tearmesh_lab::guide::Guide;
 use tearmesh_lab::pareto::{self, Pareto};
 use tearmesh_lab::sheet::MeshKind;
 use tearmesh_lab::stability::Stability;
-use tearmesh_lab::step::Step;
+use tearmesh_lab::step::{Step, Subject};
 use tearmesh_lab::tear::{EnsembleScene, Tear};
 
 use crate::args::{
