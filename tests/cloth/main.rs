@@ -32,6 +32,8 @@ mod reference;
 #[path = "../../tools/lab/src/rk4.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod rk4;
+#[cfg(feature = "serde")]
+mod scene_file;
 mod scenes;
 mod second;
 mod sewing;

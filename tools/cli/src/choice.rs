@@ -1,9 +1,10 @@
-//! Words that stand for values: on the command line, in scene files and in reports.
+//! Words that stand for values on the command line and in reports.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tearmesh::{CutLayers, CutMethod, CutTips};
-use tearmesh_cloth::scene::{Axis, Preset, Scene};
-use tearmesh_cloth::{BendRemoval, Method, TornStiffness, implicit};
+use tearmesh_cloth::Method;
+use tearmesh_cloth::scene::file::Words;
+use tearmesh_cloth::scene::{Axis, Preset};
 
 /// A type of which users choose a value by a word.
 pub(crate) trait Choice: Copy + Send + Sync + 'static {
@@ -50,12 +51,7 @@ pub(crate) trait Choice: Copy + Send + Sync + 'static {
 }
 
 impl Choice for CutMethod {
-    const ALL: &'static [(&'static str, CutMethod)] = &[
-        ("exact", CutMethod::Exact),
-        ("partition", CutMethod::Partition),
-        ("uniform", CutMethod::Uniform),
-        ("alternating", CutMethod::Alternating),
-    ];
+    const ALL: &'static [(&'static str, CutMethod)] = <CutMethod as Words>::ALL;
     const HELP: &'static [&'static str] = &[
         "Insert vertices where the plane crosses edges: a straight seam",
         "Split the edges between the faces of either side; adds no face",
@@ -75,35 +71,15 @@ impl Choice for CutLayers {
 }
 
 impl Choice for Preset {
-    const ALL: &'static [(&'static str, Preset)] = &Scene::PRESETS;
+    const ALL: &'static [(&'static str, Preset)] = <Preset as Words>::ALL;
 }
 
 impl Choice for Axis {
-    const ALL: &'static [(&'static str, Axis)] = &Axis::NAMED;
+    const ALL: &'static [(&'static str, Axis)] = <Axis as Words>::ALL;
 }
 
 /// Reads the name of a method on the command line.
 pub(crate) fn method() -> impl TypedValueParser<Value = Method> {
     let names = PossibleValuesParser::new(Method::NAMES);
     names.map(|name| Method::named(&name).expect("the parser knows no other name"))
-}
-
-impl Choice for TornStiffness {
-    const ALL: &'static [(&'static str, TornStiffness)] = &[
-        ("halved", TornStiffness::Halved),
-        ("whole", TornStiffness::Whole),
-    ];
-}
-
-impl Choice for BendRemoval {
-    const ALL: &'static [(&'static str, BendRemoval)] =
-        &[("seam", BendRemoval::Seam), ("vertex", BendRemoval::Vertex)];
-}
-
-/// The order of an implicit method.
-impl Choice for implicit::Method {
-    const ALL: &'static [(&'static str, implicit::Method)] = &[
-        ("1", implicit::Method::BackwardEuler),
-        ("2", implicit::Method::Bdf2),
-    ];
 }

@@ -13,7 +13,7 @@ use crate::cuts::scissors::of_rays;
 use crate::exit::{Exit, Stop};
 use crate::rays;
 use crate::say::{Fault, short, two_digits};
-use crate::scene::SceneFile;
+use crate::scene::SceneSource;
 use crate::session::Opened;
 
 /// The cuts that were typed.
@@ -39,7 +39,7 @@ pub(crate) fn typed_cuts(
 pub(crate) fn scene(
     args: &ChangeArgs,
     cuts: Vec<TimedCut>,
-    source: &SceneFile,
+    source: &SceneSource,
     frame: &Frame,
 ) -> Result<Scene, Stop> {
     let mut scene = source.scene(frame, args.solver.as_ref())?;
@@ -66,7 +66,7 @@ pub(crate) fn begin(
     mut scene: Scene,
     opened: &Opened,
     frame: &Frame,
-    source: &SceneFile,
+    source: &SceneSource,
 ) -> Result<Run, Stop> {
     name_vertices(&mut scene, opened);
     scene.rest = rest(opened, source)?;
@@ -75,7 +75,11 @@ pub(crate) fn begin(
 }
 
 /// Has the record of the file that is written say which vertices are copies of one that is sewn.
-pub(crate) fn record_seams(run: &Run, opened: &mut Opened, source: &SceneFile) -> Result<(), Stop> {
+pub(crate) fn record_seams(
+    run: &Run,
+    opened: &mut Opened,
+    source: &SceneSource,
+) -> Result<(), Stop> {
     if run.scene().seams.is_empty() {
         return Ok(());
     }
@@ -114,7 +118,7 @@ fn name_vertices(scene: &mut Scene, opened: &Opened) {
 }
 
 /// Refuses what would make no difference to how the scene tears, where a force may have been typed.
-pub(crate) fn tearing(is_typed: bool, scene: &Scene, source: &SceneFile) -> Result<(), Stop> {
+pub(crate) fn tearing(is_typed: bool, scene: &Scene, source: &SceneSource) -> Result<(), Stop> {
     if scene.tearing.is_none() && source.has("strength") {
         let message = "nothing tears in this scene, however strong it is";
         let help = "add --threshold, or a threshold in [tear] of a scene file";
@@ -136,7 +140,7 @@ pub(crate) fn tearing(is_typed: bool, scene: &Scene, source: &SceneFile) -> Resu
 }
 
 /// The places at rest of corners, by their texture coordinates, if the scene has a unit of them.
-fn rest(opened: &Opened, source: &SceneFile) -> Result<Vec<Point>, Stop> {
+fn rest(opened: &Opened, source: &SceneSource) -> Result<Vec<Point>, Stop> {
     let (mut rest, document) = (Vec::new(), &opened.document);
     let Some(unit_m) = source.vt_m() else {
         return Ok(rest);
@@ -167,7 +171,7 @@ fn rest(opened: &Opened, source: &SceneFile) -> Result<Vec<Point>, Stop> {
 }
 
 /// Why a scene cannot be played with this mesh.
-fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
+fn refused(error: &RunError, opened: &Opened, source: &SceneSource) -> Stop {
     let said = error.to_string();
     let of_mesh = |message: String, help: &str| Fault::error("E-SIM-MESH", message).help(help);
     let fault = match *error {
@@ -227,7 +231,7 @@ fn refused(error: &RunError, opened: &Opened, source: &SceneFile) -> Stop {
 }
 
 /// A face without area is a fault of the mesh, and one across the warp a fault of the warp.
-fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneFile) -> Fault {
+fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneSource) -> Fault {
     let corners = opened.mesh.face_vertices(face);
     let [a, b, c] = corners.map(|v| opened.positions.as_slice()[v.index()]);
     let number = |v: VertexId| opened.document.number_of_vertex(v.index());
@@ -246,7 +250,7 @@ fn flat(face: FaceId, warp: Vector, opened: &Opened, source: &SceneFile) -> Faul
 
 /// That something in a scene file cannot go with something else.
 pub(crate) fn clash(
-    source: &SceneFile,
+    source: &SceneSource,
     at: (&str, usize, &str),
     message: &str,
     help: &str,

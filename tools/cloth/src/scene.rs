@@ -5,6 +5,8 @@
 //! [`Scene::trouser`]. Nothing here is read from files: a program fills in a scene's fields from
 //! any source.
 
+#[cfg(feature = "serde")]
+pub mod file;
 mod frame;
 mod presets;
 mod run;

@@ -1,82 +1,51 @@
-//! A scene file as it is read: its tables, and the place of each key, for diagnostics.
+//! A scene file as it is read, and the place of each key in it, for diagnostics.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use serde::de::{Deserialize as _, DeserializeOwned};
+use serde::Deserialize;
+use tearmesh_cloth::scene::file::{self, OUT_OF_RANGE, SceneFault, SceneFile};
+use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
-use toml::{Spanned, Value};
 
 use super::schema::{Key, REMOVED, Section};
-use crate::choice::Choice;
 use crate::rays;
 use crate::say::Fault;
 
-/// A scene file in which every key is known and every value has the right kind.
+/// A scene file in which every key is known and every value has the right kind, and where all of it stands.
 #[derive(Clone, Debug)]
-pub(crate) struct SceneFile {
+pub(crate) struct SceneSource {
+    pub(super) file: SceneFile,
     pub(super) text: Text,
     /// Those of each name in the order of the file. There is always one without a name, the top.
     tables: Vec<Table>,
 }
 
-/// A table, and where it and the values in it stand.
+/// Where a table and the values in it stand.
 #[derive(Clone, Debug)]
-pub(super) struct Table {
+struct Table {
     name: &'static str,
     span: Range<usize>,
     values: BTreeMap<&'static str, Entry>,
 }
 
-/// A value, where it stands, and where each of its elements does.
+/// Where a value stands, and each of its elements.
 #[derive(Clone, Debug)]
 struct Entry {
-    value: Value,
     span: Range<usize>,
     parts: Vec<Range<usize>>,
 }
 
-impl Table {
-    pub(super) fn has(&self, key: &str) -> bool {
-        self.values.contains_key(key)
-    }
-
-    /// The value of a key, of the type that its kind has.
-    pub(super) fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
-        let value = self.values.get(key)?.value.clone();
-        Some(value.try_into().expect("its kind was checked"))
-    }
-
-    /// The value that a word stands for.
-    pub(super) fn word<T: Choice>(&self, key: &str) -> Option<T> {
-        let word: String = self.get(key)?;
-        Some(T::of(&word).expect("the guide lists the words"))
-    }
-
-    /// Which of these keys stand in the table.
-    pub(super) fn those_of<'n>(&self, names: &[&'n str]) -> Vec<&'n str> {
-        let mut found = names.to_vec();
-        found.retain(|name| self.has(name));
-        found
-    }
-
-    /// The key that stands first, but for one.
-    pub(super) fn first_but(&self, key: &str) -> Option<&'static str> {
-        let others = self.values.iter().filter(|(other, _)| **other != key);
-        let first = others.min_by_key(|(_, entry)| entry.span.start);
-        first.map(|(key, _)| *key)
-    }
-}
-
-impl SceneFile {
+impl SceneSource {
     /// Reads a scene file, or says everything that is wrong with it.
-    pub(super) fn read(path: &str, text: &str) -> Result<SceneFile, Vec<Fault>> {
+    pub(super) fn read(path: &str, text: &str) -> Result<SceneSource, Vec<Fault>> {
         let source = Text {
             path: path.to_owned(),
             text: text.to_owned(),
         };
         let parsed = match DeTable::parse(text) {
-            Ok(parsed) => parsed.into_inner(),
+            Ok(parsed) => parsed,
             Err(error) => {
                 let span = error.span().unwrap_or(0..0);
                 let message = error.message().lines().collect::<Vec<_>>().join("; ");
@@ -90,60 +59,39 @@ impl SceneFile {
             tables: Vec::new(),
             faults: Vec::new(),
         };
+        let top = parsed.get_ref();
         for section in reader.sections {
-            match parsed.get_key_value(section.table) {
-                _ if section.table.is_empty() => reader.table(section, &parsed, 0..0),
+            match top.get_key_value(section.table) {
+                _ if section.table.is_empty() => reader.table(section, top, 0..0),
                 Some((key, value)) => reader.tables(section, key.span(), value),
                 None => {}
             }
         }
-        let (tables, mut faults) = (reader.tables, reader.faults);
-        let file = SceneFile {
+        let (tables, faults) = (reader.tables, reader.faults);
+        none_of(faults)?;
+        let whole = Spanned::new(parsed.span(), DeValue::Table(parsed.into_inner()));
+        let file = SceneFile::deserialize(ValueDeserializer::from(whole));
+        Ok(SceneSource {
+            file: file.expect("every value was read alone"),
             text: source,
             tables,
-        };
-        let cuts = file.tables("cut").filter(|cut| cut.has("rays"));
-        faults.extend(cuts.filter_map(|cut| file.rays(cut).err()));
-        none_of(faults).map(|()| file)
+        })
     }
 
     /// Whether the file has a table of this name.
     pub(crate) fn has(&self, name: &str) -> bool {
-        self.table(name).is_some()
+        self.tables(name).next().is_some()
     }
 
     /// The tables of this name.
-    pub(super) fn tables(&self, name: &str) -> impl Iterator<Item = &Table> {
+    fn tables(&self, name: &str) -> impl Iterator<Item = &Table> {
         self.tables.iter().filter(move |table| table.name == name)
     }
 
-    /// The only table of this name, if the file has it.
-    pub(super) fn table(&self, name: &str) -> Option<&Table> {
-        self.tables(name).next()
-    }
-
-    /// The two rays of a cut.
-    pub(super) fn rays(&self, cut: &Table) -> Result<rays::Pair, Fault> {
-        let entry = cut.values.get("rays");
-        let entry = entry.ok_or_else(|| self.missing(cut, "rays"))?;
-        let texts: Vec<String> = cut.get("rays").unwrap_or_default();
-        let mut found = Vec::new();
-        for (text, span) in texts.iter().zip(&entry.parts) {
-            for part in rays::split_pair(text) {
-                let ray = rays::ray(&text[part.clone()]).map_err(|wrong| {
-                    let part = part.start + wrong.part.start..part.start + wrong.part.end;
-                    let at = self.text.within(span, text, part);
-                    let fault = self.text.fault(wrong.code, wrong.message, &at, wrong.label);
-                    fault.help(rays::RAY_HELP)
-                })?;
-                found.push(ray);
-            }
-        }
-        rays::Pair::try_from(found).map_err(|found| {
-            let (message, label) = rays::miscounted(found.len());
-            let fault = self.text.fault("E-RAY-COUNT", message, &entry.span, label);
-            fault.help(rays::PAIR_HELP)
-        })
+    /// The two rays of a cut, from their texts.
+    pub(super) fn rays(&self, texts: &[String], number: usize) -> Result<rays::Pair, Fault> {
+        let cut = self.tables("cut").nth(number).expect("it was read");
+        self.text.rays(texts, &cut.values["rays"])
     }
 
     /// A fault with the place of a key in the table of this number, or of the table where it lacks the key.
@@ -154,26 +102,23 @@ impl SceneFile {
         message: String,
     ) -> Fault {
         match self.tables(table).nth(number) {
-            Some(table) => self.fault(table, key, code, message),
+            Some(table) => {
+                let entry = table.values.get(key);
+                let span = entry.map_or(&table.span, |entry| &entry.span);
+                self.text.fault(code, message, span, "")
+            }
             None => Fault::error(code, message),
         }
     }
 
-    pub(super) fn missing(&self, table: &Table, key: &str) -> Fault {
-        let message = format!("[{}] lacks `{key}`", table.name);
-        self.fault(table, "", "E-SCENE-MISSING", message)
-    }
-
-    pub(super) fn fault(
-        &self,
-        table: &Table,
-        key: &str,
-        code: &'static str,
-        message: impl Into<String>,
-    ) -> Fault {
-        let entry = table.values.get(key);
-        let span = entry.map_or(&table.span, |entry| &entry.span);
-        self.text.fault(code, message.into(), span, "")
+    /// A fault of the scene, with its place.
+    pub(super) fn placed(&self, fault: SceneFault) -> Fault {
+        let at = (fault.table, fault.number, fault.key);
+        let placed = self.blame(at, fault.code, fault.message);
+        match fault.help {
+            Some(help) => placed.help(help),
+            None => placed,
+        }
     }
 }
 
@@ -231,16 +176,18 @@ impl Reader<'_> {
                 self.unknown(section, word, key.span());
                 continue;
             };
-            let read = Value::deserialize(ValueDeserializer::from(value.clone()));
-            let checked = read.map_err(|_| "E-SCENE-TYPE");
-            match checked.and_then(|read| known.check(&read).map(|()| read)) {
-                Ok(read) => {
+            match check(section.table, key.clone(), value.clone()) {
+                Ok(()) => {
                     let parts = value.get_ref().as_array().into_iter().flatten();
                     let entry = Entry {
-                        value: read,
                         span: value.span(),
                         parts: parts.map(Spanned::span).collect(),
                     };
+                    if known.kind == "two rays" {
+                        let texts = Vec::deserialize(ValueDeserializer::from(value.clone()));
+                        let texts: Vec<String> = texts.expect("its kind was checked");
+                        self.faults.extend(self.text.rays(&texts, &entry).err());
+                    }
                     values.insert(known.name, entry);
                 }
                 Err(code) => self.refused(known, value, code),
@@ -294,6 +241,48 @@ impl Reader<'_> {
     }
 }
 
+/// Reads a value alone, as the field that its key names in a table. Refuses it with the code of the error.
+fn check(
+    table: &str,
+    key: Spanned<Cow<'_, str>>,
+    value: Spanned<DeValue<'_>>,
+) -> Result<(), &'static str> {
+    let span = value.span();
+    let mut alone = DeTable::new();
+    alone.insert(key, value);
+    let read = read_alone(table, Spanned::new(span, DeValue::Table(alone)));
+    read.map_err(|error| match error.message().contains(OUT_OF_RANGE) {
+        true => "E-SCENE-RANGE",
+        false => "E-SCENE-TYPE",
+    })
+}
+
+/// Reads a table of this name.
+fn read_alone(table: &str, alone: Spanned<DeValue<'_>>) -> Result<(), toml::de::Error> {
+    let alone = ValueDeserializer::from(alone);
+    match table {
+        "" => SceneFile::deserialize(alone).map(drop),
+        "fabric" => file::FabricTable::deserialize(alone).map(drop),
+        "solver" => file::SolverTable::deserialize(alone).map(drop),
+        "wind" => file::WindTable::deserialize(alone).map(drop),
+        "collider" => file::ColliderTable::deserialize(alone).map(drop),
+        "hold" => file::HoldTable::deserialize(alone).map(drop),
+        "seam" => file::SeamTable::deserialize(alone).map(drop),
+        "cut" => file::CutTable::deserialize(alone).map(drop),
+        "tear" => file::TearTable::deserialize(alone).map(drop),
+        "strength" => file::StrengthTable::deserialize(alone).map(drop),
+        _ => unreachable!("the guide lists no other table"),
+    }
+}
+
+/// What is wrong with a text that is read as a table of this name.
+#[cfg(test)]
+pub(super) fn check_alone(table: &str, text: &str) -> Result<(), String> {
+    let parsed = DeTable::parse(text).expect("TOML");
+    let alone = Spanned::new(parsed.span(), DeValue::Table(parsed.into_inner()));
+    read_alone(table, alone).map_err(|error| error.message().to_owned())
+}
+
 /// The name that is nearest to a word, if it is near.
 pub(super) fn near<'n>(word: &str, names: &[&'n str]) -> Option<&'n str> {
     let distance = |name| (strsim::damerau_levenshtein(word, name), name);
@@ -338,6 +327,27 @@ impl Text {
         let end = line_text.ceil_char_boundary(end);
         let line = self.text[..line_start].matches('\n').count() + 1;
         Fault::error(code, message).at((&self.path, line), line_text, at..end, label)
+    }
+
+    /// The two rays of a cut, from their texts.
+    fn rays(&self, texts: &[String], entry: &Entry) -> Result<rays::Pair, Fault> {
+        let mut found = Vec::new();
+        for (text, span) in texts.iter().zip(&entry.parts) {
+            for part in rays::split_pair(text) {
+                let ray = rays::ray(&text[part.clone()]).map_err(|wrong| {
+                    let part = part.start + wrong.part.start..part.start + wrong.part.end;
+                    let at = self.within(span, text, part);
+                    let fault = self.fault(wrong.code, wrong.message, &at, wrong.label);
+                    fault.help(rays::RAY_HELP)
+                })?;
+                found.push(ray);
+            }
+        }
+        rays::Pair::try_from(found).map_err(|found| {
+            let (message, label) = rays::miscounted(found.len());
+            let fault = self.fault("E-RAY-COUNT", message, &entry.span, label);
+            fault.help(rays::PAIR_HELP)
+        })
     }
 
     /// Where a part of a string stands; the whole string if it is written with escapes.

@@ -24,7 +24,7 @@ use crate::files::is_same;
 use crate::input::{Input, cannot_read};
 use crate::interrupt::Guard;
 use crate::say::{Fault, shown};
-use crate::scene::SceneFile;
+use crate::scene::SceneSource;
 use crate::session::{self, Opened};
 use crate::streams::Streams;
 use crate::{output, simulation, weld};
@@ -115,7 +115,7 @@ fn begun(
     faults: &mut Vec<Fault>,
     streams: &mut Streams<'_>,
 ) -> Result<(Opened, Frame, Run), Stop> {
-    let source = SceneFile::find(scene, streams)?;
+    let source = SceneSource::find(scene, streams)?;
     let cuts = simulation::typed_cuts(change, faults)?;
     let input = Input::find(input, streams.input)?;
     let mut opened = session::open(&input, None, "or add", faults)?;

@@ -11,7 +11,7 @@ use crate::args::PlayArgs;
 use crate::choice::Choice as _;
 use crate::exit::Stop;
 use crate::say::{Fault, count, printable, shown};
-use crate::scene::SceneFile;
+use crate::scene::SceneSource;
 use crate::session::{self, Opened};
 use crate::streams::Streams;
 use crate::{output, page, simulation, weld};
@@ -23,7 +23,7 @@ pub(crate) fn run(
     streams: &mut Streams<'_>,
 ) -> Result<String, Stop> {
     let unnamed = || Ok(PathBuf::from("play.html"));
-    let source = SceneFile::find(&args.scene, streams)?;
+    let source = SceneSource::find(&args.scene, streams)?;
     let is_file = Preset::of(source.name()).is_none();
     if is_file && args.input.is_none() {
         let message = "a scene file is of a mesh";

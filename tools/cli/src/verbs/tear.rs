@@ -28,7 +28,7 @@ use crate::exit::{Exit, Stop};
 use crate::interrupt::Guard;
 use crate::measure::Piece;
 use crate::picture::{Texture, with_bodies};
-use crate::scene::SceneFile;
+use crate::scene::SceneSource;
 use crate::session::{Opened, Session, milliseconds};
 use crate::streams::Streams;
 use crate::{cuts, files, output, report, simulation, weld};
@@ -45,7 +45,7 @@ fn work(args: &TearArgs, session: &mut Session<'_, '_>) -> Result<(), Stop> {
     // What was typed is refused before a large file is read.
     let cache = args.cache.as_deref();
     cache.map_or(Ok(()), |path| files::check_format(path, "PC2", &["pc2"]))?;
-    let source = SceneFile::find(&args.scene, session.streams)?;
+    let source = SceneSource::find(&args.scene, session.streams)?;
     let cuts = simulation::typed_cuts(&args.change, &mut session.faults)?;
     let mut opened = session.open(None)?;
     weld::seams(

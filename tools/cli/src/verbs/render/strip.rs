@@ -6,7 +6,7 @@ use tearmesh_view::{Camera, Picture, RenderOptions, fit_all, render};
 use crate::args::RenderArgs;
 use crate::exit::{Exit, Stop};
 use crate::picture::{Texture, no_camera, with_bodies};
-use crate::scene::SceneFile;
+use crate::scene::SceneSource;
 use crate::session::Opened;
 use crate::simulation;
 use crate::streams::Streams;
@@ -21,7 +21,7 @@ pub(super) fn draw(
     args: &RenderArgs,
     streams: &mut Streams<'_>,
 ) -> Result<Picture, Stop> {
-    let source = SceneFile::find(args.scene.as_deref().unwrap_or_default(), streams)?;
+    let source = SceneSource::find(args.scene.as_deref().unwrap_or_default(), streams)?;
     let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), source.up());
     let begin = || {
         let mut scene = source.scene(&frame, None)?;

@@ -11,7 +11,7 @@ use crate::choice::Choice as _;
 use crate::exit::Stop;
 use crate::files::Names;
 use crate::say::Fault;
-use crate::scene::SceneFile;
+use crate::scene::SceneSource;
 use crate::session::Opened;
 use crate::simulation::clash;
 
@@ -42,7 +42,7 @@ pub(super) fn moved(opened: &Opened) -> Option<Fault> {
 }
 
 /// Refuses frames with the faces of the last one, which has fewer vertices than the first where seams were sewn.
-pub(super) fn points_stay(args: &TearArgs, run: &Run, source: &SceneFile) -> Result<(), Stop> {
+pub(super) fn points_stay(args: &TearArgs, run: &Run, source: &SceneSource) -> Result<(), Stop> {
     let is_last = args.cache.is_some() || args.frames_topology == Topology::Final;
     if run.scene().seams.is_empty() || !is_last {
         return Ok(());
