@@ -2,8 +2,8 @@
 //!
 //! A [`Scene`] is the plan of a simulation, and a [`Run`] carries it out. Four scenes are built in,
 //! and are sized to the mesh: [`Scene::hang`], [`Scene::flag`], [`Scene::rip`] and
-//! [`Scene::trouser`]. Nothing here is read from files: a program fills in a scene's fields from
-//! any source.
+//! [`Scene::trouser`]. A program fills in a scene's fields from any source. With the feature `serde`,
+//! the module `file` has scenes as people write them in files.
 
 #[cfg(feature = "serde")]
 pub mod file;
