@@ -5,7 +5,9 @@
 //! loose parts, and a cut that decides on each side alone leaves cracks. A seam whose sides coincide is a
 //! tear that has not opened: [`UnsewnSeams::close`] links the two sides as *ghost pairs*, so that a cut
 //! crosses the seam as it crosses an older cut, and [`ClosedSeams::reopen`] removes these links again.
-//! Nothing that was apart is joined. [`UnsewnSeams::welded`] does join the sides, for simulations.
+//! Nothing that was apart is joined. [`UnsewnSeams::welded`] does join the sides, for simulations. The two
+//! sides of double-sided cloth are no seam: each is cut by itself, and where their triangles differ, a snap
+//! may take the cut to different places.
 //!
 //! ```text
 //!       c                   Two boundary half-edges are *partners* if they run between equal places in
