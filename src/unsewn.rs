@@ -225,6 +225,26 @@ impl UnsewnSeams {
         sets.leaders().to_vec()
     }
 
+    /// Returns for each vertex the one that it becomes in the [welded](UnsewnSeams::welded) mesh. Linear.
+    ///
+    /// # Panics
+    ///
+    /// If the mesh was edited since the seams were found.
+    #[must_use]
+    pub fn welded_vertices(&self, mesh: &Mesh) -> Vec<VertexId> {
+        let mut vertices: Vec<VertexId> = Vec::with_capacity(mesh.vertex_count());
+        let mut count = 0;
+        for (kept, v) in self.lowest(mesh).into_iter().zip(0..) {
+            let is_first = kept == v;
+            vertices.push(match is_first {
+                true => VertexId::from_u32(count),
+                false => vertices[kept as usize],
+            });
+            count += u32::from(is_first);
+        }
+        vertices
+    }
+
     /// Returns the mesh with all seams sewn. Faces keep their ids. Vertices are numbered in the order in
     /// which their places first appear. A vertex that was several is at their mean.
     ///
@@ -233,19 +253,10 @@ impl UnsewnSeams {
     /// If the mesh was edited since the seams were found, or the positions are not those of the mesh.
     #[must_use]
     pub fn welded(&self, mesh: &Mesh, positions: &Positions) -> Welded {
-        let kept = self.lowest(mesh);
-        let mut vertices: Vec<VertexId> = Vec::with_capacity(kept.len());
-        let mut count = 0;
-        for (&kept, v) in kept.iter().zip(0..) {
-            let is_first = kept == v;
-            vertices.push(match is_first {
-                true => VertexId::from_u32(count),
-                false => vertices[kept as usize],
-            });
-            count += u32::from(is_first);
-        }
-        let mut sums = vec![(Point::origin(), 0.0); count as usize];
-        let mut roots: Vec<u32> = (0..count).collect();
+        let vertices = self.welded_vertices(mesh);
+        let count = vertices.iter().max().map_or(0, |last| last.index() + 1);
+        let mut sums = vec![(Point::origin(), 0.0); count];
+        let mut roots: Vec<u32> = (0..count as u32).collect();
         for ((v, &welded), root) in mesh.vertices().zip(&vertices).zip(mesh.roots()) {
             let (sum, times) = &mut sums[welded.index()];
             // The mean of equal points is that point to the bit.

@@ -33,7 +33,7 @@ fn sew(opened: &mut Opened, distance: f64) -> Result<Option<String>, Stop> {
     if seams.is_empty() {
         return Ok(None);
     }
-    opened.welded = Some(seams.welded(&opened.mesh, &opened.positions).vertices);
+    opened.welded = Some(seams.welded_vertices(&opened.mesh));
     let (torn, mut mesh) = torn_at(opened.document.clone(), &opened.mesh, &seams)?;
     let (mut positions, mut edits) = (opened.positions.clone(), Edits::new());
     let stitches = seams.stitches(&mesh);
