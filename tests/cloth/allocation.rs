@@ -1,4 +1,4 @@
-//! What promises not to allocate does not.
+//! Steps and cuts that promise not to allocate.
 
 use allocation_counter::measure;
 use tearmesh::{Point, Scissor, Vector, shapes};

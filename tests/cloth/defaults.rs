@@ -1,4 +1,4 @@
-//! What a user gets who names neither a method nor a step: strains and energy, against references that do not
+//! The default method and step: strains and energy, against references that do not
 //! depend on the method.
 
 mod sheets;

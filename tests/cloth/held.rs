@@ -1,4 +1,4 @@
-//! What is held, led or in the way, by every method: pins, paths and bodies, in steps of two lengths by turns.
+//! Pins, paths and bodies by every method, in steps of two lengths by turns.
 
 use tearmesh::{Mesh, Point, Positions, Vector};
 use tearmesh_cloth::implicit::Method;

@@ -1,4 +1,4 @@
-//! What the tests of cloth are made of: systems, cloths and scenes, loads, and comparisons. There is
+//! The parts of the tests of cloth: systems, cloths and scenes, loads, and comparisons. There is
 //! no test here, and no test takes its parts from another one's file, but for what must hold of a cloth
 //! after any edit (`follow::check`).
 

@@ -1,4 +1,4 @@
-//! What scene files name and do not hold: rays, as the command reads them, and bodies in files beside them.
+//! The reader of rays and bodies, which scene files name and do not hold.
 
 use std::io;
 use std::path::Path;

@@ -1,9 +1,9 @@
 //! Scene files: a scene as people write it, whatever the mesh.
 //!
 //! A [`SceneFile`] has the tables and keys of a scene file in TOML, or in any other format that serde reads.
-//! Everything is optional, and what is left out is that of the [base](SceneFile::base). [`SceneFile::on`] makes a
-//! [`Scene`](super::Scene) of it for the frame of a mesh. The meaning, the unit and the default of each key are those of the
-//! command's guide to scenes, which has a row for each field here.
+//! Everything is optional, and a key that is left out is that of the [base](SceneFile::base). [`SceneFile::on`]
+//! makes a [`Scene`](super::Scene) of it for the frame of a mesh. The meaning, the unit and the default of each
+//! key are in the command's guide to scenes, which has a row for each field here.
 
 /// The names of fields, and whether each has a value.
 macro_rules! present {

@@ -1,4 +1,4 @@
-//! How fast air slows particles, and the limit that this sets on the step of a method that
+//! The rate at which air slows particles, and the limit that this sets on the step of a method that
 //! evaluates drag or wind at the velocities before the step.
 //!
 //! Wind presses on a face by the mean velocity of its corners, and a third of that acts at each

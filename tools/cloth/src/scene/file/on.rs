@@ -17,6 +17,7 @@ use crate::scene::{HeldVertices, Region, Scene, SwayingWind, TimedCut};
 use crate::system::body::{Body, BodyError};
 use crate::system::load::{Collider, ColliderShape, Wind};
 use crate::system::path::{Path, RigidMotion};
+use crate::text::two_digits;
 
 /// A reader of the parts of a scene that its file only names: rays, which are texts, and bodies, which are in files
 /// of their own. A part that cannot be read is `None`, and the reader keeps the reason.
@@ -487,13 +488,4 @@ impl CutTable {
             method: self.method.as_deref().copied().unwrap_or_default(),
         })
     }
-}
-
-/// Two digits, rounded down.
-fn two_digits(x: f64) -> String {
-    let mut scale = 1.0;
-    while x * scale < 10.0 && scale < 1e15 {
-        scale *= 10.0;
-    }
-    ((x * scale).floor() / scale).to_string()
 }
