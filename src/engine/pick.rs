@@ -84,10 +84,14 @@ impl RayHit {
 pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Option<RayHit> {
     let direction = scaled(ray.direction()).expect("a ray has a direction");
     let per_distance = length(direction);
+    let along = direction.iamax();
     let mut first: Option<RayHit> = None;
     for face in mesh.faces() {
         let corners = mesh.face_vertices(face).map(|v| place.at(v));
         let seen = corners.map(|corner: Point| corner - ray.origin());
+        if passes_by(seen, direction, along) {
+            continue;
+        }
         let Some((weights, side)) = weights(seen, direction) else {
             continue;
         };
@@ -109,6 +113,25 @@ pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Optio
         }
     }
     first
+}
+
+/// Whether all corners of a triangle are on one side of a plane through the line from the origin, beyond rounding:
+/// then the line does not meet it. The planes are parallel to two of the axes and `along` is the third, the one to
+/// which the direction is nearest. Nearly all faces are refused here, for a seventh of what [`weights`] costs.
+fn passes_by(corners: [Vector; 3], direction: Vector, along: usize) -> bool {
+    let is_beside = |axis: usize| {
+        let sides = corners.map(|corner| {
+            let parts = [
+                corner[axis] * direction[along],
+                corner[along] * direction[axis],
+            ];
+            let side = parts[0] - parts[1];
+            let is_sure = side.abs() > ROUNDING * (parts[0].abs() + parts[1].abs());
+            if is_sure { side } else { 0.0 }
+        });
+        sides.iter().all(|&side| side > 0.0) || sides.iter().all(|&side| side < 0.0)
+    };
+    is_beside((along + 1) % 3) || is_beside((along + 2) % 3)
 }
 
 /// The weights of the corners of a triangle where a line through the origin meets it, and a number with
