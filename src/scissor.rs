@@ -347,7 +347,7 @@ impl Scissor {
     /// * Rays that cross in front of both origins have two wedges between them, one before and one beyond
     ///   the crossing. The cut is made in the one in which the plane meets the mesh.
     /// * A cut that [continues](Scissor::continued) another runs to the point where its ray meets the mesh
-    ///   first, on whichever side of the previous ray that is.
+    ///   nearest to where it begins, on whichever side of the previous ray that is.
     ///
     /// Linear in these cases, otherwise constant.
     ///
@@ -398,12 +398,27 @@ impl Scissor {
                     None => strip,
                 }
             }
-            [Some(_), None] => self.strip.clone().toward(0, aim(1)?),
-            [None, Some(_)] => self.strip.clone().toward(1, aim(0)?),
+            [Some(_), None] => self.turned_joint(0, mesh, place)?,
+            [None, Some(_)] => self.turned_joint(1, mesh, place)?,
             _ => return None,
         };
         strip.through = self.strip.through;
         Some(strip)
+    }
+
+    /// The strip from the joint of a side toward the point nearest to that at which the other ray meets the mesh.
+    /// (A joint may be on the back alone, and the rays may cross between it and the front.)
+    fn turned_joint(
+        &self,
+        side: usize,
+        mesh: &Mesh,
+        place: &(impl Place + ?Sized),
+    ) -> Option<Strip> {
+        let joint = self.strip.sides?[side].point();
+        let hits = pick::hits(mesh, place, &self.rays.as_ref()?[1 - side]);
+        let points = hits.map(|hit| hit.point(mesh, place));
+        let aim = points.min_by(|p, q| length(p - joint).total_cmp(&length(q - joint)))?;
+        Some(self.strip.clone().toward(side, aim))
     }
 
     /// Cuts a mesh along the plane of this scissor, between the rays if it has any.

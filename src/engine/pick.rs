@@ -82,19 +82,24 @@ impl RayHit {
 /// If `place` does not store the position of a vertex of the mesh.
 #[must_use]
 pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Option<RayHit> {
+    hits(mesh, place, ray).min_by(|one, other| one.distance.total_cmp(&other.distance))
+}
+
+/// All faces that a ray meets, in the order of their ids.
+pub(crate) fn hits(
+    mesh: &Mesh,
+    place: &(impl Place + ?Sized),
+    ray: &Ray,
+) -> impl Iterator<Item = RayHit> {
     let direction = scaled(ray.direction()).expect("a ray has a direction");
-    let per_distance = length(direction);
-    let along = direction.iamax();
-    let mut first: Option<RayHit> = None;
-    for face in mesh.faces() {
+    let (per_distance, along, origin) = (length(direction), direction.iamax(), ray.origin());
+    mesh.faces().filter_map(move |face| {
         let corners = mesh.face_vertices(face).map(|v| place.at(v));
-        let seen = corners.map(|corner: Point| corner - ray.origin());
+        let seen = corners.map(|corner: Point| corner - origin);
         if passes_by(seen, direction, along) {
-            continue;
+            return None;
         }
-        let Some((weights, side)) = weights(seen, direction) else {
-            continue;
-        };
+        let (weights, side) = weights(seen, direction)?;
         // A sum of two numbers beside a zero does not depend on their order, so the faces of an edge agree.
         let [a, b, c] = [0, 1, 2].map(|i| weights[i] * dot(seen[i], direction));
         let distance = match side {
@@ -102,17 +107,13 @@ pub fn first_hit(mesh: &Mesh, place: &(impl Place + ?Sized), ray: &Ray) -> Optio
             _ => (a + b + c) / per_distance,
         };
         let is_in_front = side >= 0.0 && !distance.is_nan();
-        // What is in front is not behind by rounding.
-        let distance = distance.max(0.0);
-        if is_in_front && first.is_none_or(|first| distance < first.distance) {
-            first = Some(RayHit {
-                face,
-                weights,
-                distance,
-            });
-        }
-    }
-    first
+        is_in_front.then_some(RayHit {
+            face,
+            weights,
+            // What is in front is not behind by rounding. Adding zero makes -0 a 0.
+            distance: distance.max(0.0) + 0.0,
+        })
+    })
 }
 
 /// Whether all corners of a triangle are on one side of a plane through the line from the origin, beyond rounding:
