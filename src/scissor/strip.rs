@@ -54,6 +54,10 @@ struct Crossing {
     at: Point,
     /// The plane through both origins, upright on that of the cut, with the crossing in front.
     origins: Plane,
+    /// From the crossing into the middle of the wedge beyond it.
+    onward: Vector,
+    /// What rounding alone explains of a distance from the crossing.
+    rounding: f64,
 }
 
 impl Crossing {
@@ -70,9 +74,13 @@ impl Crossing {
         let upright = scaled(cross(b - a, normal))?;
         let inward = dot(upright, along);
         let upright = if inward < 0.0 { -upright } else { upright };
+        let at = a + along * far;
+        let [onward_a, onward_b] = rays.map(|ray| unit_scale(ray) / length(unit_scale(ray)));
         Some(Crossing {
-            at: a + along * far,
+            at,
             origins: plane(a, upright),
+            onward: onward_a + onward_b,
+            rounding: ROUNDING * reach.max(max_abs(at.coords)),
         })
     }
 }
@@ -230,11 +238,13 @@ impl Strip {
             let Some([p, q]) = self.section(corners) else {
                 continue;
             };
-            meets_beyond |= beyond.part(p, q).is_some();
-            if let Some((from, to)) = before.part(p, q) {
+            // What meets a wedge in the crossing alone meets neither of them.
+            let ends = |wedge: &Strip| wedge.part(p, q).into_iter().flatten();
+            let far = |end| dot(end - crossing.at, crossing.onward);
+            meets_beyond |= ends(&beyond).any(|end| far(end) > crossing.rounding);
+            if ends(&before).any(|end| far(end) < -crossing.rounding) {
                 meets_before = true;
-                let ends = [from, to].map(|t| crossing.origins.offset(between(p, q, t)));
-                meets_between |= ends.iter().any(|&far| far > 0.0);
+                meets_between |= ends(&before).any(|end| crossing.origins.offset(end) > 0.0);
             }
         }
         match (meets_before, meets_beyond) {
@@ -255,9 +265,10 @@ impl Strip {
         Some([ends.next()?, ends.next()?])
     }
 
-    /// The part of a segment between the side planes, unless that is a point or nothing.
-    fn part(&self, p: Point, q: Point) -> Option<(f64, f64)> {
-        self.clip(p, q, 0.0).filter(|(from, to)| from < to)
+    /// The ends of the part of a segment between the side planes, unless that is a point or nothing.
+    fn part(&self, p: Point, q: Point) -> Option<[Point; 2]> {
+        let (from, to) = self.clip(p, q, 0.0).filter(|(from, to)| from < to)?;
+        Some([from, to].map(|t| between(p, q, t)))
     }
 
     /// How far inside each side plane a point lies; negative outside, infinite for a cut through
