@@ -63,11 +63,13 @@ struct Crossing {
 impl Crossing {
     /// None if the rays are parallel, diverge, or come from one eye, up to rounding.
     fn of(rays: [&Ray; 2], normal: Vector, sides: [Plane; 2], reach: f64) -> Option<Crossing> {
+        // A part of a subnormal number is nothing.
+        let rounding = ROUNDING * reach.max(f64::MIN_POSITIVE);
         let far = |side: usize| {
             let (other, along) = (sides[1 - side], unit_scale(rays[side]));
             let approach = dot(other.scaled_normal(), along);
             let far = -other.offset(rays[side].origin()) / approach;
-            (approach.abs() > ROUNDING && far > ROUNDING * reach).then_some((far, along))
+            (approach.abs() > ROUNDING && far > rounding).then_some((far, along))
         };
         let ((far, along), _) = (far(0)?, far(1)?);
         let [a, b] = rays.map(|ray| ray.origin());
@@ -80,7 +82,7 @@ impl Crossing {
             at,
             origins: plane(a, upright),
             onward: onward_a + onward_b,
-            rounding: ROUNDING * reach.max(max_abs(at.coords)),
+            rounding: rounding.max(ROUNDING * max_abs(at.coords)),
         })
     }
 }
