@@ -1,7 +1,7 @@
 //! Built-in scenes and scene files.
 
 mod kinds;
-mod outside;
+mod on;
 mod read;
 mod schema;
 

@@ -27,14 +27,7 @@ pub(crate) struct SceneSource {
 struct Table {
     name: &'static str,
     span: Range<usize>,
-    values: BTreeMap<&'static str, Entry>,
-}
-
-/// Where a value stands, and each of its elements.
-#[derive(Clone, Debug)]
-struct Entry {
-    span: Range<usize>,
-    parts: Vec<Range<usize>>,
+    values: BTreeMap<&'static str, Range<usize>>,
 }
 
 impl SceneSource {
@@ -88,12 +81,6 @@ impl SceneSource {
         self.tables.iter().filter(move |table| table.name == name)
     }
 
-    /// The two rays of a cut, from their texts.
-    pub(super) fn rays(&self, texts: &[String], number: usize) -> Result<rays::Pair, Fault> {
-        let cut = self.tables("cut").nth(number).expect("it was read");
-        self.text.rays(texts, &cut.values["rays"])
-    }
-
     /// A fault with the place of a key in the table of this number, or of the table where it lacks the key.
     pub(crate) fn blame(
         &self,
@@ -103,8 +90,7 @@ impl SceneSource {
     ) -> Fault {
         match self.tables(table).nth(number) {
             Some(table) => {
-                let entry = table.values.get(key);
-                let span = entry.map_or(&table.span, |entry| &entry.span);
+                let span = table.values.get(key).unwrap_or(&table.span);
                 self.text.fault(code, message, span, "")
             }
             None => Fault::error(code, message),
@@ -178,17 +164,7 @@ impl Reader<'_> {
             };
             match check(section.table, key.clone(), value.clone()) {
                 Ok(()) => {
-                    let parts = value.get_ref().as_array().into_iter().flatten();
-                    let entry = Entry {
-                        span: value.span(),
-                        parts: parts.map(Spanned::span).collect(),
-                    };
-                    if known.kind == "two rays" {
-                        let texts = Vec::deserialize(ValueDeserializer::from(value.clone()));
-                        let texts: Vec<String> = texts.expect("its kind was checked");
-                        self.faults.extend(self.text.rays(&texts, &entry).err());
-                    }
-                    values.insert(known.name, entry);
+                    values.insert(known.name, value.span());
                 }
                 Err(code) => self.refused(known, value, code),
             }
@@ -202,6 +178,12 @@ impl Reader<'_> {
 
     /// A value that its kind does not admit.
     fn refused(&mut self, key: &Key, value: &Spanned<DeValue<'_>>, code: &'static str) {
+        if key.kind == "two rays"
+            && let Some(fault) = self.text.rays(value)
+        {
+            self.faults.push(fault);
+            return;
+        }
         let label = match (code, value.get_ref()) {
             ("E-SCENE-RANGE", _) => "out of range".to_owned(),
             (_, DeValue::Array(_)) => "these are others".to_owned(),
@@ -329,25 +311,25 @@ impl Text {
         Fault::error(code, message).at((&self.path, line), line_text, at..end, label)
     }
 
-    /// The two rays of a cut, from their texts.
-    fn rays(&self, texts: &[String], entry: &Entry) -> Result<rays::Pair, Fault> {
-        let mut found = Vec::new();
-        for (text, span) in texts.iter().zip(&entry.parts) {
+    /// Why the texts of two rays cannot be read; none where they are no texts.
+    fn rays(&self, value: &Spanned<DeValue<'_>>) -> Option<Fault> {
+        let texts = Vec::<String>::deserialize(ValueDeserializer::from(value.clone())).ok()?;
+        let spans = value.get_ref().as_array().into_iter().flatten();
+        let mut count = 0;
+        for (text, span) in texts.iter().zip(spans.map(Spanned::span)) {
             for part in rays::split_pair(text) {
-                let ray = rays::ray(&text[part.clone()]).map_err(|wrong| {
+                count += 1;
+                if let Err(wrong) = rays::ray(&text[part.clone()]) {
                     let part = part.start + wrong.part.start..part.start + wrong.part.end;
-                    let at = self.within(span, text, part);
+                    let at = self.within(&span, text, part);
                     let fault = self.fault(wrong.code, wrong.message, &at, wrong.label);
-                    fault.help(rays::RAY_HELP)
-                })?;
-                found.push(ray);
+                    return Some(fault.help(rays::RAY_HELP));
+                }
             }
         }
-        rays::Pair::try_from(found).map_err(|found| {
-            let (message, label) = rays::miscounted(found.len());
-            let fault = self.fault("E-RAY-COUNT", message, &entry.span, label);
-            fault.help(rays::PAIR_HELP)
-        })
+        let (message, label) = rays::miscounted(count);
+        let fault = self.fault("E-RAY-COUNT", message, &value.span(), label);
+        Some(fault.help(rays::PAIR_HELP))
     }
 
     /// Where a part of a string stands; the whole string if it is written with escapes.

@@ -15,6 +15,7 @@ macro_rules! present {
 mod fabric;
 mod number;
 mod on;
+pub mod rays;
 mod region;
 mod tear;
 mod word;
@@ -26,7 +27,8 @@ pub use self::number::{
     AboveOne, Finite, Fraction, Gravity, Name, NotNegative, OUT_OF_RANGE, Positive, Range, Rows,
     Vertices, Whole,
 };
-pub use self::on::{Outside, SceneFault};
+pub use self::on::{BodyMesh, SceneFault};
+use self::rays::RayPair;
 pub use self::word::{BendLaw, Word, Words};
 use super::frame::Axis;
 use super::presets::Preset;
@@ -36,27 +38,16 @@ use crate::method::{Method, implicit};
 /// A scene file. Its fields are the keys at the top, and its tables.
 ///
 /// ```
-/// use tearmesh::{Point, Ray, shapes};
-/// use tearmesh_cloth::scene::file::{Outside, SceneFile};
+/// use tearmesh::shapes;
+/// use tearmesh_cloth::scene::file::SceneFile;
 /// use tearmesh_cloth::scene::{Frame, Run};
-///
-/// /// Nothing stands beside the file.
-/// struct Alone;
-///
-/// impl Outside for Alone {
-///     fn rays(&mut self, _: &[String], _: usize) -> Option<[Ray; 2]> {
-///         None
-///     }
-///     fn body(&mut self, _: &str, _: usize) -> Option<(Vec<Point>, Vec<[u32; 3]>)> {
-///         None
-///     }
-/// }
 ///
 /// let text = r#"{ "seconds": 0.1, "hold": [{ "near": [0, 1], "radius": 0.1 }] }"#;
 /// let file: SceneFile = serde_json::from_str(text)?;
 /// let (mesh, positions) = shapes::grid(8, 8);
 /// let frame = Frame::new(&mesh, positions.as_slice(), file.up());
-/// let scene = file.on(&frame, None, &mut Alone).map_err(|mut faults| faults.remove(0))?;
+/// let scene = file.on(&frame, None, &mut |_, _| None); // it names no bodies
+/// let scene = scene.map_err(|mut faults| faults.remove(0))?;
 /// let mut run = Run::new(mesh, &positions, scene, &frame)?;
 /// while !run.is_over() {
 ///     run.step()?;
@@ -200,7 +191,7 @@ pub struct SeamTable {
 #[expect(missing_docs, reason = "the guide has a row for each key")]
 pub struct CutTable {
     pub at_s: Option<NotNegative>,
-    pub rays: Option<Vec<String>>,
+    pub rays: Option<RayPair>,
     pub through: Option<bool>,
     pub method: Option<Word<CutMethod>>,
 }

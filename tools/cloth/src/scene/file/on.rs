@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use tearmesh::Scissor;
-use tearmesh::geometry::{Plane, Point, Ray, Vector};
+use tearmesh::geometry::{Plane, Point, Vector};
 
 use super::number::{Finite, Gravity, Rows, Vertices, Whole};
 use super::{
@@ -19,15 +19,12 @@ use crate::system::load::{Collider, ColliderShape, Wind};
 use crate::system::path::{Path, RigidMotion};
 use crate::text::two_digits;
 
-/// A reader of the parts of a scene that its file only names: rays, which are texts, and bodies, which are in files
-/// of their own. A part that cannot be read is `None`, and the reader keeps the reason.
-pub trait Outside {
-    /// The two rays of a cut, from their texts; `number` is that of the cut, from 0.
-    fn rays(&mut self, texts: &[String], number: usize) -> Option<[Ray; 2]>;
+/// The points of a body, and its triangles.
+pub type BodyMesh = (Vec<Point>, Vec<[u32; 3]>);
 
-    /// The points and the triangles of a body, from the name of its file; `number` is that of the collider.
-    fn body(&mut self, name: &str, number: usize) -> Option<(Vec<Point>, Vec<[u32; 3]>)>;
-}
+/// A reader of the file of a body, from the number of the collider, from 0, and the name of the file. It keeps the
+/// reason why one cannot be read.
+type ReadBody<'r> = dyn FnMut(usize, &str) -> Option<BodyMesh> + 'r;
 
 /// A fault of a scene file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -142,19 +139,20 @@ impl SceneFile {
     }
 
     /// Returns the scene for a mesh with this frame. A method that is `typed` stands for that of the file; the
-    /// file's keys for either are read.
+    /// file's keys for either are read. `bodies` reads the file of a body, from the number of its collider, from 0,
+    /// and its name; it is to keep the reason where it cannot.
     ///
     /// Vertices have the ids that their numbers in the file say, counted from 1. The rest shape that
     /// [`FabricTable::vt_m`](super::FabricTable::vt_m) asks for is not set: it needs texture coordinates.
     ///
     /// # Errors
     ///
-    /// Every [`SceneFault`]. The list is empty if all that is wrong is [`Outside`].
+    /// Every [`SceneFault`]. The list is empty if all that is wrong is that a body was not read.
     pub fn on(
         &self,
         frame: &Frame,
         typed: Option<&Method>,
-        outside: &mut dyn Outside,
+        bodies: &mut ReadBody<'_>,
     ) -> Result<Scene, Vec<SceneFault>> {
         let base = self.base.as_deref();
         let mut scene = base.map_or_else(|| Scene::fall(frame.up), |preset| preset(frame));
@@ -183,13 +181,13 @@ impl SceneFile {
             faults.extend(made.err().flatten());
         };
         replace(&mut scene.colliders, &self.collider, &mut kept, |i, one| {
-            one.collider(i, outside)
+            one.collider(i, bodies)
         });
         replace(&mut scene.holds, &self.hold, &mut kept, |i, one| {
             one.hold(i).map_err(Some)
         });
         replace(&mut scene.cuts, &self.cut, &mut kept, |i, one| {
-            one.cut(i, outside)
+            one.cut(i).map_err(Some)
         });
         replace(&mut scene.seams, &self.seam, &mut kept, |i, one| {
             one.seam(i).map_err(Some)
@@ -346,7 +344,7 @@ impl ColliderTable {
     fn collider(
         &self,
         number: usize,
-        outside: &mut dyn Outside,
+        bodies: &mut ReadBody<'_>,
     ) -> Result<Collider, Option<SceneFault>> {
         let place = Place::of("collider", number);
         let groups = [
@@ -359,7 +357,7 @@ impl ColliderTable {
         let collider = match group[0].0 {
             "body" => {
                 let name = self.body.as_ref().ok_or_else(lacks)?;
-                self.of_body(place, name, outside)?
+                self.of_body(place, name, bodies)?
             }
             "point" => {
                 let given = self.point.as_ref().zip(self.normal.as_ref());
@@ -384,9 +382,9 @@ impl ColliderTable {
         &self,
         place: Place,
         name: &str,
-        outside: &mut dyn Outside,
+        bodies: &mut ReadBody<'_>,
     ) -> Result<Collider, Option<SceneFault>> {
-        let (points, faces) = outside.body(name, place.number).ok_or(None)?;
+        let (points, faces) = bodies(place.number, name).ok_or(None)?;
         let cell_m = self.cell_m.as_deref().copied();
         let body = Body::new(&points, &faces, cell_m).map_err(|error| {
             let key = match error {
@@ -471,19 +469,14 @@ impl SeamTable {
 }
 
 impl CutTable {
-    fn cut(
-        &self,
-        number: usize,
-        outside: &mut dyn Outside,
-    ) -> Result<TimedCut, Option<SceneFault>> {
+    fn cut(&self, number: usize) -> Result<TimedCut, SceneFault> {
         let place = Place::of("cut", number);
-        let texts = self.rays.as_ref().ok_or_else(|| place.missing("rays"))?;
-        let rays = outside.rays(texts, number).ok_or(None)?;
+        let rays = self.rays.as_deref().ok_or_else(|| place.missing("rays"))?;
         Scissor::new(rays[0], rays[1])
             .map_err(|error| place.fault("rays", "E-SCENE-RANGE", error.to_string()))?;
         Ok(TimedCut {
             at_s: self.at_s.as_deref().copied().unwrap_or(0.0),
-            rays,
+            rays: *rays,
             through: self.through.unwrap_or(false),
             method: self.method.as_deref().copied().unwrap_or_default(),
         })

@@ -1,11 +1,10 @@
-//! The reader of rays and bodies, which scene files name and do not hold.
+//! The scene of a scene file for a mesh, with the bodies that the file names and does not hold.
 
 use std::io;
 use std::path::Path;
 
-use tearmesh::{Point, Ray};
 use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::file::Outside;
+use tearmesh_cloth::scene::file::BodyMesh;
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
 use super::read::{SceneSource, none_of};
@@ -27,48 +26,33 @@ impl SceneSource {
 
     /// The scene for a mesh with this frame, or all that is wrong; the method may be chosen on the command line.
     pub(crate) fn scene(&self, frame: &Frame, typed: Option<&Method>) -> Result<Scene, Stop> {
-        let mut beside = Beside {
-            source: self,
-            faults: Vec::new(),
-        };
-        let made = self.file.on(frame, typed, &mut beside);
+        let mut faults = Vec::new();
+        let made = self.file.on(frame, typed, &mut |number, name| {
+            let read = self.body(number, name);
+            read.map_err(|fault| faults.push(fault)).ok()
+        });
         made.or_else(|found| {
-            let mut faults = beside.faults;
             faults.extend(found.into_iter().map(|fault| self.placed(fault)));
             none_of(faults)?;
             unreachable!("what is refused has a reason")
         })
     }
-}
-
-/// A reader of what a scene file names, and what is wrong with that.
-struct Beside<'s> {
-    source: &'s SceneSource,
-    faults: Vec<Fault>,
-}
-
-impl Outside for Beside<'_> {
-    fn rays(&mut self, texts: &[String], number: usize) -> Option<[Ray; 2]> {
-        let rays = self.source.rays(texts, number);
-        rays.map_err(|fault| self.faults.push(fault)).ok()
-    }
 
     /// The body in a file, whose place is given as from the scene file.
-    fn body(&mut self, name: &str, number: usize) -> Option<(Vec<Point>, Vec<[u32; 3]>)> {
-        let path = Path::new(self.source.name()).with_file_name(name);
+    fn body(&self, number: usize, name: &str) -> Result<BodyMesh, Fault> {
+        let path = Path::new(self.name()).with_file_name(name);
         let read = Input::find(&path, &mut io::empty()).and_then(|input| input.document());
         let document = read.map_err(|stop| {
             let found = stop.faults.into_iter().next().expect("a reason");
-            self.faults.push(match found.location {
+            match found.location {
                 Some(_) => found,
-                None => {
-                    let at = ("collider", number, "body");
-                    self.source.blame(at, found.code, found.message.clone())
-                }
-            });
-        });
-        let document = document.ok()?;
-        let points = document.positions().to_vec();
-        Some((points, document.triangles().to_vec()))
+                None => self.blame(
+                    ("collider", number, "body"),
+                    found.code,
+                    found.message.clone(),
+                ),
+            }
+        })?;
+        Ok((document.positions().to_vec(), document.triangles().to_vec()))
     }
 }
