@@ -106,7 +106,7 @@ const CLOTH_FLOORS: [&str; 6] = [
     "cloth",
     "simulation",
     "scene",
-    "data guide",
+    "guide",
 ];
 
 fn floor(floors: &[&str], module: &str) -> usize {

@@ -5,7 +5,7 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
-use tearmesh_play::Player;
+use tearmesh_play::{Plan, Player};
 
 use crate::chrome::Chrome;
 use crate::harness::{Folder, content, root};
@@ -134,7 +134,7 @@ impl Played {
         let mut settings = Player::settings_of(&log).expect("settings");
         let (page, file) = content(&self.folder.read("play.html"));
         let plan = page["plan"].as_str();
-        settings.plan = plan.map(|plan| serde_json::from_str(plan).expect("a scene"));
+        settings.plan = plan.map(|plan| Plan::read(plan.as_bytes()).expect("a scene"));
         let document = settings.document(&file).expect("a cloth");
         let native = Player::replayed(&document, settings, &log).expect("a replay");
         assert_eq!(format!("{:016x}", native.digest()), digest, "native");

@@ -3,7 +3,7 @@
 use tearmesh::{Point, Ray, Vector};
 use tearmesh_cloth::ColliderShape;
 use tearmesh_obj::Document;
-use tearmesh_play::{Player, Settings};
+use tearmesh_play::{Plan, Player, Settings};
 
 use crate::harness::{Folder, content};
 
@@ -31,7 +31,7 @@ fn begun(folder: &Folder) -> (Document, Settings) {
         "cloth file dress.obj\nscene file dress.toml\nup y\nmethod scene\nthreshold scene\n";
     let mut settings: Settings = lines.parse().expect("settings");
     let plan = text["plan"].as_str().expect("a plan");
-    settings.plan = Some(serde_json::from_str(plan).expect("a scene"));
+    settings.plan = Some(Plan::read(plan.as_bytes()).expect("a scene"));
     (settings.document(&obj).expect("a document"), settings)
 }
 

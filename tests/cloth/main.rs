@@ -9,8 +9,6 @@ mod bending;
 mod bodies;
 mod clamps;
 mod damping;
-#[cfg(feature = "serde")]
-mod data;
 mod defaults;
 mod failures;
 mod follow;
@@ -29,6 +27,8 @@ mod reaction;
 #[path = "../../tools/lab/src/reference.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod reference;
+#[cfg(feature = "serde")]
+mod refused;
 #[path = "../../tools/lab/src/rk4.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod rk4;

@@ -78,7 +78,7 @@ fn what_cannot_be_woven_is_refused() {
     let (mesh, positions) = shapes::grid(2, 2);
     let masses = Masses::area(&mesh, &positions, 0.2).expect("masses");
     let made = |fabric: Fabric| Cloth::new(&mesh, &positions, masses.clone(), fabric);
-    // Others are in `refused.txt`.
+    // Others are in `refused.rs`.
     let (mut none, mut endless) = (weave(), weave());
     (none.warp_n_per_m, endless.warp.x) = (f64::NAN, f64::INFINITY);
     for (weave, named) in [

@@ -4,39 +4,65 @@
 //! command.
 
 use serde_json::{Value, json};
-use tearmesh::{Point, Ray, Vector};
-use tearmesh_cloth::scene::file::{Outside, SceneFault, SceneFile};
-use tearmesh_cloth::scene::{Axis, Frame, Region, Scene};
+use tearmesh::{Point, Vector, VertexId};
+use tearmesh_cloth::scene::file::{self, BodyMesh, PackedScene, SceneFault, SceneFile};
+use tearmesh_cloth::scene::{Axis, Frame, Region, Run, Scene};
 use tearmesh_cloth::{ColliderShape, Method};
 
-use crate::parts::scenes::square;
+use crate::digest;
+use crate::parts::scenes::{play, square};
 
-/// A tetrahedron for each body, and rays down at two places; notes what it is asked for.
-#[derive(Default)]
-struct Asked(Vec<String>);
+/// A tetrahedron.
+fn body() -> BodyMesh {
+    let places = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+    (
+        places
+            .map(|place| Point::from(place) * 0.4 - Vector::z())
+            .to_vec(),
+        faces,
+    )
+}
 
-impl Outside for Asked {
-    fn rays(&mut self, texts: &[String], number: usize) -> Option<[Ray; 2]> {
-        self.0.push(format!("{number}: {}", texts.join(" ")));
-        let down = |x| Ray::new(Point::new(x, 0.5, 1.0), Vector::new(0.0, 0.0, -1.0)).ok();
-        Some([down(0.2)?, down(0.8)?])
-    }
+/// A scene with something of everything.
+const EVERYTHING: &str = r#"{
+    "seconds": 0.2,
+    "fabric": { "stretch_n_per_m": 300, "bend_law": "buckling", "rigidity_n_m": 1e-5, "buckles_below": 0.9 },
+    "wind": { "velocity_m_per_s": [0, 0, 3], "coefficient": 1, "sway_m_per_s": [0, 0, 1], "period_s": 0.3 },
+    "collider": [
+        { "point": [0, -0.3, 0], "normal": [0, 1, 0] },
+        { "centre": [0.5, 0.5, -0.2], "radius_m": 0.1, "friction": 0.3 },
+        { "body": "rock.obj", "cell_m": 0.03, "moves": [[0, 0, 0, 0], [0.2, 0.1, 0, 0.3]], "friction": 0.4 }
+    ],
+    "hold": [
+        { "across": [0, 1], "along": [1, 1] },
+        {
+            "near": [0.5, 0.1], "radius": 0.05, "from_s": 0.02, "until_s": 0.15,
+            "moves": [[0.02, 0, 0, 0], [0.1, 0, -0.3, 0.1]]
+        }
+    ],
+    "cut": [{ "at_s": 0.05, "rays": ["0.3,0.5,3:0,0.1,-0.7", "0.7,0.5,3:0,0.1,-0.7"] }],
+    "tear": { "threshold": 1.5 },
+    "strength": [{ "vertices": [8], "factor": 2.5 }]
+}"#;
 
-    fn body(&mut self, name: &str, number: usize) -> Option<(Vec<Point>, Vec<[u32; 3]>)> {
-        self.0.push(format!("{number}: {name}"));
-        let places = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let faces = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
-        (name != "missing.obj").then(|| (places.map(Point::from).to_vec(), faces))
-    }
+/// What [`EVERYTHING`] makes of a square of a metre.
+pub(crate) fn everything(frame: &Frame) -> Scene {
+    let file: SceneFile = serde_json::from_str(EVERYTHING).expect("a scene file");
+    file.on(frame, None, &mut |_, _| Some(body()))
+        .expect("a scene")
 }
 
 fn on(data: Value, typed: Option<&Method>) -> (Result<Scene, Vec<SceneFault>>, Vec<String>) {
     let file: SceneFile = serde_json::from_value(data).expect("a scene file");
     let (mesh, positions) = square(4);
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
-    let mut asked = Asked::default();
-    let made = file.on(&frame, typed, &mut asked);
-    (made, asked.0)
+    let mut asked = Vec::new();
+    let made = file.on(&frame, typed, &mut |number, name| {
+        asked.push(format!("{number}: {name}"));
+        (name != "missing.obj").then(body)
+    });
+    (made, asked)
 }
 
 #[test]
@@ -47,15 +73,15 @@ fn tables_replace_those_of_the_base() {
             "gravity_m_per_s2": [0, 0, -1],
             "hold": [{ "vertices": [1, 5] }, { "along": [0.5, 1], "from_s": 0.5 }],
             "collider": [{ "body": "rock.obj" }, { "point": [0, 0, -1], "normal": [0, 0, 1] }],
-            "cut": [{ "rays": ["a", "b"], "at_s": 0.2 }],
+            "cut": [{ "rays": ["0,0,1:0,0,-1 0,1,1:0,0,-1"], "at_s": 0.2 }],
         }),
         None,
     );
     let scene = made.expect("a scene");
-    assert_eq!(asked, ["0: rock.obj", "0: a b"]);
+    assert_eq!(asked, ["0: rock.obj"]);
     assert_eq!(scene.gravity_m_per_s2, Vector::new(0.0, 0.0, -1.0));
     let named = |ids: &[usize]| {
-        let ids = ids.iter().filter_map(|&id| tearmesh::VertexId::new(id));
+        let ids = ids.iter().filter_map(|&id| VertexId::new(id));
         Region::Vertices(ids.collect())
     };
     assert_eq!(scene.holds[0].region, named(&[0, 4]));
@@ -118,4 +144,88 @@ fn a_typed_method_stands_for_that_of_the_file() {
     )
     .0;
     assert_eq!(refused.expect_err("no such key")[0].key, "tolerance");
+}
+
+/// Rows of the table beside this file: a region, and the vertices in it of a sheet of 4 × 4 cells.
+#[test]
+fn regions_hold_what_lies_in_them() {
+    let (mesh, positions) = square(4);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    for row in include_str!("regions.txt").lines() {
+        let (region, expected) = row.split_once(" => ").expect("vertices");
+        let hold: Value = serde_json::from_str(region).expect(row);
+        let scene = on(json!({ "hold": [hold] }), None).0.expect(row);
+        let found = scene.holds[0]
+            .region
+            .vertices(&mesh, positions.as_slice(), &frame);
+        let found: Vec<String> = found.iter().map(|v| v.index().to_string()).collect();
+        assert_eq!(found.join(" "), expected, "{row}");
+    }
+}
+
+fn digest_of(run: Run) -> u64 {
+    let run = play(run);
+    let bits = run.cloth().positions().iter().flat_map(|x| [x.x, x.y, x.z]);
+    let bytes = bits.flat_map(f64::to_le_bytes);
+    let faces = run.mesh().indices().iter().flat_map(|v| v.to_le_bytes());
+    digest::after(digest::EMPTY, bytes.chain(faces))
+}
+
+/// A program that opens no files plays the same as the one that packed the scene.
+#[test]
+fn a_scene_that_was_packed_plays_the_same() {
+    let (mesh, positions) = square(16);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    let run = |scene| Run::new(mesh.clone(), &positions, scene, &frame).expect("a scene");
+    let [number, id] = [7, 20].map(|v| VertexId::new(v).expect("an id"));
+    let mut scene = everything(&frame);
+    scene.rename_vertices(|named| if named == number { id } else { named });
+    scene.rest = mesh
+        .indices()
+        .iter()
+        .map(|&v| positions.as_slice()[v as usize])
+        .collect();
+    let packed = PackedScene::new(EVERYTHING.to_owned(), &scene, vec![(number, id)]);
+    let data = serde_json::to_string(&packed).expect("data");
+
+    let packed: PackedScene = serde_json::from_str(&data).expect("it is read");
+    let file = serde_json::from_str(&packed.text).expect("a scene file");
+    let again = packed.on(&file, &frame).expect("a scene");
+    assert_eq!(again.strengths, [(Region::Vertices(vec![id]), 2.5)]);
+    assert_eq!(format!("{again:?}"), format!("{scene:?}"));
+    assert_eq!(digest_of(run(again)), digest_of(run(scene)));
+}
+
+/// The format of scene files, and the digest of all names in them.
+const FORMAT: (u32, u64) = (3, 0x4851_04ac_9002_27b9);
+
+/// The names of the fields of a table, as it lists them where it is given another one.
+fn fields<T: for<'de> serde::Deserialize<'de> + std::fmt::Debug>(table: &str) -> String {
+    let refused = serde_json::from_str::<T>(r#"{ "unknown": 1 }"#);
+    let said = refused.expect_err("no such field").to_string();
+    let names = said.split('`').skip(3).step_by(2);
+    names.map(|name| format!("{table}.{name} ")).collect()
+}
+
+/// The committed module of `play` reads scenes of one format.
+#[test]
+fn files_with_other_names_are_of_another_format() {
+    let names = [
+        fields::<SceneFile>(""),
+        fields::<file::FabricTable>("fabric"),
+        fields::<file::SolverTable>("solver"),
+        fields::<file::WindTable>("wind"),
+        fields::<file::ColliderTable>("collider"),
+        fields::<file::HoldTable>("hold"),
+        fields::<file::SeamTable>("seam"),
+        fields::<file::CutTable>("cut"),
+        fields::<file::TearTable>("tear"),
+        fields::<file::StrengthTable>("strength"),
+    ];
+    let digest = digest::after(digest::EMPTY, names.concat().bytes());
+    assert_eq!(
+        FORMAT,
+        (SceneFile::FORMAT, digest),
+        "raise SceneFile::FORMAT, and write its digest here: {digest:#018x}"
+    );
 }

@@ -191,7 +191,7 @@ fn provots_limiter_does_not_hide_a_yank() {
 fn what_cannot_be_is_refused_with_what_was_given() {
     let (mesh, positions) = shapes::grid(2, 2);
     let cloth = cloth(&mesh, &positions, Fabric::new(1.0));
-    // Others are in `refused.txt`.
+    // Others are in `refused.rs`.
     for (threshold, given, least) in [
         (Threshold::Stretch(f64::NAN), "NaN", 1),
         (Threshold::Toughness(f64::INFINITY), "inf", 0),

@@ -27,9 +27,9 @@ pub(crate) fn swaying(steady: f64, sway: f64, period_s: f64) -> SwayingWind {
         coefficient: 1.0,
     };
     SwayingWind {
-        steady,
         sway_m_per_s: Vector::z() * sway,
         period_s,
+        ..SwayingWind::steady(steady)
     }
 }
 

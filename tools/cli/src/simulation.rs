@@ -2,7 +2,7 @@
 
 use tearmesh::{FaceId, Point, Vector, VertexId};
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{Frame, Region, Run, RunError, Scene, TimedCut};
+use tearmesh_cloth::scene::{Frame, Run, RunError, Scene, TimedCut};
 use tearmesh_cloth::{
     BlowUpSite, ClothError, Method, SeamFault, SimulationError, StepError, StepLimit, Stretch,
     Tearing, TearingError, Threshold,
@@ -68,7 +68,7 @@ pub(crate) fn begin(
     frame: &Frame,
     source: &SceneSource,
 ) -> Result<Run, Stop> {
-    name_vertices(&mut scene, opened);
+    scene.rename_vertices(|named| vertex_of(opened, named));
     scene.rest = rest(opened, source)?;
     let run = Run::new(opened.mesh.clone(), &opened.positions, scene, frame);
     run.map_err(|error| refused(&error, opened, source))
@@ -94,27 +94,17 @@ pub(crate) fn record_seams(
     Ok(())
 }
 
-/// A scene names vertices by their numbers in the file, among which copies for fans may be. A number
+/// The id of a vertex that a scene names by its number in the file, among which copies for fans may be. A number
 /// that no `v` has stays one that no vertex has.
-fn name_vertices(scene: &mut Scene, opened: &Opened) {
-    let holds = scene.holds.iter_mut().map(|hold| &mut hold.region);
-    let strengths = scene.strengths.iter_mut().map(|(region, _)| region);
-    let named = holds.chain(strengths).filter_map(|region| match region {
-        Region::Vertices(named) => Some(named),
-        _ => None,
-    });
-    let sides = scene.seams.iter_mut();
-    let sides = sides.flat_map(|seam| [&mut seam.one, &mut seam.other]);
-    for vertex in named.chain(sides).flatten() {
-        let known = match &opened.welded {
-            Some(welded) => welded.get(vertex.index()).copied(),
-            None => {
-                let known = opened.document.vertex_of_number(vertex.index() + 1);
-                known.and_then(VertexId::new)
-            }
-        };
-        *vertex = known.unwrap_or(*vertex);
-    }
+pub(crate) fn vertex_of(opened: &Opened, named: VertexId) -> VertexId {
+    let known = match &opened.welded {
+        Some(welded) => welded.get(named.index()).copied(),
+        None => {
+            let known = opened.document.vertex_of_number(named.index() + 1);
+            known.and_then(VertexId::new)
+        }
+    };
+    known.unwrap_or(named)
 }
 
 /// Refuses what would make no difference to how the scene tears, where a force may have been typed.

@@ -38,8 +38,6 @@
 pub use tearmesh;
 
 mod cloth;
-#[cfg(feature = "serde")]
-mod data;
 #[doc(hidden)]
 pub mod digest;
 pub mod guide;

@@ -33,8 +33,6 @@ use crate::system::guard::Guard;
 /// ```
 #[must_use]
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 pub enum Method {
     /// Provot's mass-spring model with its limiter ([`Provot`]). The tearing rule
     /// uses lengths before the limiter changes them.

@@ -1,4 +1,4 @@
-//! Scenes as plain data: holds, paths, wind, cuts and their times.
+//! Scenes: holds, paths, wind, cuts and their times.
 //!
 //! A [`Scene`] is the plan of a simulation, and a [`Run`] carries it out. Four scenes are built in,
 //! and are sized to the mesh: [`Scene::hang`], [`Scene::flag`], [`Scene::rip`] and
@@ -8,12 +8,14 @@
 #[cfg(feature = "serde")]
 pub mod file;
 mod frame;
+mod opening;
 mod presets;
 mod run;
 mod tear_log;
 mod warning;
 
 pub use frame::{Axis, Frame};
+pub use opening::Opening;
 pub use presets::Preset;
 pub use run::error::RunError;
 pub use run::gain::EnergyGain;
@@ -34,8 +36,6 @@ use crate::system::load::{Collider, Loads, Wind};
 /// The plan of a simulation: the fabric, the method, and the timed events.
 #[must_use]
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 pub struct Scene {
     /// The duration of the scene, in seconds.
     pub duration_s: f64,
@@ -74,10 +74,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The version of scenes as data. It is raised whenever a field is added, renamed or removed, or means something
-    /// else, so that a program can refuse to hand a scene to another one that would misread it.
-    pub const FORMAT: u32 = 2;
-
     /// Returns the loads with which the scene begins.
     #[must_use]
     pub fn loads(&self) -> Loads {
@@ -89,12 +85,26 @@ impl Scene {
             colliders: self.colliders.clone(),
         }
     }
+
+    /// Gives every vertex that a region or a seam names another id.
+    pub fn rename_vertices(&mut self, mut name: impl FnMut(VertexId) -> VertexId) {
+        let holds = self.holds.iter_mut().map(|hold| &mut hold.region);
+        let strengths = self.strengths.iter_mut().map(|(region, _)| region);
+        let named = holds.chain(strengths).filter_map(|region| match region {
+            Region::Vertices(named) => Some(named),
+            _ => None,
+        });
+        let sides = self.seams.iter_mut();
+        let sides = sides.flat_map(|seam| [&mut seam.one, &mut seam.other]);
+        for vertex in named.chain(sides).flatten() {
+            *vertex = name(*vertex);
+        }
+    }
 }
 
 /// Wind whose velocity may sway: u(t) = steady + sway · triangle(t / period). The triangle wave
 /// starts at 0, rises, and stays within −1 … 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SwayingWind {
     /// The wind without its sway.
     pub steady: Wind,
@@ -105,6 +115,22 @@ pub struct SwayingWind {
 }
 
 impl SwayingWind {
+    /// Creates a wind that does not sway.
+    #[must_use]
+    pub fn steady(wind: Wind) -> SwayingWind {
+        SwayingWind {
+            steady: wind,
+            sway_m_per_s: Vector::zeros(),
+            period_s: 1.0,
+        }
+    }
+
+    /// Returns whether the wind is the same at all times.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.sway_m_per_s == Vector::zeros()
+    }
+
     /// Returns the wind at `elapsed_s` seconds.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Wind {
@@ -141,7 +167,6 @@ impl SwayingWind {
 ///
 /// What a cut inserts on an edge with both ends in a hold is held too, and stays between them until the hold ends.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HeldVertices {
     /// The vertices that are held, selected by their positions at rest.
     pub region: Region,
@@ -170,7 +195,6 @@ impl HeldVertices {
 
 /// A part of a cloth, selected by positions at rest or by ids.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Region {
     /// The vertices within a radius of the vertex that is nearest to a place. With radius 0 it is
     /// just that vertex.
@@ -246,7 +270,6 @@ impl Region {
 
 /// A cut at a given time, through the cloth as it is then.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TimedCut {
     /// The time of the cut, in seconds. At 0 the cloth is at rest.
     pub at_s: f64,
@@ -273,12 +296,12 @@ mod tests {
     #[test]
     fn the_wind_sways_as_a_triangle() {
         let wind = SwayingWind {
-            steady: Wind {
-                velocity_m_per_s: Vector::new(5.0, 0.0, 0.0),
-                coefficient: 1.0,
-            },
             sway_m_per_s: Vector::new(0.0, 0.0, 2.0),
             period_s: 4.0,
+            ..SwayingWind::steady(Wind {
+                velocity_m_per_s: Vector::new(5.0, 0.0, 0.0),
+                coefficient: 1.0,
+            })
         };
         for (at_s, sway) in [
             (0.0, 0.0),

@@ -3,8 +3,9 @@
 use std::io;
 use std::path::Path;
 
+use tearmesh::VertexId;
 use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::file::BodyMesh;
+use tearmesh_cloth::scene::file::{BodyMesh, PackedScene};
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
 use super::read::{SceneSource, none_of};
@@ -36,6 +37,11 @@ impl SceneSource {
             none_of(faults)?;
             unreachable!("what is refused has a reason")
         })
+    }
+
+    /// The file with all that a scene that was made of it has from elsewhere.
+    pub(crate) fn packed(&self, scene: &Scene, vertices: Vec<(VertexId, VertexId)>) -> PackedScene {
+        PackedScene::new(self.text.content().to_owned(), scene, vertices)
     }
 
     /// The body in a file, whose place is given as from the scene file.

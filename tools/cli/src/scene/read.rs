@@ -292,6 +292,11 @@ pub(super) struct Text {
 }
 
 impl Text {
+    /// All of it.
+    pub(super) fn content(&self) -> &str {
+        &self.text
+    }
+
     /// A fault with the line in which a part of the text begins.
     pub(super) fn fault(
         &self,

@@ -1,8 +1,10 @@
 //! The verb `play`.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use tearmesh::CutMethod;
+use tearmesh_cloth::scene::file::SceneFile;
 use tearmesh_cloth::scene::{Frame, HeldVertices, Preset, Scene};
 use tearmesh_obj::TornDocument;
 use tearmesh_view::PlayPage;
@@ -43,14 +45,21 @@ pub(crate) fn run(
         let (input, mut opened) = session::look(input, &args.look, faults, streams)?;
         weld::seams(&mut opened, args.weld, &mut Vec::new(), faults)?;
         if is_file {
-            module_reads(Scene::FORMAT, PlayPage::scene_format())?;
+            module_reads(SceneFile::FORMAT, PlayPage::scene_format())?;
             let frame = Frame::new(&opened.mesh, opened.positions.as_slice(), up);
-            let scene = source.scene(&frame, None)?;
+            let mut scene = source.scene(&frame, None)?;
+            let mut vertices = BTreeMap::new();
+            scene.rename_vertices(|named| {
+                vertices.insert(named, simulation::vertex_of(&opened, named));
+                named
+            });
             simulation::tearing(false, &scene, &source)?;
             let run = simulation::begin(scene, &opened, &frame, &source)?;
             simulation::record_seams(&run, &mut opened, &source)?;
             faults.extend(left(run.scene()));
-            made.plan = Some(serde_json::to_string(run.scene()).expect("a scene is data"));
+            let vertices = vertices.into_iter().filter(|(named, id)| named != id);
+            let packed = source.packed(run.scene(), vertices.collect());
+            made.plan = Some(serde_json::to_string(&packed).expect("it is data"));
         }
         made.title = page::title(Some(&input.name));
         made.file = Some((made.title.clone(), obj(&opened)?));
@@ -115,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_module_of_another_version_is_refused() {
-        assert!(module_reads(Scene::FORMAT, PlayPage::scene_format()).is_ok());
+        assert!(module_reads(SceneFile::FORMAT, PlayPage::scene_format()).is_ok());
         let refused = module_reads(3, 2).expect_err("another format");
         let message = &refused.faults[0].message;
         assert!(message.ends_with("format 2, and this program writes format 3"));

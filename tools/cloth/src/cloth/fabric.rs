@@ -10,8 +10,6 @@ use crate::system::error::SettingError;
 /// The material of a cloth, and the rules for its constraints when it tears.
 #[must_use]
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 pub struct Fabric {
     /// The resistance of edges to stretch.
     pub stretch: Stretch,
@@ -31,7 +29,6 @@ pub struct Fabric {
 
 /// The resistance of the edges of a cloth to stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stretch {
     /// A membrane of this modulus E, in N/m, whatever the mesh. The stiffness of an edge is the sum
     /// of E A / l² over its faces, where A is the area of a face and l the length of the edge, both
@@ -181,7 +178,6 @@ impl Fabric {
 /// The moduli with which the triangles of a cloth resist stretch and shear. Poisson's ratio is
 /// zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Orthotropic {
     /// The modulus along warp, in N/m; positive.
     pub warp_n_per_m: f64,
@@ -214,7 +210,6 @@ pub struct Orthotropic {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Bending {
     /// A spring of the same stiffness across every edge (the flexion springs of Provot 1995, §2).
     Spring {
@@ -266,7 +261,6 @@ impl Bending {
 
 /// The stiffness of the two constraints that replace the constraint of a torn edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum TornStiffness {
     /// Each copy has half the stiffness, so a split does not change the energy.
     #[default]
@@ -278,7 +272,6 @@ pub enum TornStiffness {
 
 /// The bend constraints that a split removes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BendRemoval {
     /// The bend constraints across the edges that the split tears.
     #[default]

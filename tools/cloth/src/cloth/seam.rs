@@ -32,7 +32,6 @@ use tearmesh::{Defect, DisjointSets, HalfEdgeId, Mesh, TornError, VertexId};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Seam {
     /// The name by which it is unpicked. Seams that share a name are unpicked together.
     pub name: String,
@@ -180,16 +179,11 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
 }
 
 impl Seam {
-    pub(crate) fn check_counts(&self, seam: usize) -> Result<(), SeamError> {
+    fn check(&self, seam: usize, panels: &Mesh) -> Result<(), SeamError> {
         let counts = [self.one.len(), self.other.len()];
         if counts[0] != counts[1] || counts[0] < 2 {
             return Err(SeamError::new(seam, [], SeamFault::Counts(counts)));
         }
-        Ok(())
-    }
-
-    fn check(&self, seam: usize, panels: &Mesh) -> Result<(), SeamError> {
-        self.check_counts(seam)?;
         for side in [&self.one, &self.other] {
             let mut sorted = side.clone();
             sorted.sort_unstable();

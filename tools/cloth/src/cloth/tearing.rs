@@ -73,7 +73,6 @@ use crate::system::error::SettingError;
 
 /// The condition under which an edge tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Threshold {
     /// An edge tears when it is this many times as long as at rest, a number above 1. This is the
@@ -112,8 +111,6 @@ pub enum Threshold {
 
 /// The rules by which a cloth tears.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(remote = "Self"))]
 pub struct Tearing {
     /// The threshold at which an edge tears.
     pub threshold: Threshold,

@@ -36,7 +36,6 @@ pub struct Provot {
 
 /// The settings of Provot's limiter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limiter {
     /// The largest length of a stretch constraint, as a multiple of its rest length. The default is
     /// 1.1.

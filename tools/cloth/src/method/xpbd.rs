@@ -37,7 +37,6 @@ use crate::system::pair;
 /// any step. Wind is evaluated at the velocities before a substep, and is stable up to λ Δt = 2
 /// ([`air_rate`](crate::air::air_rate)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Xpbd {
     /// The number of substeps per step. Zero counts as one.
     pub substeps: u32,
@@ -112,7 +111,6 @@ impl Solver for Xpbd {
 /// Position based dynamics. It ignores the stiffness of constraints in N/m: they are rigid, or as
 /// soft as [`Pbd::stiffness`] makes them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pbd {
     /// The number of sweeps over all constraints per step. Zero counts as one.
     pub sweeps: u32,

@@ -15,6 +15,7 @@ macro_rules! present {
 mod fabric;
 mod number;
 mod on;
+mod packed;
 pub mod rays;
 mod region;
 mod tear;
@@ -28,6 +29,7 @@ pub use self::number::{
     Vertices, Whole,
 };
 pub use self::on::{BodyMesh, SceneFault};
+pub use self::packed::PackedScene;
 use self::rays::RayPair;
 pub use self::word::{BendLaw, Word, Words};
 use super::frame::Axis;
@@ -85,6 +87,12 @@ pub struct SceneFile {
     pub tear: Option<TearTable>,
     /// Regions with a strength.
     pub strength: Vec<StrengthTable>,
+}
+
+impl SceneFile {
+    /// The version of scene files, and of [`PackedScene`]. It is raised whenever a key is added, renamed or removed,
+    /// or means something else, so that a program can refuse to hand a scene to another one that would misread it.
+    pub const FORMAT: u32 = 3;
 }
 
 /// The table `[fabric]`.

@@ -75,12 +75,12 @@ impl Scene {
         Scene {
             duration_s: 3.0,
             wind: Some(SwayingWind {
-                steady: Wind {
-                    velocity_m_per_s: across * 6.0,
-                    coefficient: 1.5,
-                },
                 sway_m_per_s: depth * 4.0,
                 period_s: 0.4 * width.max(0.1),
+                ..SwayingWind::steady(Wind {
+                    velocity_m_per_s: across * 6.0,
+                    coefficient: 1.5,
+                })
             }),
             holds: vec![HeldVertices::still(Region::Patch {
                 across: [0.0, 0.02],

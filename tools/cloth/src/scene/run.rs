@@ -110,21 +110,12 @@ impl Run {
             return Err(RunError::Unpick { number });
         }
         let def = SimulationDef {
-            density_kg_per_m2: scene.areal_density_kg_per_m2,
-            fabric: scene.fabric,
-            method: scene.solver.clone(),
-            tearing: scene.tearing,
-            strengths: scene.vertex_strengths(&mesh, points, frame)?,
-            rest: scene.rest.clone(),
-            seams: scene.seams.clone(),
-            loads: scene.loads(),
-            step_s: scene.step_s,
             // A step of our own choice is not refused because of what tore since.
             when_unstable: match scene.step_s {
                 Some(_) => Unstable::Refuse,
                 None => Unstable::Substep,
             },
-            is_recorded: false,
+            ..scene.def(&mesh, points, frame)?
         };
         let duration_s = scene.duration_s;
         let sim = Simulation::new(mesh, positions, def);
@@ -349,8 +340,7 @@ impl Run {
     }
 
     fn blow(&mut self, now: u64) {
-        let sways = |wind: &SwayingWind| wind.sway_m_per_s != Vector::zeros();
-        let Some(wind) = self.scene.wind.filter(sways) else {
+        let Some(wind) = self.scene.wind.filter(|wind| !wind.is_constant()) else {
             return;
         };
         let wind = wind.at(now as f64 * self.step_s());

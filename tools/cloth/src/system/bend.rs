@@ -44,8 +44,6 @@
 /// assert!(Buckling::new(1.0).is_none() && Buckling::new(0.59).is_none());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "f64", into = "f64"))]
 pub struct Buckling {
     /// d/L at the change-over.
     below: f64,
@@ -116,20 +114,6 @@ impl Buckling {
             force,
             slope,
         }
-    }
-}
-
-impl TryFrom<f64> for Buckling {
-    type Error = &'static str;
-
-    fn try_from(buckles_below: f64) -> Result<Buckling, &'static str> {
-        Buckling::new(buckles_below).ok_or("a fraction that is not above 0.592 and below 1")
-    }
-}
-
-impl From<Buckling> for f64 {
-    fn from(law: Buckling) -> f64 {
-        law.below
     }
 }
 

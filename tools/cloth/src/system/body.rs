@@ -56,8 +56,6 @@ const OFFSETS: [f64; 3] = [0.381_966, 0.267_949, 0.414_214];
 /// # Ok::<(), tearmesh_cloth::BodyError>(())
 /// ```
 #[derive(Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Skinned", into = "Skinned"))]
 pub struct Body {
     points: Vec<Point>,
     /// Anticlockwise as seen from outside.
@@ -213,23 +211,6 @@ impl Body {
             }
         }
         self.error_rms_m = (squares / count.max(1.0)).sqrt();
-    }
-}
-
-/// What a body is made of, and made again from: its points and faces, and the distance of nodes.
-type Skinned = (Vec<Point>, Vec<[u32; 3]>, f64);
-
-impl TryFrom<Skinned> for Body {
-    type Error = BodyError;
-
-    fn try_from((points, faces, cell_m): Skinned) -> Result<Body, BodyError> {
-        Body::new(&points, &faces, Some(cell_m))
-    }
-}
-
-impl From<Body> for Skinned {
-    fn from(body: Body) -> Skinned {
-        (body.points, body.faces, body.grid.cell_m)
     }
 }
 

@@ -36,7 +36,6 @@ pub struct Loads {
 /// Wind on the faces of a system. It exerts the force c A (n · (u − v)) n on a face of area A and
 /// unit normal n that moves at the velocity v (Provot 1995, §3).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Wind {
     /// The velocity u of the air, in m/s.
     pub velocity_m_per_s: Vector,
@@ -57,7 +56,6 @@ pub struct Wind {
 /// # Ok::<(), tearmesh::PlaneError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Collider {
     /// The obstacle itself.
     pub shape: ColliderShape,
@@ -68,7 +66,6 @@ pub struct Collider {
 
 /// The shape of a [`Collider`].
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ColliderShape {
     /// The half-space behind a plane, on the side away from its normal.
     Plane(Plane),

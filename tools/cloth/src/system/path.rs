@@ -11,11 +11,6 @@ use crate::system::bend::sinc_of_root;
 /// The path of a grabbed particle: straight from point to point, at rest before the first time and
 /// after the last.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(try_from = "Vec<(f64, Point)>", into = "Vec<(f64, Point)>")
-)]
 pub struct Path {
     /// When to be where; at least one, ascending. Shared by all particles that the path leads.
     pub(crate) points: Arc<[(f64, Point)]>,
@@ -87,7 +82,6 @@ impl Path {
 /// assert!((corner - Point::new(1.0, 2.0, -1.0)).norm() < 1e-12);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RigidMotion {
     /// The path of its offset from where it was made, in metres; `None` if it has none.
     pub moves: Option<Path>,

@@ -149,14 +149,10 @@ pub(crate) static TRIALS: [Trial; 9] = [
         step_s: Some(FRAME_S / 4.0),
         adjust: |scene, _| {
             scene.fabric = Fabric::new(1.0);
-            scene.wind = Some(SwayingWind {
-                steady: Wind {
-                    velocity_m_per_s: Vector::z() * 20.0,
-                    coefficient: 500.0,
-                },
-                sway_m_per_s: Vector::zeros(),
-                period_s: 1.0,
-            });
+            scene.wind = Some(SwayingWind::steady(Wind {
+                velocity_m_per_s: Vector::z() * 20.0,
+                coefficient: 500.0,
+            }));
         },
         expected: [Refused; 5],
         ..HANG

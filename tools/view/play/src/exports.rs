@@ -5,11 +5,10 @@ use std::cell::RefCell;
 
 use tearmesh::{Point, Ray, Vector};
 use tearmesh_cloth::Wind;
-use tearmesh_cloth::scene::Scene;
 use tearmesh_obj::Document;
 
 use crate::player::Player;
-use crate::settings::{ClothSource, Settings};
+use crate::settings::{ClothSource, Plan, Settings};
 
 #[derive(Default)]
 struct Module {
@@ -18,7 +17,7 @@ struct Module {
     /// The file that was dropped on the page last.
     obj: Vec<u8>,
     /// The scene of the file.
-    plan: Option<Scene>,
+    plan: Option<Plan>,
     /// The document of the player, and the cloth that it is of. It is leaked, since the player borrows it; a page
     /// that shows twenty files has twenty of them.
     document: Option<(ClothSource, &'static Document)>,
@@ -73,12 +72,12 @@ extern "C" fn take_file() {
     });
 }
 
-/// Takes the scene of a file in the room, as JSON; whether it could.
+/// Takes the packed scene of a file in the room, as JSON; whether it could.
 #[unsafe(no_mangle)]
 extern "C" fn take_scene() -> bool {
     MODULE.with_borrow_mut(|module| {
-        let read = serde_json::from_slice(&module.input);
-        let read = read.map_err(|why| module.text = why.to_string().into_bytes());
+        let read = Plan::read(&module.input);
+        let read = read.map_err(|why| module.text = why.into_bytes());
         module.plan = read.ok();
         module.plan.is_some()
     })

@@ -10,4 +10,4 @@ mod player;
 mod settings;
 
 pub use player::{Facts, Player};
-pub use settings::{CELLS_MAX, ClothSource, Settings, VERTICES_MAX};
+pub use settings::{CELLS_MAX, ClothSource, Plan, Settings, VERTICES_MAX};

@@ -1,17 +1,14 @@
 //! A simulation together with the file of its cloth, and everything that a page does with both.
 
-use std::fmt::Display;
-
 use tearmesh::geometry::{Plane, Point, Ray};
 use tearmesh::{CutLayers, Edits, Mesh, Positions, Scissor, VertexId};
-use tearmesh_cloth::scene::{Frame, SwayingWind};
+use tearmesh_cloth::scene::{Frame, Opening, SwayingWind};
 use tearmesh_cloth::{
-    ClothBuffers, Collider, Event, HandId, InputLog, Simulation, SimulationDef, Wind, Wounds,
-    digest,
+    ClothBuffers, Collider, Event, HandId, InputLog, Simulation, Wind, Wounds, digest,
 };
 use tearmesh_obj::{Document, TornDocument};
 
-use crate::settings::Settings;
+use crate::settings::{Settings, words};
 
 /// A cloth in the hands of a person.
 ///
@@ -80,13 +77,17 @@ impl<'d> Player<'d> {
     /// Why it cannot be simulated, in words.
     pub fn new(document: &'d Document, settings: Settings) -> Result<Player<'d>, String> {
         let start = Start::new(document, &settings)?;
-        let sim = words(Simulation::new(start.mesh, &start.positions, start.def))?;
-        let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
-        words(player.sim.hold(start.held.iter().copied()))?;
-        for scissor in &start.cuts {
+        let sim = words(Simulation::new(
+            start.mesh,
+            &start.positions,
+            start.opening.def,
+        ))?;
+        let mut player = Player::of(sim, document, settings, start.opening.wind, start.size_m);
+        words(player.sim.hold(start.opening.held.iter().copied()))?;
+        for scissor in &start.opening.cuts {
             player.cut_by(scissor)?;
         }
-        player.facts.held_first = start.held.len();
+        player.facts.held_first = start.opening.held.len();
         Ok(player)
     }
 
@@ -114,11 +115,17 @@ impl<'d> Player<'d> {
                 torn.next_cut();
             }
         };
-        let sim = Simulation::replayed(start.mesh, &start.positions, start.def, &inputs, follow);
+        let sim = Simulation::replayed(
+            start.mesh,
+            &start.positions,
+            start.opening.def,
+            &inputs,
+            follow,
+        );
         let sim = words(sim)?;
-        let mut player = Player::of(sim, document, settings, start.wind, start.size_m);
+        let mut player = Player::of(sim, document, settings, start.opening.wind, start.size_m);
         player.torn = torn;
-        player.facts.held_first = start.held.len();
+        player.facts.held_first = start.opening.held.len();
         player.note_events();
         Ok(player)
     }
@@ -363,10 +370,7 @@ impl<'d> Player<'d> {
 struct Start {
     mesh: Mesh,
     positions: Positions,
-    def: SimulationDef,
-    held: Vec<VertexId>,
-    cuts: Vec<Scissor>,
-    wind: Option<SwayingWind>,
+    opening: Opening,
     size_m: f64,
 }
 
@@ -377,55 +381,22 @@ impl Start {
         let positions = words(Positions::new(points.iter().copied()))?;
         let frame = Frame::new(&mesh, points, settings.up);
         let scene = settings.scene(&frame)?;
-        let first = || scene.holds.iter().filter(|hold| hold.from_s == 0.0);
-        let mut still: Vec<_> = first().filter(|hold| hold.moves.is_empty()).collect();
-        if still.is_empty() {
-            still.extend(first().next());
-        }
-        let held = still.iter();
-        let held = held.flat_map(|hold| hold.region.vertices(&mesh, points, &frame));
-        let mut held: Vec<VertexId> = held.collect();
-        held.sort_unstable();
-        held.dedup();
-        let first = scene.cuts.iter().filter(|cut| cut.at_s == 0.0);
-        let cuts = first.filter_map(|cut| {
-            let scissor = Scissor::new(cut.rays[0], cut.rays[1]).ok();
-            scissor.map(|scissor| scissor.through(cut.through))
-        });
-        let mut loads = scene.loads();
-        if held.is_empty() && loads.colliders.is_empty() {
+        let mut opening = words(scene.opening(&mesh, points, &frame))?;
+        let colliders = &mut opening.def.loads.colliders;
+        if opening.held.is_empty() && colliders.is_empty() {
             let up = frame.up.vector();
             let below = frame.point([0.0; 3]) - up * (0.5 * frame.size_m());
             let floor = Plane::new(below, up).map(Collider::plane);
-            loads.colliders.extend(floor);
+            colliders.extend(floor);
         }
+        opening.def.is_recorded = true;
         Ok(Start {
-            cuts: cuts.collect(),
-            def: SimulationDef {
-                density_kg_per_m2: scene.areal_density_kg_per_m2,
-                fabric: scene.fabric,
-                method: scene.solver.clone(),
-                tearing: scene.tearing,
-                strengths: words(scene.vertex_strengths(&mesh, points, &frame))?,
-                rest: scene.rest,
-                seams: scene.seams,
-                loads,
-                step_s: scene.step_s,
-                is_recorded: true,
-                ..SimulationDef::default()
-            },
             mesh,
             positions,
-            held,
-            wind: scene.wind,
+            opening,
             size_m: frame.size_m(),
         })
     }
-}
-
-/// Why something failed, in words.
-pub(crate) fn words<T>(done: Result<T, impl Display>) -> Result<T, String> {
-    done.map_err(|error| error.to_string())
 }
 
 /// The settings of a log, and its inputs.

@@ -1,8 +1,10 @@
 //! What is chosen before a cloth is let go: the cloth itself, how it is held, and how it moves and tears.
 
+use std::fmt::Display;
 use std::str::FromStr;
 
 use tearmesh::shapes;
+use tearmesh_cloth::scene::file::{PackedScene, SceneFault, SceneFile};
 use tearmesh_cloth::scene::{Axis, Frame, Preset, Scene};
 use tearmesh_cloth::{Method, Tearing, Threshold};
 use tearmesh_obj::Document;
@@ -22,7 +24,7 @@ pub struct Settings {
     /// `None` for that of a file.
     scene: Option<Preset>,
     /// The scene of the file, which is not in the text.
-    pub plan: Option<Scene>,
+    pub plan: Option<Plan>,
     /// The upward direction.
     pub up: Axis,
     /// `None` for that of the scene.
@@ -32,6 +34,31 @@ pub struct Settings {
     pub threshold: Option<f64>,
     /// All of them, as they were read.
     pub(crate) text: String,
+}
+
+/// The scene of a file.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    packed: PackedScene,
+    file: SceneFile,
+}
+
+impl Plan {
+    /// Reads a packed scene, as JSON.
+    ///
+    /// # Errors
+    ///
+    /// Why it is none, in words.
+    pub fn read(json: &[u8]) -> Result<Plan, String> {
+        let packed: PackedScene = words(serde_json::from_slice(json))?;
+        let file = words(toml::from_str(&packed.text))?;
+        Ok(Plan { packed, file })
+    }
+
+    fn scene(&self, frame: &Frame) -> Result<Scene, String> {
+        let made = self.packed.on(&self.file, frame);
+        made.map_err(|faults| faults.first().map_or(String::new(), SceneFault::to_string))
+    }
 }
 
 /// Where a cloth comes from.
@@ -57,8 +84,11 @@ impl Settings {
             strengths: Vec::new(),
             ..ready(frame)
         });
-        let scene = ready.or_else(|| self.plan.clone());
-        let mut scene = scene.ok_or("the scene is in a file that is not here")?;
+        let mut scene = match (ready, &self.plan) {
+            (Some(ready), _) => ready,
+            (None, Some(plan)) => plan.scene(frame)?,
+            (None, None) => return Err("the scene is in a file that is not here".to_owned()),
+        };
         if let Some(method) = &self.method {
             scene.solver = method.clone();
         }
@@ -102,6 +132,11 @@ fn sheet(cells: u32) -> String {
         text.push_str(&format!("f {a} {b} {c}\n"));
     }
     text
+}
+
+/// Why something failed, in words.
+pub(crate) fn words<T>(done: Result<T, impl Display>) -> Result<T, String> {
+    done.map_err(|error| error.to_string())
 }
 
 fn find<T: Copy>(table: &[(&str, T)], name: &str) -> Option<T> {

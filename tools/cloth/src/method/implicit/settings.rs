@@ -4,7 +4,6 @@ use std::fmt;
 
 /// The settings of an implicit method.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Settings {
     /// The time discretisation.
     pub method: Method,
@@ -30,7 +29,6 @@ impl Default for Settings {
 
 /// The time discretisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Method {
     /// Backward Euler: of order one, and damps all motion.
     #[default]

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use tearmesh::Scissor;
-use tearmesh::geometry::{Plane, Point, Vector};
+use tearmesh::geometry::{Plane, Point};
 
 use super::number::{Finite, Gravity, Rows, Vertices, Whole};
 use super::{
@@ -322,17 +322,14 @@ impl WindTable {
             faults.push(place.missing("velocity_m_per_s"));
             return Err(faults);
         };
-        let wind = SwayingWind {
-            steady: Wind {
-                velocity_m_per_s: velocity.vector(),
-                coefficient: self.coefficient.as_deref().copied().unwrap_or(1.5),
-            },
-            sway_m_per_s: self
-                .sway_m_per_s
-                .as_ref()
-                .map_or(Vector::zeros(), Finite::vector),
-            period_s,
-        };
+        let mut wind = SwayingWind::steady(Wind {
+            velocity_m_per_s: velocity.vector(),
+            coefficient: self.coefficient.as_deref().copied().unwrap_or(1.5),
+        });
+        if let Some(sway) = &self.sway_m_per_s {
+            wind.sway_m_per_s = sway.vector();
+        }
+        wind.period_s = period_s;
         match faults.is_empty() {
             true => Ok(wind),
             false => Err(faults),
