@@ -10,7 +10,7 @@ use crate::scene_file::everything;
 type Change = fn(&mut Scene);
 
 /// A change of [`everything`], and how the reason begins for which it is then refused.
-const REFUSED: [(Change, &str); 46] = [
+const REFUSED: [(Change, &str); 47] = [
     (|scene| scene.duration_s = f64::NAN, "NaN s cannot be"),
     (|scene| scene.duration_s = -1.0, "-1 s cannot be"),
     (
@@ -77,6 +77,10 @@ const REFUSED: [(Change, &str); 46] = [
     (
         |scene| blown(scene, -1.5e308, 1.5e308, 1.0),
         "wind.sway_m_per_s is 15",
+    ),
+    (
+        |scene| scene.wind.as_mut().expect("a wind").from_s = -1.0,
+        "wind.from_s is -1",
     ),
     (
         |scene| {

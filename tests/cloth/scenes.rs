@@ -4,10 +4,10 @@
 use std::collections::BTreeSet;
 
 use tearmesh::{CutMethod, Point, Vector, VertexId};
-use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, Scene, TimedCut};
+use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut};
 use tearmesh_cloth::{Collider, Constraint, Limiter, Method, Path, Quality, StepError, energy};
 
-use crate::parts::scenes::{Played, methods, play, played, square, staged, top};
+use crate::parts::scenes::{Played, methods, play, played, square, staged, swaying, top};
 use crate::parts::{near, plane, ray, v};
 
 /// Nothing is lost: mass to the last bit, momentum and energy to rounding.
@@ -292,4 +292,29 @@ fn a_path_that_overflows_between_its_points_is_refused() {
     let middle = widest.expect("coordinates that can be used").at(0.0);
     assert_eq!(middle, x(0.0));
     assert_eq!(Path::new([(0.0, x(most * 1.01))]), None);
+}
+
+/// Before it begins a wind does nothing, and then it sways from its own beginning.
+#[test]
+fn a_wind_that_begins_later_is_none_before() {
+    // Times are exact.
+    let step_s = 1.0 / 1024.0;
+    let after = |from_s: Option<f64>, steps: u32| {
+        let run = play(staged(8, |frame| Scene {
+            duration_s: f64::from(steps) * step_s,
+            step_s: Some(step_s),
+            wind: from_s.map(|from_s| SwayingWind {
+                from_s,
+                ..swaying(0.5, 4.0, 0.25)
+            }),
+            gravity_m_per_s2: Vector::zeros(),
+            ..Scene::hang(frame)
+        }));
+        run.cloth().positions().to_vec()
+    };
+    let (none, early) = (after(None, 100), after(Some(0.0), 100));
+    assert_ne!(early, none);
+    assert_eq!(after(Some(0.125), 128), none);
+    // A cloth at rest does not know how late it is.
+    assert_eq!(after(Some(0.125), 228), early);
 }

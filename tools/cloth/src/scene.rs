@@ -102,12 +102,14 @@ impl Scene {
     }
 }
 
-/// Wind whose velocity may sway: u(t) = steady + sway · triangle(t / period). The triangle wave
-/// starts at 0, rises, and stays within −1 … 1.
+/// Wind that begins at a time, and whose velocity may sway: u(t) = steady + sway · triangle((t − from) / period).
+/// The triangle wave starts at 0, rises, and stays within −1 … 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SwayingWind {
     /// The wind without its sway.
     pub steady: Wind,
+    /// The time in seconds at which the wind begins. Before, air exerts no force.
+    pub from_s: f64,
     /// The largest velocity that the sway adds to the steady wind, in m/s; zero for no sway.
     pub sway_m_per_s: Vector,
     /// The period of the sway, in seconds; positive.
@@ -115,11 +117,12 @@ pub struct SwayingWind {
 }
 
 impl SwayingWind {
-    /// Creates a wind that does not sway.
+    /// Creates a wind that blows from the beginning and does not sway.
     #[must_use]
     pub fn steady(wind: Wind) -> SwayingWind {
         SwayingWind {
             steady: wind,
+            from_s: 0.0,
             sway_m_per_s: Vector::zeros(),
             period_s: 1.0,
         }
@@ -128,13 +131,19 @@ impl SwayingWind {
     /// Returns whether the wind is the same at all times.
     #[must_use]
     pub fn is_constant(&self) -> bool {
-        self.sway_m_per_s == Vector::zeros()
+        self.from_s == 0.0 && self.sway_m_per_s == Vector::zeros()
     }
 
     /// Returns the wind at `elapsed_s` seconds.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Wind {
-        let phase = elapsed_s / self.period_s;
+        if elapsed_s < self.from_s {
+            return Wind {
+                coefficient: 0.0,
+                ..self.steady
+            };
+        }
+        let phase = (elapsed_s - self.from_s) / self.period_s;
         let triangle = match phase - phase.floor() {
             phase if phase < 0.25 => 4.0 * phase,
             phase if phase < 0.75 => 2.0 - 4.0 * phase,
@@ -149,6 +158,7 @@ impl SwayingWind {
     /// Refuses the first number that would not give a usable wind at all times, beyond those of the steady wind
     /// itself.
     pub(super) fn check(&self) -> Result<(), SettingError> {
+        SettingError::unless_at_least_0("wind.from_s", self.from_s)?;
         SettingError::unless_above_0("wind.period_s", self.period_s)?;
         let mut parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
         parts.try_for_each(|(u, &sway)| {

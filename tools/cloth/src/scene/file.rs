@@ -141,6 +141,7 @@ pub struct SolverTable {
 pub struct WindTable {
     pub velocity_m_per_s: Option<Finite<3>>,
     pub coefficient: Option<NotNegative>,
+    pub from_s: Option<NotNegative>,
     pub sway_m_per_s: Option<Finite<3>>,
     pub period_s: Option<Positive>,
 }

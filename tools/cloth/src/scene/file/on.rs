@@ -329,6 +329,7 @@ impl WindTable {
         if let Some(sway) = &self.sway_m_per_s {
             wind.sway_m_per_s = sway.vector();
         }
+        put(&mut wind.from_s, self.from_s.as_deref());
         wind.period_s = period_s;
         match faults.is_empty() {
             true => Ok(wind),
