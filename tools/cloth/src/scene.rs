@@ -155,14 +155,14 @@ impl SwayingWind {
         }
     }
 
-    /// Refuses the first number that would not give a usable wind at all times, beyond those of the steady wind
-    /// itself.
+    /// Refuses the first number that would not give a usable wind at all times.
     pub(super) fn check(&self) -> Result<(), SettingError> {
+        self.steady.check()?;
         SettingError::unless_at_least_0("wind.from_s", self.from_s)?;
         SettingError::unless_above_0("wind.period_s", self.period_s)?;
         let mut parts = self.steady.velocity_m_per_s.iter().zip(&self.sway_m_per_s);
         parts.try_for_each(|(u, &sway)| {
-            let holds = !u.is_finite() || (u.abs() + sway.abs()).is_finite();
+            let holds = (u.abs() + sway.abs()).is_finite();
             let allowed = "such that it is finite at all times";
             SettingError::unless(holds, "wind.sway_m_per_s", sway, allowed)
         })

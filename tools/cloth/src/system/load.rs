@@ -88,20 +88,27 @@ pub enum ColliderShape {
     },
 }
 
+impl Wind {
+    /// Refuses the first number that cannot be used.
+    pub(crate) fn check(&self) -> Result<(), SettingError> {
+        finite("wind.velocity_m_per_s", self.velocity_m_per_s)?;
+        SettingError::unless_at_least_0("wind.coefficient", self.coefficient)
+    }
+}
+
+/// Refuses the first part of a vector that is not finite.
+fn finite(setting: &'static str, v: Vector) -> Result<(), SettingError> {
+    let check = |&x: &f64| SettingError::unless(x.is_finite(), setting, x, "finite");
+    v.iter().try_for_each(check)
+}
+
 impl Loads {
     /// Refuses the first number that cannot be used.
     pub(crate) fn check(&self) -> Result<(), SettingError> {
-        let finite = |setting, v: Vector| {
-            let check = |&x: &f64| SettingError::unless(x.is_finite(), setting, x, "finite");
-            v.iter().try_for_each(check)
-        };
         let gravity = self.gravity_m_per_s2.unwrap_or_default();
         finite("gravity_m_per_s2", gravity)?;
         SettingError::unless_at_least_0("drag_per_s", self.drag_per_s.unwrap_or(0.0))?;
-        if let Some(wind) = self.wind {
-            finite("wind.velocity_m_per_s", wind.velocity_m_per_s)?;
-            SettingError::unless_at_least_0("wind.coefficient", wind.coefficient)?;
-        }
+        self.wind.as_ref().map_or(Ok(()), Wind::check)?;
         for collider in &self.colliders {
             SettingError::unless_at_least_0("colliders.friction", collider.friction)?;
             match &collider.shape {
