@@ -87,6 +87,15 @@ class Simulation:
         friction: float = 0.0,
         step: float | None = None,
     ) -> None: ...
+    @staticmethod
+    def of_scene(
+        points: ArrayLike,
+        faces: ArrayLike,
+        path: str | PathLike[str],
+        *,
+        roots: ArrayLike | None = None,
+        uv: ArrayLike | None = None,
+    ) -> Simulation: ...
     @property
     def points(self) -> Floats: ...
     @property

@@ -8,6 +8,7 @@
 mod arguments;
 mod arrays;
 mod obj;
+mod scene;
 mod simulation;
 mod torn;
 

@@ -1,5 +1,7 @@
 //! A cloth in motion, with the verbs of the library.
 
+use std::path::PathBuf;
+
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -7,10 +9,11 @@ use tearmesh_cloth::{
     Collider, CutId, Event, Fabric, HandId, InputError, Loads, Method, Picked, SimulationDef,
     StepError, Tearing, Threshold, Wind, Wounds, force,
 };
-use tearmesh_core::{Plane, Ray, Scissor, Vector};
+use tearmesh_core::{Mesh, Plane, Positions, Ray, Scissor, Vector};
 
 use crate::arguments::{Triple, parts_of, scissor_of};
 use crate::arrays::{self, Array, Made, array, floats, indices, rows, value_error};
+use crate::scene;
 use crate::torn::{Log, pieces_of};
 
 /// A cloth in motion. It is at rest where it is given. Lengths are in metres, masses in kilograms, times in seconds,
@@ -41,6 +44,16 @@ pub(crate) struct Simulation {
 }
 
 impl Simulation {
+    fn of(mesh: Mesh, positions: &Positions, def: SimulationDef) -> PyResult<Simulation> {
+        let sim = tearmesh_cloth::Simulation::new(mesh, positions, def).map_err(value_error)?;
+        Ok(Simulation {
+            before: Log::new(sim.mesh(), sim.edits().cursor()),
+            hands: Vec::new(),
+            cuts: Vec::new(),
+            sim,
+        })
+    }
+
     /// From here on, changes are mapped.
     fn begin(&mut self) {
         self.before = Log::new(self.sim.mesh(), self.sim.edits().cursor());
@@ -141,13 +154,33 @@ impl Simulation {
             step_s: step,
             ..SimulationDef::default()
         };
-        let sim = tearmesh_cloth::Simulation::new(mesh, &positions, def).map_err(value_error)?;
-        Ok(Simulation {
-            before: Log::new(sim.mesh(), sim.edits().cursor()),
-            hands: Vec::new(),
-            cuts: Vec::new(),
-            sim,
-        })
+        Simulation::of(mesh, &positions, def)
+    }
+
+    /// Returns a cloth in motion that begins as a scene file (TOML) of the command `tearmesh tear` says: with its fabric,
+    /// method, wind, colliders, seams and rule for tearing, and with what it holds and cuts at 0 s.
+    ///
+    /// points, faces, roots, uv: as for `cut`; uv is for a scene whose fabric has vt_m. path: of the file. Bodies are read
+    /// from files beside it, and its vertices count from 1. What leads, begins or ends later is left to you; if nothing is
+    /// held still at 0 s, the first that is led is held. Raises OSError, or ValueError with all that is wrong.
+    #[staticmethod]
+    #[pyo3(signature = (points, faces, path, *, roots=None, uv=None))]
+    fn of_scene(
+        points: &Array<'_>,
+        faces: &Array<'_>,
+        path: PathBuf,
+        roots: Option<&Array<'_>>,
+        uv: Option<&Array<'_>>,
+    ) -> PyResult<Simulation> {
+        let (mesh, positions) = parts_of(points, faces, roots)?;
+        let uv = uv.map(|uv| floats("uv", uv, &[mesh.face_count(), 3, 2]));
+        let opening = scene::opening(&path, &mesh, &positions, uv.transpose()?.as_deref())?;
+        let mut made = Simulation::of(mesh, &positions, opening.def)?;
+        made.sim.hold(opening.held).map_err(value_error)?;
+        for scissor in &opening.cuts {
+            made.cuts.push(made.sim.cut(scissor).map_err(value_error)?);
+        }
+        Ok(made)
     }
 
     /// Lets this many seconds pass, in whole steps and at most steps_max of them, and returns the number of steps.

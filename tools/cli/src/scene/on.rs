@@ -39,9 +39,10 @@ impl SceneSource {
         })
     }
 
-    /// The file with all that a scene that was made of it has from elsewhere.
+    /// The file, as JSON, with all that a scene that was made of it has from elsewhere.
     pub(crate) fn packed(&self, scene: &Scene, vertices: Vec<(VertexId, VertexId)>) -> PackedScene {
-        PackedScene::new(self.text.content().to_owned(), scene, vertices)
+        let keys: serde_json::Value = toml::from_str(self.text.content()).expect("it was read");
+        PackedScene::new(keys.to_string(), scene, vertices)
     }
 
     /// The body in a file, whose place is given as from the scene file.

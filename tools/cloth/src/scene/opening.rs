@@ -5,6 +5,7 @@ use tearmesh::{Mesh, Scissor, VertexId};
 
 use super::frame::Frame;
 use super::run::error::RunError;
+use super::run::held::vertices_in;
 use super::{Scene, SwayingWind};
 use crate::simulation::definition::SimulationDef;
 
@@ -41,21 +42,31 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// [`RunError`] if a region contains no vertex, or names one that the mesh does not have.
+    /// [`RunError`] if a region contains no vertex, or names one that the mesh does not have, and for a wind, a hold
+    /// or a cut that cannot be.
     pub fn opening(
         &self,
         mesh: &Mesh,
         points: &[Point],
         frame: &Frame,
     ) -> Result<Opening, RunError> {
-        let first = || self.holds.iter().filter(|hold| hold.from_s == 0.0);
-        let mut still: Vec<_> = first().filter(|hold| hold.moves.is_empty()).collect();
+        self.check()?;
+        let holds = self.holds.iter().enumerate();
+        let first = || holds.clone().filter(|(_, hold)| hold.from_s == 0.0);
+        let mut still: Vec<_> = first().filter(|(_, hold)| hold.moves.is_empty()).collect();
         if still.is_empty() {
             still.extend(first().next());
         }
-        let held = still.iter();
-        let held = held.flat_map(|hold| hold.region.vertices(mesh, points, frame));
-        let mut held: Vec<VertexId> = held.collect();
+        let mut held = Vec::new();
+        for (number, hold) in still {
+            held.extend(vertices_in(
+                &hold.region,
+                ("hold", number),
+                mesh,
+                points,
+                frame,
+            )?);
+        }
         held.sort_unstable();
         held.dedup();
         let cuts = self.cuts.iter().filter(|cut| cut.at_s == 0.0);

@@ -7,7 +7,7 @@
 
 pub(super) mod error;
 pub(super) mod gain;
-mod held;
+pub(super) mod held;
 
 use std::num::NonZero;
 

@@ -51,7 +51,7 @@ impl Plan {
     /// Why it is none, in words.
     pub fn read(json: &[u8]) -> Result<Plan, String> {
         let packed: PackedScene = words(serde_json::from_slice(json))?;
-        let file = words(toml::from_str(&packed.text))?;
+        let file = words(serde_json::from_str(&packed.text))?;
         Ok(Plan { packed, file })
     }
 

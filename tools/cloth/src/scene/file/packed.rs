@@ -15,7 +15,7 @@ use crate::system::load::ColliderShape;
 /// A scene file for one mesh, as data: the page of `tearmesh play` has one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PackedScene {
-    /// The text of the scene file.
+    /// The tables and keys of the scene file, in a format that the program reads, such as JSON.
     pub text: String,
     /// The bodies, by the numbers of their colliders from 0.
     pub bodies: BTreeMap<usize, BodyMesh>,

@@ -31,7 +31,7 @@ pub(super) fn step_at(time_s: f64, step_s: f64) -> u64 {
 
 /// The vertices of a region for a hold or a strength of this number; all that it names have to
 /// be there.
-pub(super) fn vertices_in(
+pub(in crate::scene) fn vertices_in(
     region: &Region,
     (named_by, number): (&'static str, usize),
     mesh: &Mesh,

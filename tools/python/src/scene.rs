@@ -1,0 +1,63 @@
+//! Simulations that begin as a scene file says.
+
+use std::fmt::Display;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use tearmesh_cloth::scene::file::{BodyMesh, SceneFile};
+use tearmesh_cloth::scene::{Frame, Opening};
+use tearmesh_core::{Mesh, Point, Positions};
+use tearmesh_obj::Document;
+
+use crate::arrays::value_error;
+
+/// How the scene of a file begins on a mesh. `uv` has the texture coordinates of corners.
+pub(crate) fn opening(
+    path: &Path,
+    mesh: &Mesh,
+    positions: &Positions,
+    uv: Option<&[f64]>,
+) -> PyResult<Opening> {
+    let refused = |why: &dyn Display| value_error(format!("{}: {why}", path.display()));
+    let file: SceneFile =
+        toml::from_str(&fs::read_to_string(path)?).map_err(|error| refused(&error))?;
+    let frame = Frame::new(mesh, positions.as_slice(), file.up());
+    let mut unread = None;
+    let scene = file.on(&frame, None, &mut |_, name| {
+        let read = body(path.with_file_name(name));
+        read.map_err(|why| unread = unread.take().or(Some(why)))
+            .ok()
+    });
+    if let Some(why) = unread {
+        return Err(why);
+    }
+    let mut scene = scene.map_err(|faults| {
+        let faults: Vec<String> = faults.iter().map(ToString::to_string).collect();
+        refused(&faults.join("; "))
+    })?;
+    let vt_m = file
+        .fabric
+        .as_ref()
+        .and_then(|fabric| fabric.vt_m.as_deref());
+    if let Some(vt_m) = vt_m {
+        let uv = uv.ok_or_else(|| refused(&"[fabric] has vt_m, which needs uv"))?;
+        let corners = uv.as_chunks::<2>().0.iter();
+        scene.rest = corners
+            .map(|[u, v]| Point::new(u * vt_m, v * vt_m, 0.0))
+            .collect();
+    }
+    let opening = scene.opening(mesh, positions.as_slice(), &frame);
+    opening.map_err(|error| refused(&error))
+}
+
+/// The points and the triangles of an OBJ file.
+fn body(path: PathBuf) -> PyResult<BodyMesh> {
+    let name = || path.display().to_string();
+    let bytes = fs::read(&path);
+    let bytes = bytes.map_err(|error| PyOSError::new_err(format!("{}: {error}", name())))?;
+    let document = Document::read(&bytes[..]);
+    let document = document.map_err(|error| value_error(format!("{}: {error}", name())))?;
+    Ok((document.positions().to_vec(), document.triangles().to_vec()))
+}
