@@ -49,7 +49,7 @@ const EVERYTHING: &str = r#"{
 /// What [`EVERYTHING`] makes of a square of a metre.
 pub(crate) fn everything(frame: &Frame) -> Scene {
     let file: SceneFile = serde_json::from_str(EVERYTHING).expect("a scene file");
-    file.on(frame, None, &mut |_, _| Some(body()))
+    file.on(frame, None, &mut |_, _| Ok(body()))
         .expect("a scene")
 }
 
@@ -60,7 +60,10 @@ fn on(data: Value, typed: Option<&Method>) -> (Result<Scene, Vec<SceneFault>>, V
     let mut asked = Vec::new();
     let made = file.on(&frame, typed, &mut |number, name| {
         asked.push(format!("{number}: {name}"));
-        (name != "missing.obj").then(body)
+        match name {
+            "missing.obj" => Err(format!("there is no {name}")),
+            _ => Ok(body()),
+        }
     });
     (made, asked)
 }
@@ -96,7 +99,7 @@ fn tables_replace_those_of_the_base() {
     );
 }
 
-/// One fault does not hide another, and what is outside tells its own.
+/// One fault does not hide another.
 #[test]
 fn all_faults_are_found_with_their_tables() {
     let (made, asked) = on(
@@ -110,13 +113,14 @@ fn all_faults_are_found_with_their_tables() {
         }),
         None,
     );
-    let faults = made.expect_err("seven faults");
+    let faults = made.expect_err("eight faults");
     let places = faults
         .iter()
         .map(|one| (one.table, one.number, one.key, one.code));
     let expected = [
         ("solver", 0, "sweeps", "E-SCENE-CLASH"),
         ("wind", 0, "", "E-SCENE-MISSING"),
+        ("collider", 0, "body", "E-SCENE-BODY"),
         ("collider", 1, "", "E-SCENE-MISSING"),
         ("hold", 1, "", "E-SCENE-MISSING"),
         ("hold", 2, "vertices", "E-SCENE-CLASH"),
@@ -126,7 +130,7 @@ fn all_faults_are_found_with_their_tables() {
     assert!(places.eq(expected), "{faults:?}");
     assert_eq!(asked, ["0: missing.obj"]);
     assert_eq!(
-        faults[3].to_string(),
+        faults[4].to_string(),
         "[hold] 2: a hold must have one of across, centre, from, near, vertices"
     );
 }

@@ -1,10 +1,10 @@
 //! Simulations that begin as a scene file says.
 
+use std::error::Error;
 use std::fmt::Display;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use tearmesh_cloth::scene::file::{BodyMesh, SceneFile};
 use tearmesh_cloth::scene::{Frame, Opening};
@@ -24,15 +24,9 @@ pub(crate) fn opening(
     let file: SceneFile =
         toml::from_str(&fs::read_to_string(path)?).map_err(|error| refused(&error))?;
     let frame = Frame::new(mesh, positions.as_slice(), file.up());
-    let mut unread = None;
     let scene = file.on(&frame, None, &mut |_, name| {
-        let read = body(path.with_file_name(name));
-        read.map_err(|why| unread = unread.take().or(Some(why)))
-            .ok()
+        body(&path.with_file_name(name)).map_err(|why| format!("{name}: {why}"))
     });
-    if let Some(why) = unread {
-        return Err(why);
-    }
     let mut scene = scene.map_err(|faults| {
         let faults: Vec<String> = faults.iter().map(ToString::to_string).collect();
         refused(&faults.join("; "))
@@ -53,11 +47,7 @@ pub(crate) fn opening(
 }
 
 /// The points and the triangles of an OBJ file.
-fn body(path: PathBuf) -> PyResult<BodyMesh> {
-    let name = || path.display().to_string();
-    let bytes = fs::read(&path);
-    let bytes = bytes.map_err(|error| PyOSError::new_err(format!("{}: {error}", name())))?;
-    let document = Document::read(&bytes[..]);
-    let document = document.map_err(|error| value_error(format!("{}: {error}", name())))?;
+fn body(path: &Path) -> Result<BodyMesh, Box<dyn Error>> {
+    let document = Document::read(&fs::read(path)?[..])?;
     Ok((document.positions().to_vec(), document.triangles().to_vec()))
 }

@@ -1,14 +1,15 @@
 //! The scene of a scene file for a mesh, with the bodies that the file names and does not hold.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
 use tearmesh::VertexId;
 use tearmesh_cloth::Method;
-use tearmesh_cloth::scene::file::{BodyMesh, PackedScene};
+use tearmesh_cloth::scene::file::{BodyMesh, PackedScene, SceneFault};
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
-use super::read::{SceneSource, none_of};
+use super::read::SceneSource;
 use crate::exit::Stop;
 use crate::input::Input;
 use crate::say::Fault;
@@ -27,15 +28,25 @@ impl SceneSource {
 
     /// The scene for a mesh with this frame, or all that is wrong; the method may be chosen on the command line.
     pub(crate) fn scene(&self, frame: &Frame, typed: Option<&Method>) -> Result<Scene, Stop> {
-        let mut faults = Vec::new();
+        let mut unread = BTreeMap::new();
         let made = self.file.on(frame, typed, &mut |number, name| {
-            let read = self.body(number, name);
-            read.map_err(|fault| faults.push(fault)).ok()
+            self.body(number, name).map_err(|fault| {
+                let message = fault.message.clone();
+                unread.insert(number, fault);
+                message
+            })
         });
-        made.or_else(|found| {
-            faults.extend(found.into_iter().map(|fault| self.placed(fault)));
-            none_of(faults)?;
-            unreachable!("what is refused has a reason")
+        made.map_err(|found| {
+            let placed = |fault: SceneFault| {
+                match (fault.table, fault.key) {
+                    ("collider", "body") => unread.remove(&fault.number),
+                    _ => None,
+                }
+                .unwrap_or_else(|| self.placed(fault))
+            };
+            let mut faults: Vec<Fault> = found.into_iter().map(placed).collect();
+            faults.sort_by_key(|fault| fault.location);
+            faults.into()
         })
     }
 

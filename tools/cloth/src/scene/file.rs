@@ -48,7 +48,7 @@ use crate::method::{Method, implicit};
 /// let file: SceneFile = serde_json::from_str(text)?;
 /// let (mesh, positions) = shapes::grid(8, 8);
 /// let frame = Frame::new(&mesh, positions.as_slice(), file.up());
-/// let scene = file.on(&frame, None, &mut |_, _| None); // it names no bodies
+/// let scene = file.on(&frame, None, &mut |_, _| unreachable!()); // it has no bodies
 /// let scene = scene.map_err(|mut faults| faults.remove(0))?;
 /// let mut run = Run::new(mesh, &positions, scene, &frame)?;
 /// while !run.is_over() {

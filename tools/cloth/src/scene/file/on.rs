@@ -22,9 +22,9 @@ use crate::text::two_digits;
 /// The points of a body, and its triangles.
 pub type BodyMesh = (Vec<Point>, Vec<[u32; 3]>);
 
-/// A reader of the file of a body, from the number of the collider, from 0, and the name of the file. It keeps the
-/// reason why one cannot be read.
-type ReadBody<'r> = dyn FnMut(usize, &str) -> Option<BodyMesh> + 'r;
+/// A reader of the file of a body, from the number of its collider, from 0, and the name of the file; or why it cannot
+/// be read.
+type ReadBody<'r> = dyn FnMut(usize, &str) -> Result<BodyMesh, String> + 'r;
 
 /// A fault of a scene file, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -140,14 +140,14 @@ impl SceneFile {
 
     /// Returns the scene for a mesh with this frame. A method that is `typed` stands for that of the file; the
     /// file's keys for either are read. `bodies` reads the file of a body, from the number of its collider, from 0,
-    /// and its name; it is to keep the reason where it cannot.
+    /// and its name, or says why it cannot.
     ///
     /// Vertices have the ids that their numbers in the file say, counted from 1. The rest shape that
     /// [`FabricTable::vt_m`](super::FabricTable::vt_m) asks for is not set: it needs texture coordinates.
     ///
     /// # Errors
     ///
-    /// Every [`SceneFault`]. The list is empty if all that is wrong is that a body was not read.
+    /// Every [`SceneFault`].
     pub fn on(
         &self,
         frame: &Frame,
@@ -170,47 +170,46 @@ impl SceneFile {
             fabric.apply(&mut scene, frame, &mut faults);
         }
         if let Some(wind) = &self.wind {
-            match wind.wind(scene.duration_s) {
-                Ok(wind) => scene.wind = Some(wind),
-                Err(wrong) => faults.extend(wrong),
-            }
+            scene.wind = wind.wind(scene.duration_s, &mut faults);
         }
-        let mut is_whole = true;
-        let mut kept = |made: Result<(), Option<SceneFault>>| {
-            is_whole &= made.is_ok();
-            faults.extend(made.err().flatten());
-        };
-        replace(&mut scene.colliders, &self.collider, &mut kept, |i, one| {
-            one.collider(i, bodies)
-        });
-        replace(&mut scene.holds, &self.hold, &mut kept, |i, one| {
-            one.hold(i).map_err(Some)
-        });
-        replace(&mut scene.cuts, &self.cut, &mut kept, |i, one| {
-            one.cut(i).map_err(Some)
-        });
-        replace(&mut scene.seams, &self.seam, &mut kept, |i, one| {
-            one.seam(i).map_err(Some)
-        });
-        replace(&mut scene.strengths, &self.strength, &mut kept, |i, one| {
-            one.strength(i).map_err(Some)
-        });
+        self.replace_lists(&mut scene, bodies, &mut faults);
+        if let Some(tear) = &self.tear {
+            let tearing = tear.tearing(frame);
+            scene.tearing = tearing.unwrap_or_else(|fault| {
+                faults.push(fault);
+                None
+            });
+        }
+        match faults.is_empty() {
+            true => Ok(scene),
+            false => Err(faults),
+        }
+    }
+
+    /// Puts what the tables of lists describe in the place of what the base has.
+    fn replace_lists(
+        &self,
+        scene: &mut Scene,
+        bodies: &mut ReadBody<'_>,
+        faults: &mut Vec<SceneFault>,
+    ) {
+        let collider = |one: &ColliderTable, number| one.collider(number, bodies);
+        replace(&mut scene.colliders, &self.collider, faults, collider);
+        replace(&mut scene.holds, &self.hold, faults, HoldTable::hold);
+        replace(&mut scene.cuts, &self.cut, faults, CutTable::cut);
+        replace(&mut scene.seams, &self.seam, faults, SeamTable::seam);
+        replace(
+            &mut scene.strengths,
+            &self.strength,
+            faults,
+            StrengthTable::strength,
+        );
         let unpicks = self.seam.iter().filter_map(|seam| {
             let name = seam.name.as_deref()?.clone();
             Some((*seam.unpick_at_s.as_deref()?, name))
         });
         scene.unpicks = unpicks.collect();
         scene.cuts.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
-        if let Some(tear) = &self.tear {
-            match tear.tearing(frame) {
-                Ok(tearing) => scene.tearing = tearing,
-                Err(fault) => kept(Err(Some(fault))),
-            }
-        }
-        match faults.is_empty() && is_whole {
-            true => Ok(scene),
-            false => Err(faults),
-        }
     }
 }
 
@@ -225,15 +224,18 @@ pub(super) fn put<T: Copy>(place: &mut T, value: Option<&T>) {
 fn replace<T, U>(
     list: &mut Vec<T>,
     tables: &[U],
-    kept: &mut impl FnMut(Result<(), Option<SceneFault>>),
-    mut read: impl FnMut(usize, &U) -> Result<T, Option<SceneFault>>,
+    faults: &mut Vec<SceneFault>,
+    mut read: impl FnMut(&U, usize) -> Result<T, SceneFault>,
 ) {
     if tables.is_empty() {
         return;
     }
     list.clear();
     for (number, table) in tables.iter().enumerate() {
-        kept(read(number, table).map(|one| list.push(one)));
+        match read(table, number) {
+            Ok(one) => list.push(one),
+            Err(fault) => faults.push(fault),
+        }
     }
 }
 
@@ -310,9 +312,9 @@ impl SolverTable {
 }
 
 impl WindTable {
-    fn wind(&self, duration_s: f64) -> Result<SwayingWind, Vec<SceneFault>> {
+    /// None without a velocity, which is a fault.
+    fn wind(&self, duration_s: f64, faults: &mut Vec<SceneFault>) -> Option<SwayingWind> {
         let place = Place::of("wind", 0);
-        let mut faults = Vec::new();
         let period_s = self.period_s.as_deref().copied().unwrap_or(1.0);
         if !(duration_s / period_s).is_finite() {
             let message = "`period_s` is too short: the wind would sway too often to be counted";
@@ -320,7 +322,7 @@ impl WindTable {
         }
         let Some(velocity) = &self.velocity_m_per_s else {
             faults.push(place.missing("velocity_m_per_s"));
-            return Err(faults);
+            return None;
         };
         let mut wind = SwayingWind::steady(Wind {
             velocity_m_per_s: velocity.vector(),
@@ -331,19 +333,12 @@ impl WindTable {
         }
         put(&mut wind.from_s, self.from_s.as_deref());
         wind.period_s = period_s;
-        match faults.is_empty() {
-            true => Ok(wind),
-            false => Err(faults),
-        }
+        Some(wind)
     }
 }
 
 impl ColliderTable {
-    fn collider(
-        &self,
-        number: usize,
-        bodies: &mut ReadBody<'_>,
-    ) -> Result<Collider, Option<SceneFault>> {
+    fn collider(&self, number: usize, bodies: &mut ReadBody<'_>) -> Result<Collider, SceneFault> {
         let place = Place::of("collider", number);
         let groups = [
             present!(self, point, normal),
@@ -381,8 +376,9 @@ impl ColliderTable {
         place: Place,
         name: &str,
         bodies: &mut ReadBody<'_>,
-    ) -> Result<Collider, Option<SceneFault>> {
-        let (points, faces) = bodies(place.number, name).ok_or(None)?;
+    ) -> Result<Collider, SceneFault> {
+        let (points, faces) =
+            bodies(place.number, name).map_err(|why| place.fault("body", "E-SCENE-BODY", why))?;
         let cell_m = self.cell_m.as_deref().copied();
         let body = Body::new(&points, &faces, cell_m).map_err(|error| {
             let key = match error {
@@ -399,9 +395,7 @@ impl ColliderTable {
             let worst = two_digits(worst_m);
             let message = format!("`thickness_m` is below {worst}, the error of the body's grid");
             let fault = place.fault("thickness_m", "E-SCENE-BODY", message);
-            return Err(Some(
-                fault.help("a larger thickness, or a smaller `cell_m`"),
-            ));
+            return Err(fault.help("a larger thickness, or a smaller `cell_m`"));
         }
         let path = |rows: &Option<Rows>, unit: f64| {
             let rows = rows.as_ref().map_or_else(Vec::new, Rows::paths).into_iter();

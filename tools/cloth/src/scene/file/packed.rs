@@ -50,7 +50,10 @@ impl PackedScene {
     ///
     /// Every [`SceneFault`], as from [`SceneFile::on`].
     pub fn on(&self, file: &SceneFile, frame: &Frame) -> Result<Scene, Vec<SceneFault>> {
-        let body = |number, _: &str| self.bodies.get(&number).cloned();
+        let body = |number, name: &str| {
+            let body = self.bodies.get(&number).cloned();
+            body.ok_or_else(|| format!("the body `{name}` was not packed"))
+        };
         let mut scene = file.on(frame, None, &mut { body })?;
         let ids: BTreeMap<VertexId, VertexId> = self.vertices.iter().copied().collect();
         scene.rename_vertices(|vertex| *ids.get(&vertex).unwrap_or(&vertex));
