@@ -2,7 +2,7 @@
 
 /// A union–find forest over the numbers 0, 1, 2, …, which represents disjoint sets that can be joined.
 ///
-/// The leader of a set is its smallest number, so results do not depend on the order of joins. A
+/// The representative of a set is its smallest number, so results do not depend on the order of joins. A
 /// look-up halves the path that it walks; n operations take O(n log n).
 ///
 /// ```
@@ -10,12 +10,12 @@
 ///
 /// let mut sets = DisjointSets::new(4);
 /// sets.join(3, 1);
-/// assert_eq!((sets.leader(3), sets.leader(2)), (1, 2));
+/// assert_eq!((sets.representative(3), sets.representative(2)), (1, 2));
 /// assert_eq!(sets.count(), 3);
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct DisjointSets {
-    /// A smaller number of the same set, or for a leader itself.
+    /// A smaller number of the same set, or for a representative itself.
     above: Vec<u32>,
 }
 
@@ -42,12 +42,12 @@ impl DisjointSets {
         next
     }
 
-    /// Returns the leader of a number: the smallest number in its set.
+    /// Returns the representative of a number: the smallest number in its set.
     ///
     /// # Panics
     ///
     /// If `number` is not in the forest.
-    pub fn leader(&mut self, mut number: u32) -> u32 {
+    pub fn representative(&mut self, mut number: u32) -> u32 {
         while self.above[number as usize] != number {
             let above = self.above[self.above[number as usize] as usize];
             self.above[number as usize] = above;
@@ -62,7 +62,7 @@ impl DisjointSets {
     ///
     /// If `a` or `b` is not in the forest.
     pub fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.leader(a), self.leader(b));
+        let (a, b) = (self.representative(a), self.representative(b));
         self.above[a.max(b) as usize] = a.min(b);
     }
 
@@ -73,9 +73,9 @@ impl DisjointSets {
         numbers.filter(|&(&above, number)| above == number).count()
     }
 
-    /// Returns the leader of each number, indexed by number. Linear: a leader is smaller than the
+    /// Returns the representative of each number, indexed by number. Linear: a representative is smaller than the
     /// other numbers of its set, so one pass shortens every path to one step.
-    pub fn leaders(&mut self) -> &[u32] {
+    pub fn representatives(&mut self) -> &[u32] {
         for number in 0..self.above.len() {
             self.above[number] = self.above[self.above[number] as usize];
         }

@@ -222,7 +222,7 @@ impl UnsewnSeams {
         for [a, b] in self.edges.iter().flat_map(|&edge| joined(mesh, edge)) {
             sets.join(a.to_u32(), b.to_u32());
         }
-        sets.leaders().to_vec()
+        sets.representatives().to_vec()
     }
 
     /// Returns for each vertex the one that it becomes in the [welded](UnsewnSeams::welded) mesh. Linear.
@@ -325,11 +325,11 @@ impl UnsewnSeams {
             let mut connected = classes.connected(mesh, &self.edges);
             let mut is_bad = vec![false; mesh.vertex_count()];
             for class in bad {
-                is_bad[connected.leader(class) as usize] = true;
+                is_bad[connected.representative(class) as usize] = true;
             }
             let before = self.edges.len();
             self.edges.retain(|&[h, _]| {
-                let seam = connected.leader(mesh.origin(h).to_u32());
+                let seam = connected.representative(mesh.origin(h).to_u32());
                 !is_bad[seam as usize]
             });
             let apart = before - self.edges.len();

@@ -74,15 +74,15 @@ impl Whole<'_> {
     /// All pieces are those of the oracle, and weigh what the whole weighs.
     fn check(&self, positions: &Positions, counts: &mut Counts) {
         let pieces = self.mesh.pieces(&self.mesh.components());
-        let leaders: BTreeSet<usize> = self.piece_of.iter().copied().collect();
-        assert_eq!(pieces.len(), leaders.len(), "pieces");
+        let representatives: BTreeSet<usize> = self.piece_of.iter().copied().collect();
+        assert_eq!(pieces.len(), representatives.len(), "pieces");
         let area = |mesh: &Mesh, at: &dyn Fn(VertexId) -> Point, f| {
             let [a, b, c] = mesh.face_vertices(f).map(at);
             (b - a).cross(&(c - a)).norm() / 2.0
         };
         let mut parts = ExactSum::new();
-        for (piece, leader) in pieces.iter().zip(leaders) {
-            let own = (0..self.piece_of.len()).filter(|&f| self.piece_of[f] == leader);
+        for (piece, representative) in pieces.iter().zip(representatives) {
+            let own = (0..self.piece_of.len()).filter(|&f| self.piece_of[f] == representative);
             assert!(piece.faces.iter().map(|f| f.index()).eq(own), "faces");
             let at = |v: VertexId| positions.at(piece.vertices[v.index()]);
             parts.extend(piece.mesh.faces().map(|f| area(&piece.mesh, &at, f)));

@@ -258,8 +258,8 @@ impl Report<'_> {
             let Some(first) = first else {
                 continue;
             };
-            let root = orbits.leader(first.to_u32());
-            let is_foreign = |h: &&HalfEdgeId| orbits.leader(h.to_u32()) != root;
+            let root = orbits.representative(first.to_u32());
+            let is_foreign = |h: &&HalfEdgeId| orbits.representative(h.to_u32()) != root;
             if let Some(h) = corners.iter().find(is_foreign) {
                 let found = format!("{v} has the corners {first} and {h} of two roots");
                 self.broken(Invariant::OneRoot, found);
@@ -285,11 +285,15 @@ impl Report<'_> {
             }
 
             truth.clear();
-            truth.extend(corners.iter().map(|&h| fans.leader(h.to_u32())));
+            truth.extend(corners.iter().map(|&h| fans.representative(h.to_u32())));
             truth.sort_unstable();
             truth.dedup();
             fans_walked.clear();
-            fans_walked.extend(mesh.fans(v).take(bound).map(|h| fans.leader(h.to_u32())));
+            fans_walked.extend(
+                mesh.fans(v)
+                    .take(bound)
+                    .map(|h| fans.representative(h.to_u32())),
+            );
             fans_walked.sort_unstable();
             if fans_walked != truth {
                 let (count, counted) = (truth.len(), fans_walked.len());

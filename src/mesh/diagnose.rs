@@ -234,9 +234,9 @@ impl Soup<'_> {
         if parts.count() < 2 {
             return;
         }
-        // Nodes are numbered as they are met, so that the leaders of fans ascend with their first faces.
-        let leaders = parts.leaders();
-        let fan = |h: u32| leaders[nodes[&self.target(h)] as usize];
+        // Nodes are numbered as they are met, so that the representatives of fans ascend with their first faces.
+        let representatives = parts.representatives();
+        let fan = |h: u32| representatives[nodes[&self.target(h)] as usize];
         let vertex = VertexId::from_u32(self.origin(around[0]));
         around.sort_unstable_by_key(|&h| (fan(h), h));
         let fans = around.chunk_by(|&h, &g| fan(h) == fan(g));

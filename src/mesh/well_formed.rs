@@ -135,7 +135,7 @@ mod tests {
         }
         let labels = (0..count as u32).map(|h| match numbers.below(8) {
             0 => count as u32 + h,
-            _ => corners.leader(h),
+            _ => corners.representative(h),
         });
         let origin: Vec<u32> = labels.collect();
         let ends = |h: usize| [h, next(h) as usize].map(|h| origin[h]);

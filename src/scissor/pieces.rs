@@ -180,7 +180,7 @@ impl PieceCounts {
         }
         let mut parts: Vec<Option<u32>> = vec![None; corners.len()];
         let mut pinches: Vec<Pinch> = vec![Pinch::default(); corners.len()];
-        for (&h, &chain) in corners.iter().zip(chains.leaders()) {
+        for (&h, &chain) in corners.iter().zip(chains.representatives()) {
             let pinch = &mut pinches[chain as usize];
             pinch.chain.push(mesh.origin(h));
             let is_there = |d: f64| d != 0.0 && Side::of(d) == side(h);
@@ -189,7 +189,7 @@ impl PieceCounts {
             }
             let part = self.node(h.face(), 2, side(h) as u32);
             let other = *parts[chain as usize].get_or_insert(part);
-            if sets.leader(part) != sets.leader(other) {
+            if sets.representative(part) != sets.representative(other) {
                 sets.join(part, other);
                 pinch.at.push(mesh.origin(h));
             }

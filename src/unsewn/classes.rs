@@ -28,7 +28,7 @@ impl Classes {
         let pairs = edges.iter().flat_map(|&edge| joined(mesh, edge));
         pairs.for_each(|[a, b]| of.join(a.to_u32(), b.to_u32()));
         let mut is_joined = vec![false; count as usize];
-        let roots = of.leaders();
+        let roots = of.representatives();
         for &[h, _] in edges {
             for end in [mesh.origin(h), mesh.target(h)] {
                 is_joined[roots[end.index()] as usize] = true;
@@ -39,7 +39,7 @@ impl Classes {
 
     /// The class of a vertex.
     pub(super) fn root(&mut self, v: VertexId) -> u32 {
-        self.of.leader(v.to_u32())
+        self.of.representative(v.to_u32())
     }
 
     /// Whether a seam joins a class.
@@ -53,7 +53,7 @@ impl Classes {
     /// vertices (I13). Classes are joined along edges, so such a face has neighbours, and one of them has
     /// the directed edge that is there twice.
     pub(super) fn defects(&mut self, mesh: &Mesh) -> Vec<u32> {
-        let roots = self.of.leaders();
+        let roots = self.of.representatives();
         let root = |h: HalfEdgeId| roots[mesh.origin(h).index()];
         // An edge between such a class and another one is seen at the former.
         let mut corners = Vec::new();

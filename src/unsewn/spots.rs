@@ -154,11 +154,11 @@ fn merged(vertices: &[VertexId], at: impl Fn(VertexId) -> [f64; 3], distance: f6
             }
         }
     }
-    let leaders = sets.leaders();
-    let leader = |i: u32| leaders[i as usize];
-    cells.sort_unstable_by_key(|&i| (leader(i), i));
+    let representatives = sets.representatives();
+    let representative = |i: u32| representatives[i as usize];
+    cells.sort_unstable_by_key(|&i| (representative(i), i));
     let mut merged: Vec<u32> = (0..count).collect();
-    for set in cells.chunk_by(|&i, &j| leader(i) == leader(j)) {
+    for set in cells.chunk_by(|&i, &j| representative(i) == representative(j)) {
         let is_apart = |n: usize| set[..n].iter().any(|&j| far(set[n], j) > distance);
         let is_wide = || (0..set.len()).any(is_apart);
         if set.len() <= DENSE && !set.iter().any(|&i| is_dense[i as usize]) && !is_wide() {

@@ -235,7 +235,7 @@ pub(crate) fn v(index: usize) -> VertexId {
     VertexId::new(index).expect("an id")
 }
 
-/// Looks down at a place of a sheet in the plane z = 0.
+/// A ray down at a place of a sheet in the plane z = 0.
 pub(crate) fn ray(x: f64, y: f64) -> Ray {
     Ray::new(Point::new(x, y, 5.0), -Vector::z()).expect("a ray")
 }

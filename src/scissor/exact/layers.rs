@@ -150,7 +150,7 @@ fn chains(trace: &Trace, mesh: &Mesh, positions: &Positions) -> Vec<u32> {
     for two in ends.windows(2).filter(|two| two[0].0 == two[1].0) {
         sets.join(two[0].1, two[1].1);
     }
-    sets.leaders().to_vec()
+    sets.representatives().to_vec()
 }
 
 /// A node, or where it lies on a tear that has not opened, the same one of two for both sides.

@@ -34,7 +34,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use self::bend::Buckling;
 use self::constraint::{Constraint, ConstraintId, Constraints};
-use self::contact::{Contact, Looks, Pressed};
+use self::contact::{Contact, ContactCache, Pressed};
 use self::counters::Counters;
 use self::error::{SettingError, SystemError};
 use self::guard::Guard;
@@ -112,7 +112,7 @@ pub(crate) struct Scratch {
     pub(crate) contacts: Vec<Contact>,
     pub(crate) pressed: Vec<Pressed>,
     /// How far particles are from bodies.
-    pub(crate) looks: Looks,
+    pub(crate) contact: ContactCache,
     /// Where a limiter found the particles.
     pub(crate) unlimited: Vec<Point>,
     /// The velocities that wind blows at, where they are predicted.
@@ -124,7 +124,7 @@ pub(crate) struct Scratch {
 impl Scratch {
     /// Has everything looked at again for contact, since particles were moved or renamed.
     pub(crate) fn lose_contact(&mut self) {
-        self.looks.forget();
+        self.contact.invalidate();
         self.contacts.clear();
     }
 }

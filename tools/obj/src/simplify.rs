@@ -3,7 +3,7 @@
 //! What can be undone follows from a file and its record alone (`simplify/plan.rs`), so an edited document
 //! is written and read first. Then the plan is applied to the statements.
 
-mod past;
+mod history;
 mod plan;
 
 use std::collections::BTreeMap;
@@ -167,7 +167,7 @@ impl<'d> Rest<'d> {
     fn corner(&self, h: HalfEdgeId) -> [Option<u32>; 3] {
         let vertex = self.document.polygons.vertices[h.index()];
         let is_back = |slide: usize| self.undo.is_back[slide];
-        let [texture, normal] = self.undo.past.indices(h.index(), is_back);
+        let [texture, normal] = self.undo.history.indices(h.index(), is_back);
         [Some(vertex), texture, normal]
     }
 

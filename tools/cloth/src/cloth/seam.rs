@@ -144,7 +144,7 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
             sets.join(one.into(), other.into());
         }
     }
-    let roots = sets.leaders();
+    let roots = sets.representatives();
     // The seam that names one of these vertices, or a copy of it.
     let first = |of: &[VertexId]| {
         let root = |v: &VertexId| roots[v.index()];
@@ -160,7 +160,7 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
     let mesh = built.map_err(|error| {
         let TornError::Build(error) = error else {
             unreachable!(
-                "a vertex with a counterpart has an edge, and the leader of a set is the lowest"
+                "a vertex with a counterpart has an edge, and the representative of a set is the lowest"
             );
         };
         let defect = error.defects()[0].clone();

@@ -190,7 +190,7 @@ impl Balance {
         self.work.sums.held_j += energy::at_j(system, particle) - before_j;
     }
 
-    /// Looks at the system before a substep. Particles that are led have the velocity for it already.
+    /// Reads the system before a substep. Particles that are led have the velocity for it already.
     pub(crate) fn before(&mut self, system: &System) {
         if is_leading(system) {
             self.forces.clear();
@@ -204,7 +204,7 @@ impl Balance {
         }
     }
 
-    /// Looks at the system after a substep of so many seconds, in which the method moved particles by the
+    /// Reads the system after a substep of so many seconds, in which the method moved particles by the
     /// forces at its end, or by those at both.
     pub(crate) fn after(&mut self, system: &System, substep_s: f64, moves_at_end: bool) {
         if is_leading(system) {

@@ -1,6 +1,6 @@
-//! A body of triangles as an obstacle: a grid of signed distances to its skin.
+//! A body of triangles as an obstacle: a grid of signed distances to its surface.
 //!
-//! Nodes within [`BAND`] cells of the skin have their exact distance, negative inside; between nodes it is
+//! Nodes within [`BAND`] cells of the surface have their exact distance, negative inside; between nodes it is
 //! trilinear. All others have the distance of the band, which is a lower bound. A look costs eight numbers,
 //! however many faces the body has.
 //!
@@ -9,9 +9,9 @@
 //! line that leaves by one counts nothing. A node that differs from a neighbour by more than they are
 //! apart is on the wrong side, and would be a pit that swallows cloth: such a body is refused.
 //!
-//! The grid measures its own error in the middle of each cell at the skin, where it is largest as a rule: a
+//! The grid measures its own error in the middle of each cell at the surface, where it is largest as a rule: a
 //! sharp edge or a narrow gap is rounded by a part of a cell. Cloth that is kept farther away than that
-//! never reaches the skin.
+//! never reaches the surface.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -21,10 +21,10 @@ use tearmesh::geometry::{Point, Vector, check_point, cross, dot, length};
 
 use crate::digest;
 
-/// The cells within which distances are exact, on both sides of the skin.
+/// The cells within which distances are exact, on both sides of the surface.
 const BAND: f64 = 3.0;
 
-/// Up to how far from the skin the error is measured, in cells.
+/// Up to how far from the surface the error is measured, in cells.
 const MEASURED: f64 = 1.5;
 
 /// The largest number of nodes: 64 MB.
@@ -40,7 +40,7 @@ const OPEN_SHARE: usize = 40;
 /// body with round coordinates.
 const OFFSETS: [f64; 3] = [0.381_966, 0.267_949, 0.414_214];
 
-/// A solid body with a skin of triangles, as the shape of a [`Collider`](crate::Collider).
+/// A solid body with a surface of triangles, as the shape of a [`Collider`](crate::Collider).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -52,7 +52,7 @@ const OFFSETS: [f64; 3] = [0.381_966, 0.267_949, 0.414_214];
 /// let body = Body::new(&points, &faces, Some(0.05))?;
 /// assert!((body.distance_m(Point::new(0.2, 0.2, -0.1)) - 0.1).abs() < 1e-6);
 /// assert!((body.distance_m(Point::new(0.2, 0.2, 0.03)) + 0.03).abs() < 1e-6);
-/// let skin = Collider::body(Arc::new(body)).with_friction(0.3);
+/// let surface = Collider::body(Arc::new(body)).with_friction(0.3);
 /// # Ok::<(), tearmesh_cloth::BodyError>(())
 /// ```
 #[derive(Clone, PartialEq)]
@@ -69,7 +69,7 @@ pub struct Body {
 impl Body {
     /// Creates a body from its points in metres and its faces, three points each, all of them anticlockwise or
     /// all clockwise as seen from outside. `cell_m` is the distance of nodes; by default the longest side of
-    /// the body has 160. Takes a time by the area of the skin in cells, and a pass over all nodes.
+    /// the body has 160. Takes a time by the area of the surface in cells, and a pass over all nodes.
     ///
     /// # Errors
     ///
@@ -87,29 +87,29 @@ impl Body {
         if let Some(face) = faces.iter().position(|face| !face.iter().all(is_point)) {
             return Err(BodyError::Face { face });
         }
-        let mut skin = Skin {
+        let mut surface = Surface {
             points: points.to_vec(),
             faces: faces.to_vec(),
         };
-        skin.close()?;
-        skin.turn_outward()?;
-        let grid = Grid::around(&skin, cell_m)?;
-        let mut distances = grid.distances(&skin, BAND);
-        grid.sign(&skin, &mut distances)?;
+        surface.close()?;
+        surface.turn_outward()?;
+        let grid = Grid::around(&surface, cell_m)?;
+        let mut distances = grid.distances(&surface, BAND);
+        grid.sign(&surface, &mut distances)?;
         let mut body = Body {
             points: points.to_vec(),
-            faces: skin.faces[..faces.len()].to_vec(),
+            faces: surface.faces[..faces.len()].to_vec(),
             grid,
             distances,
             error_rms_m: 0.0,
             error_worst_m: 0.0,
         };
-        body.measure(&skin);
+        body.measure(&surface);
         Ok(body)
     }
 
-    /// Returns the distance of a point from the skin in metres, as the grid has it: negative inside. Beyond
-    /// three cells of the skin it is a bound: the point is at least so far away.
+    /// Returns the distance of a point from the surface in metres, as the grid has it: negative inside. Beyond
+    /// three cells of the surface it is a bound: the point is at least so far away.
     #[must_use]
     pub fn distance_m(&self, x: Point) -> f64 {
         match self.grid.place(x) {
@@ -136,13 +136,13 @@ impl Body {
         self.grid.cell_m
     }
 
-    /// Returns the root mean square of the error of the grid at the skin, in metres.
+    /// Returns the root mean square of the error of the grid at the surface, in metres.
     #[must_use]
     pub fn error_rms_m(&self) -> f64 {
         self.error_rms_m
     }
 
-    /// Returns the largest error of the grid at the skin, in metres: the least thickness with which cloth stays
+    /// Returns the largest error of the grid at the surface, in metres: the least thickness with which cloth stays
     /// outside.
     #[must_use]
     pub fn error_worst_m(&self) -> f64 {
@@ -188,15 +188,15 @@ impl Body {
         std::array::from_fn(corner)
     }
 
-    /// Measures the error in the middle of the cells at the skin and outside of it.
-    fn measure(&mut self, skin: &Skin) {
+    /// Measures the error in the middle of the cells at the surface and outside of it.
+    fn measure(&mut self, surface: &Surface) {
         let (cell_m, counts) = (self.grid.cell_m, self.grid.counts);
         let middles = Grid {
             origin: self.grid.origin + Vector::repeat(0.5 * cell_m),
             counts: counts.map(|count| count - 1),
             cell_m,
         };
-        let exact = middles.distances(skin, MEASURED);
+        let exact = middles.distances(surface, MEASURED);
         let (mut squares, mut count) = (0.0, 0.0_f64);
         let measured_m = (MEASURED * cell_m) as f32;
         for (cell, &exact) in exact.iter().enumerate() {
@@ -236,12 +236,12 @@ impl fmt::Debug for Body {
 }
 
 /// The triangles of a body.
-struct Skin {
+struct Surface {
     points: Vec<Point>,
     faces: Vec<[u32; 3]>,
 }
 
-impl Skin {
+impl Surface {
     fn triangles(&self) -> impl Iterator<Item = [Point; 3]> + '_ {
         let corners = |face: &[u32; 3]| face.map(|v| self.points[v as usize]);
         self.faces.iter().map(corners)
@@ -268,12 +268,12 @@ impl Skin {
         // By one of its vertices: the sum of the ends of its edges, and their number.
         let mut holes = BTreeMap::<u32, (Vector, f64)>::new();
         for &(a, b) in runs.keys() {
-            let (sum, ends) = holes.entry(sets.leader(a)).or_default();
+            let (sum, ends) = holes.entry(sets.representative(a)).or_default();
             *sum += self.points[a as usize].coords + self.points[b as usize].coords;
             *ends += 2.0;
         }
         for (&(a, b), &runs) in &runs {
-            let before = holes.range(..sets.leader(a)).count();
+            let before = holes.range(..sets.representative(a)).count();
             let middle = (self.points.len() + before) as u32;
             let back = if runs > 0 {
                 [b, a, middle]
@@ -314,10 +314,10 @@ struct Place {
 }
 
 impl Grid {
-    /// A grid with the band of a skin in it.
-    fn around(skin: &Skin, cell_m: Option<f64>) -> Result<Grid, BodyError> {
+    /// A grid with the band of a surface in it.
+    fn around(surface: &Surface, cell_m: Option<f64>) -> Result<Grid, BodyError> {
         let bound = |wins: fn(f64, f64) -> f64| {
-            let used = skin.triangles().flatten().map(|x| x.coords);
+            let used = surface.triangles().flatten().map(|x| x.coords);
             let bound = used.reduce(|bound, x| bound.zip_map(&x, wins));
             bound.expect("a body has a face, or no volume")
         };
@@ -382,12 +382,12 @@ impl Grid {
         (cells(low).ceil() as usize).min(end)..end
     }
 
-    /// The distance of each node from the skin, up to so many cells.
-    fn distances(&self, skin: &Skin, band: f64) -> Vec<f32> {
+    /// The distance of each node from the surface, up to so many cells.
+    fn distances(&self, surface: &Surface, band: f64) -> Vec<f32> {
         let band_m = band * self.cell_m;
         let [width, height, depth] = self.counts;
         let mut distances = vec![band_m as f32; width * height * depth];
-        for corners in skin.triangles() {
+        for corners in surface.triangles() {
             let triangle = Triangle::new(corners);
             let [x, y, z] = [0, 1, 2].map(|axis| {
                 let [low, high] = triangle.bounds(axis);
@@ -409,8 +409,8 @@ impl Grid {
     }
 
     /// Makes the distances of nodes inside negative.
-    fn sign(&self, skin: &Skin, distances: &mut [f32]) -> Result<(), BodyError> {
-        let entries = self.crossings(skin);
+    fn sign(&self, surface: &Surface, distances: &mut [f32]) -> Result<(), BodyError> {
+        let entries = self.crossings(surface);
         let rows = distances.chunks_exact_mut(self.counts[0]);
         for (row, entries) in rows.zip(entries.chunks_exact(self.counts[0])) {
             let mut entered = 0;
@@ -424,12 +424,12 @@ impl Grid {
 
     /// How often a line along x enters the body before a node, and after the one before, less how often it
     /// leaves.
-    fn crossings(&self, skin: &Skin) -> Vec<i16> {
+    fn crossings(&self, surface: &Surface) -> Vec<i16> {
         let [width, height, depth] = self.counts;
         let mut entries = vec![0; width * height * depth];
         let [b, c] = [1, 2];
-        for face in &skin.faces {
-            let corners = face.map(|v| skin.points[v as usize]);
+        for face in &surface.faces {
+            let corners = face.map(|v| surface.points[v as usize]);
             let triangle = Triangle::new(corners);
             let [over_b, over_c] = [b, c].map(|axis| {
                 let [low, high] = triangle.bounds(axis);

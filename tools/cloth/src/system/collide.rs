@@ -15,14 +15,14 @@
 //! A look at a body says how far a particle may go before it has to be looked at again. So what is far away,
 //! or rests in a fold, costs a comparison. And a particle that goes farther in a substep than the thickness
 //! and a cell may come out at the other side of a limb of two cells, which are the thinnest that a grid shows: if
-//! its way leads in and out, or in to where the skin faces another way, the step is divided. What is light and stiff
+//! its way leads in and out, or in to where the surface faces another way, the step is divided. What is light and stiff
 //! may go far in the shortest part of an implicit step, but comes out where it went in.
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::system::System;
 use crate::system::body::Body;
-use crate::system::contact::{Contact, Corners, Look, Looks, Pressed};
+use crate::system::contact::{ColliderCache, Contact, ContactCache, Corners, Pressed};
 use crate::system::energy;
 use crate::system::load::{Collider, ColliderShape};
 use crate::system::path::Pose;
@@ -36,8 +36,8 @@ pub(crate) fn touching(system: &System) -> impl Iterator<Item = (usize, Vector)>
 /// Notes where a substep begins, if a collider asks for it.
 pub(crate) fn begin(system: &mut System, substep_s: f64) {
     system.scratch.span_s = [system.elapsed_s, system.elapsed_s + substep_s];
-    let looks = &mut system.scratch.looks;
-    (looks.is_out, looks.too_far) = (false, None);
+    let cache = &mut system.scratch.contact;
+    (cache.is_out, cache.too_far) = (false, None);
     system.scratch.pressed.clear();
     if system.model.loads.has_close_contact() {
         system.scratch.before.clone_from(&system.positions);
@@ -46,7 +46,7 @@ pub(crate) fn begin(system: &mut System, substep_s: f64) {
 
 /// A particle that went so far in the last substep that it may have passed through a body.
 pub(crate) fn too_far(system: &System) -> Option<usize> {
-    system.scratch.looks.too_far
+    system.scratch.contact.too_far
 }
 
 /// Moves the particles out of the colliders if that was not done yet in this substep, and takes their
@@ -54,10 +54,10 @@ pub(crate) fn too_far(system: &System) -> Option<usize> {
 /// valence of each particle in contact.
 pub(crate) fn push_out(system: &mut System) {
     system.keep();
-    if !system.scratch.looks.is_out {
+    if !system.scratch.contact.is_out {
         move_out(system, 0.0);
     }
-    system.scratch.looks.is_out = false;
+    system.scratch.contact.is_out = false;
     let contacts = std::mem::take(&mut system.scratch.contacts);
     for contact in &contacts {
         let v = contact.corners.mean(|corner| system.velocities[corner]);
@@ -72,12 +72,14 @@ pub(crate) fn push_out(system: &mut System) {
 /// substep.
 pub(crate) fn move_out(system: &mut System, per_s: f64) {
     let colliders = std::mem::take(&mut system.model.loads.colliders);
-    let mut looks = std::mem::take(&mut system.scratch.looks);
-    looks.is_out = true;
+    let mut cache = std::mem::take(&mut system.scratch.contact);
+    cache.is_out = true;
     system.scratch.contacts.clear();
     if colliders.iter().any(Collider::is_body) {
-        looks.gone_m += farthest_m(system);
-        looks.at.resize_with(colliders.len(), Look::default);
+        cache.gone_m += farthest_m(system);
+        cache
+            .at
+            .resize_with(colliders.len(), ColliderCache::default);
     }
     for (i, collider) in colliders.iter().enumerate() {
         system.counters.collider_passes += 1;
@@ -95,7 +97,7 @@ pub(crate) fn move_out(system: &mut System, per_s: f64) {
                 poses: Some(poses).filter(|_| !motion.is_still()),
                 per_s,
             };
-            solid.move_out(i, &mut looks, system);
+            solid.move_out(i, &mut cache, system);
             continue;
         }
         system.counters.features.collider += system.positions.len() as u64;
@@ -119,7 +121,7 @@ pub(crate) fn move_out(system: &mut System, per_s: f64) {
             }
         }
     }
-    (system.model.loads.colliders, system.scratch.looks) = (colliders, looks);
+    (system.model.loads.colliders, system.scratch.contact) = (colliders, cache);
 }
 
 /// How far a particle went in this substep, at most.
@@ -154,20 +156,20 @@ impl Solid<'_> {
     /// The parts of a way that are looked at; a longer one may have led anywhere.
     const PARTS_MAX: f64 = 64.0;
 
-    /// Looks at particles, and then at the middles of faces, where that is due.
-    fn move_out(&self, collider: usize, looks: &mut Looks, system: &mut System) {
-        let look = &mut looks.at[collider];
+    /// Tests particles, and then the middles of faces, where that is due.
+    fn move_out(&self, collider: usize, cache: &mut ContactCache, system: &mut System) {
+        let of = &mut cache.at[collider];
         let particles = system.positions.len();
         let all = particles + system.model.faces.len() / 3;
-        if look.until_m.len() != all {
-            look.until_m.clear();
+        if of.until_m.len() != all {
+            of.until_m.clear();
             let room = system.positions.capacity() + system.model.faces.capacity() / 3;
-            look.until_m.reserve(room);
-            look.until_m.resize(all, f64::NEG_INFINITY);
-            look.least_m = f64::NEG_INFINITY;
+            of.until_m.reserve(room);
+            of.until_m.resize(all, f64::NEG_INFINITY);
+            of.least_m = f64::NEG_INFINITY;
         }
-        looks.gone_m += self.farthest_m();
-        if looks.gone_m < look.least_m {
+        cache.gone_m += self.farthest_m();
+        if cache.gone_m < of.least_m {
             return;
         }
         // Faces that share corners undo each other's way in part.
@@ -175,12 +177,12 @@ impl Solid<'_> {
         for (round, range) in rounds.into_iter().enumerate() {
             let mut moved_m = 0.0_f64;
             for i in range {
-                if looks.gone_m < look.until_m[i] {
+                if cache.gone_m < of.until_m[i] {
                     continue;
                 }
                 let (corners, apart_m) = if i < particles {
                     if self.has_passed(system, i) {
-                        looks.too_far = Some(i);
+                        cache.too_far = Some(i);
                     }
                     (Corners::of_particle(i), self.thickness_m)
                 } else {
@@ -189,14 +191,14 @@ impl Solid<'_> {
                 };
                 let (clear_m, by_m) = self.clear(system, corners, apart_m);
                 moved_m = moved_m.max(by_m);
-                look.until_m[i] = looks.gone_m + clear_m;
+                of.until_m[i] = cache.gone_m + clear_m;
             }
-            looks.gone_m += moved_m;
+            cache.gone_m += moved_m;
             if round > 0 && moved_m < SETTLED * self.body.error_worst_m() {
                 break;
             }
         }
-        look.least_m = look.until_m.iter().copied().fold(f64::INFINITY, f64::min);
+        of.least_m = of.until_m.iter().copied().fold(f64::INFINITY, f64::min);
     }
 
     /// A point as the body sees it where it is at the beginning or the end of the substep.
@@ -249,7 +251,7 @@ impl Solid<'_> {
         parts >= Self::PARTS_MAX
     }
 
-    /// Moves a particle, or the corners of a face, until it is as far from the skin as it should be, or the
+    /// Moves a particle, or the corners of a face, until it is as far from the surface as it should be, or the
     /// middle of the face is. Returns how much farther it is, and how far a particle was moved.
     fn clear(&self, system: &mut System, corners: Corners, apart_m: f64) -> (f64, f64) {
         let mut moved_m = 0.0;
@@ -273,7 +275,7 @@ impl Solid<'_> {
                 corners,
                 normal: self.poses.map_or(normal, |poses| poses[1].turned(normal)),
                 velocity: self.velocity(x, system.scratch.span_s),
-                // What comes after the first look corrects for the curvature of the skin.
+                // What comes after the first look corrects for the curvature of the surface.
                 friction: if look == 0 { self.friction } else { 0.0 },
                 pressed,
             };

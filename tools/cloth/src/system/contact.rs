@@ -98,28 +98,28 @@ impl Corners {
 
 /// What is known of how far particles are from bodies.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Looks {
+pub(crate) struct ContactCache {
     /// How far any particle may have gone since the beginning.
     pub(crate) gone_m: f64,
     /// Of each collider that is a body.
-    pub(crate) at: Vec<Look>,
+    pub(crate) at: Vec<ColliderCache>,
     /// Whether particles were moved out in this substep.
     pub(crate) is_out: bool,
     /// A particle that went too far in the last substep, and may be at the wrong side of a body.
     pub(crate) too_far: Option<usize>,
 }
 
-/// How far particles may go before each of them, and after these each face, has to be looked at again: as
-/// [`Looks::gone_m`] is then.
+/// How far particles may go before each of them, and after these each face, has its distance computed again: as
+/// [`ContactCache::gone_m`] is then.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Look {
+pub(crate) struct ColliderCache {
     pub(crate) until_m: Vec<f64>,
     pub(crate) least_m: f64,
 }
 
-impl Looks {
-    /// Has everything looked at again.
-    pub(crate) fn forget(&mut self) {
+impl ContactCache {
+    /// Has every distance computed again.
+    pub(crate) fn invalidate(&mut self) {
         self.at.clear();
     }
 }

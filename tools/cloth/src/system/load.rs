@@ -80,7 +80,7 @@ pub enum ColliderShape {
     Body {
         /// The body, shared by all who collide with it.
         body: Arc<Body>,
-        /// How far vertices stay from its skin, in metres: at least the [largest
+        /// How far vertices stay from its surface, in metres: at least the [largest
         /// error](Body::error_worst_m) of its grid.
         thickness_m: f64,
         /// How it moves.
@@ -190,10 +190,10 @@ impl Collider {
         })
     }
 
-    /// Returns the skin of a body or a ball as it was made, to be drawn: its points, and its faces, anticlockwise
+    /// Returns the surface of a body or a ball as it was made, to be drawn: its points, and its faces, anticlockwise
     /// as seen from outside. A plane has none.
     #[must_use]
-    pub fn skin(&self) -> (Vec<Point>, Vec<[u32; 3]>) {
+    pub fn surface(&self) -> (Vec<Point>, Vec<[u32; 3]>) {
         match &self.shape {
             ColliderShape::Plane(_) => Default::default(),
             ColliderShape::Sphere { centre, radius_m } => ball(*centre, *radius_m),
@@ -210,14 +210,14 @@ impl Collider {
         }
     }
 
-    /// Returns the [skins](Collider::skin) of colliders where they are at a time, as one.
+    /// Returns the [skins](Collider::surface) of colliders where they are at a time, as one.
     #[must_use]
     pub fn skins(colliders: &[Collider], elapsed_s: f64) -> (Vec<Point>, Vec<[u32; 3]>) {
         let (mut points, mut faces) = (Vec::new(), Vec::new());
         for collider in colliders {
-            let (pose, (skin, sides)) = (collider.pose(elapsed_s), collider.skin());
+            let (pose, (surface, sides)) = (collider.pose(elapsed_s), collider.surface());
             let first = points.len() as u32;
-            points.extend(skin.into_iter().map(|p| pose.to_world(p)));
+            points.extend(surface.into_iter().map(|p| pose.to_world(p)));
             faces.extend(sides.into_iter().map(|side| side.map(|v| first + v)));
         }
         (points, faces)
@@ -260,7 +260,7 @@ impl ColliderShape {
 const ROWS: u32 = 14;
 const AROUND: u32 = 32;
 
-/// The skin of a ball: a tube that is rounded, and the fans that close it.
+/// The surface of a ball: a tube that is rounded, and the fans that close it.
 fn ball(centre: Point, radius_m: f64) -> (Vec<Point>, Vec<[u32; 3]>) {
     let (tube, rings) = shapes::tube(AROUND, ROWS);
     let rounded = rings.as_slice().iter().map(|p| {

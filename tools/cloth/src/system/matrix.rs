@@ -149,7 +149,8 @@ impl Hessian {
         self.pairs.iter().for_each(|&[i, j]| self.sets.join(i, j));
         let particles = 0..particles as u32;
         self.pieces.clear();
-        self.pieces.extend(particles.map(|i| self.sets.leader(i)));
+        self.pieces
+            .extend(particles.map(|i| self.sets.representative(i)));
     }
 }
 

@@ -3,7 +3,7 @@
 //! Which insertions go is the kernel's [`RemovalPlan`], of the record's divided faces. Slides are undone with
 //! them, as if in reverse order of the cuts:
 //!
-//! * An inserted vertex goes only if it is as it was inserted (`past.rs`), and if the ends that it was
+//! * An inserted vertex goes only if it is as it was inserted (`history.rs`), and if the ends that it was
 //!   put between are where they were then: a later slide of one of them has to be undone too. And only if
 //!   no edge at the vertex is torn that its cut or a later one tore.
 //! * What a cut inserted at one place goes together. These are the two sides of a seam that is not sewn, and
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 
 use tearmesh::{FaceId, FacePart, HalfEdgeId, Insertions, Mesh, RemovalPlan, VertexId};
 
-use super::past::Past;
+use super::history::History;
 use crate::document::Document;
 use crate::families::Families;
 use crate::record::{Inserted, Record};
@@ -37,7 +37,7 @@ pub(super) struct Divided {
 }
 
 pub(super) struct Undo<'d> {
-    pub(super) past: Past<'d>,
+    pub(super) history: History<'d>,
     plan: RemovalPlan,
     /// The divided faces, by family.
     pub(super) divided: Vec<Divided>,
@@ -57,8 +57,8 @@ pub(super) struct Undo<'d> {
 
 impl<'d> Undo<'d> {
     pub(super) fn find(document: &'d Document, record: &'d Record, mesh: &Mesh) -> Undo<'d> {
-        let past = Past::new(document, record);
-        let divided = divided(&record.families, &past, mesh);
+        let history = History::new(document, record);
+        let divided = divided(&record.families, &history, mesh);
         let inserted = &record.inserted[..];
         // The plan knows what is within before what is around.
         let families = divided
@@ -66,23 +66,23 @@ impl<'d> Undo<'d> {
             .rev()
             .map(|face| face.parts_for_plan(inserted));
         let insertions = Insertions::new(mesh, families);
-        let last_tears = last_tears(record, &past, mesh);
-        let may_go = may_go(record, &past, &last_tears, mesh);
-        let [is_open, is_back] = slides_to_undo(record, &past, &last_tears);
-        let plan = |past: &Past<'_>, may_go: &[bool], is_back: &[bool]| {
-            let may_go = |v: VertexId| may_go[past.roots[v.index()] as usize];
-            let indices = |h: HalfEdgeId| past.indices(h.index(), |slide| is_back[slide]);
+        let last_tears = last_tears(record, &history, mesh);
+        let may_go = may_go(record, &history, &last_tears, mesh);
+        let [is_open, is_back] = slides_to_undo(record, &history, &last_tears);
+        let plan = |history: &History<'_>, may_go: &[bool], is_back: &[bool]| {
+            let may_go = |v: VertexId| may_go[history.roots[v.index()] as usize];
+            let indices = |h: HalfEdgeId| history.indices(h.index(), |slide| is_back[slide]);
             insertions.plan(mesh, may_go, |one, other| indices(one) == indices(other))
         };
         let mut undo = Undo {
-            plan: plan(&past, &may_go, &is_back),
+            plan: plan(&history, &may_go, &is_back),
             is_back,
             is_open,
             may_go,
             since: inserted.iter().map(|one| one.cut + 1).collect(),
             together: together(document, inserted),
             inserted,
-            past,
+            history,
             divided,
             edited: 0,
         };
@@ -94,11 +94,11 @@ impl<'d> Undo<'d> {
         undo.keep_edited(unlike);
         loop {
             if is_outdated {
-                undo.plan = plan(&undo.past, &undo.may_go, &undo.is_back);
+                undo.plan = plan(&undo.history, &undo.may_go, &undo.is_back);
             }
             let mut goes = vec![false; undo.may_go.len()];
             for v in mesh.vertices().filter(|&v| undo.plan.goes(v)) {
-                goes[undo.past.roots[v.index()] as usize] = true;
+                goes[undo.history.roots[v.index()] as usize] = true;
             }
             if !undo.keep_more(&mut goes) {
                 return undo;
@@ -112,7 +112,7 @@ impl<'d> Undo<'d> {
     fn unlike_within(&self, divided: &Divided) -> Vec<(u32, [bool; 2])> {
         let mut corners: BTreeMap<u32, usize> = BTreeMap::new();
         for h in divided.faces.iter().flat_map(|f| f.half_edges()) {
-            let first = corners.entry(self.past.root(h.index()));
+            let first = corners.entry(self.history.root(h.index()));
             first.or_insert(h.index());
         }
         let first = |root: u32| corners.get(&root).copied();
@@ -120,7 +120,8 @@ impl<'d> Undo<'d> {
         let going = corners.iter().filter(|&(&root, _)| might_go(root));
         let unlike = going.filter_map(|(&root, &corner)| {
             let inserted = &self.inserted[self.place(root)?];
-            let is_unlike = |since: u32| !self.past.is_as_inserted(corner, inserted, since, first);
+            let is_unlike =
+                |since: u32| !self.history.is_as_inserted(corner, inserted, since, first);
             let unlike = [inserted.cut + 1, inserted.cut].map(is_unlike);
             unlike.contains(&true).then_some((root, unlike))
         });
@@ -154,17 +155,17 @@ impl<'d> Undo<'d> {
     /// The slides of the ends that an inserted vertex was put between.
     fn slides_of_ends(&self, place: usize) -> impl Iterator<Item = usize> + '_ {
         let ends = self.inserted[place].between.iter();
-        ends.flat_map(|&root| self.past.of_root(root))
+        ends.flat_map(|&root| self.history.of_root(root))
     }
 
     /// How many vertices stay only because they were edited since they slid.
     pub(super) fn slid_edited(&self) -> usize {
         let is_edited = |&slide: &usize| {
-            let vertex = self.past.slides[slide].vertex;
-            let later = self.past.of(vertex).find(|&later| later > slide);
-            let is_first_found = later.is_none_or(|later| self.past.is_intact[later]);
+            let vertex = self.history.slides[slide].vertex;
+            let later = self.history.of(vertex).find(|&later| later > slide);
+            let is_first_found = later.is_none_or(|later| self.history.is_intact[later]);
             let goes = self.goes(vertex);
-            is_first_found && !self.is_open[slide] && !goes && !self.past.is_intact[slide]
+            is_first_found && !self.is_open[slide] && !goes && !self.history.is_intact[slide]
         };
         (0..self.is_back.len()).filter(is_edited).count()
     }
@@ -198,7 +199,7 @@ impl<'d> Undo<'d> {
         // From the last one: its ends were inserted before it.
         for (place, inserted) in self.inserted.iter().enumerate().rev() {
             let of_ends: Vec<usize> = self.slides_of_ends(place).collect();
-            let is_later = |slide: &usize| self.past.slides[*slide].cut >= self.since[place];
+            let is_later = |slide: &usize| self.history.slides[*slide].cut >= self.since[place];
             let (later, earlier): (Vec<usize>, Vec<usize>) =
                 of_ends.iter().partition(|s| is_later(s));
             if goes[inserted.vertex as usize] && later.iter().all(|&slide| self.is_back[slide]) {
@@ -222,10 +223,10 @@ impl<'d> Undo<'d> {
 
 /// For each slide, whether an edge is torn there that its cut or a later one tore, and whether the slide may be
 /// undone.
-fn slides_to_undo(record: &Record, past: &Past<'_>, last_tears: &[u32]) -> [Vec<bool>; 2] {
-    let slides = record.slides.iter().zip(&past.is_intact);
+fn slides_to_undo(record: &Record, history: &History<'_>, last_tears: &[u32]) -> [Vec<bool>; 2] {
+    let slides = record.slides.iter().zip(&history.is_intact);
     let slides = slides.map(|(slid, is_intact)| {
-        let is_open = last_tears[past.roots[slid.vertex as usize] as usize] >= slid.cut;
+        let is_open = last_tears[history.roots[slid.vertex as usize] as usize] >= slid.cut;
         (is_open, *is_intact && !is_open)
     });
     let (is_open, is_back) = slides.unzip();
@@ -235,9 +236,9 @@ fn slides_to_undo(record: &Record, past: &Past<'_>, last_tears: &[u32]) -> [Vec<
 /// By root, the last cut that tore an edge at one of its vertices, of edges that are still torn; 0 if none is.
 /// An edge is torn by every cut that parted its two sides at one of its ends: at the tip of a cut, the edge is
 /// torn and the vertex was never split.
-fn last_tears(record: &Record, past: &Past<'_>, mesh: &Mesh) -> Vec<u32> {
-    let mut last = vec![0; past.roots.len()];
-    let distances = Distances::of(past.roots.len(), &record.splits);
+fn last_tears(record: &Record, history: &History<'_>, mesh: &Mesh) -> Vec<u32> {
+    let mut last = vec![0; history.roots.len()];
+    let distances = Distances::of(history.roots.len(), &record.splits);
     for h in mesh.half_edges() {
         let Some(ghost) = mesh.ghost_pair(h).filter(|ghost| h < *ghost) else {
             continue;
@@ -250,7 +251,7 @@ fn last_tears(record: &Record, past: &Past<'_>, mesh: &Mesh) -> Vec<u32> {
         let cuts = parted.map(|[one, other]| distances.apart_since(one.into(), other.into()));
         let cut = cuts.fold(0, u32::max);
         for [vertex, _] in sides {
-            let of_root = &mut last[past.roots[vertex.index()] as usize];
+            let of_root = &mut last[history.roots[vertex.index()] as usize];
             *of_root = cut.max(*of_root);
         }
     }
@@ -274,8 +275,8 @@ fn together(document: &Document, inserted: &[Inserted]) -> Vec<Vec<u32>> {
 
 /// By root, whether it was inserted by a cut that is not open there; and what no honest record has: a parent
 /// between inserted vertices, and undivided faces there.
-fn may_go(record: &Record, past: &Past<'_>, last_tears: &[u32], mesh: &Mesh) -> Vec<bool> {
-    let mut may_go = vec![false; past.roots.len()];
+fn may_go(record: &Record, history: &History<'_>, last_tears: &[u32], mesh: &Mesh) -> Vec<bool> {
+    let mut may_go = vec![false; history.roots.len()];
     for inserted in &record.inserted {
         let root = inserted.vertex as usize;
         may_go[root] = last_tears[root] < inserted.cut;
@@ -291,20 +292,20 @@ fn may_go(record: &Record, past: &Past<'_>, last_tears: &[u32], mesh: &Mesh) -> 
     }
     for f in mesh.faces().filter(|f| families.of(f.index()).is_none()) {
         let corners = f.half_edges().into_iter();
-        corners.for_each(|h| may_go[past.root(h.index()) as usize] = false);
+        corners.for_each(|h| may_go[history.root(h.index()) as usize] = false);
     }
     may_go
 }
 
 /// All divided faces of a mesh.
-fn divided(families: &Families, past: &Past<'_>, mesh: &Mesh) -> Vec<Divided> {
+fn divided(families: &Families, history: &History<'_>, mesh: &Mesh) -> Vec<Divided> {
     let divided = families.all().iter().map(|family| Divided {
         corners: family.corners,
         ..Divided::default()
     });
     let mut divided: Vec<Divided> = divided.collect();
     for face in mesh.faces() {
-        let mut part = (face, face.half_edges().map(|h| past.root(h.index())));
+        let mut part = (face, face.half_edges().map(|h| history.root(h.index())));
         let mut family = families.of(face.index());
         let mut is_new = true;
         while let Some(number) = family {

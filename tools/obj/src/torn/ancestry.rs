@@ -7,7 +7,7 @@
 //!
 //! Ids of vertices change where vertices are merged; nodes never do. They are numbered
 //! as the `v` of the document, and behind these as vertices were added. Nodes whose vertices were
-//! merged are a set, and the leader of the set, the lowest, is the node of the vertex.
+//! merged are a set, and the representative of the set, the lowest, is the node of the vertex.
 
 use tearmesh::DisjointSets;
 
@@ -74,17 +74,19 @@ impl Ancestry {
         for (&node, v) in self.nodes.iter().zip(0..) {
             vertices[node as usize] = v;
         }
-        let leaders = self.leaders().into_iter();
-        leaders.map(|leader| vertices[leader as usize]).collect()
+        let representatives = self.representatives().into_iter();
+        representatives
+            .map(|representative| vertices[representative as usize])
+            .collect()
     }
 
     /// For each node the one that stands for all of its vertex.
-    fn leaders(&self) -> Vec<u32> {
+    fn representatives(&self) -> Vec<u32> {
         let mut sets = DisjointSets::new(self.classes.len() as u32);
         for &[kept, gone] in &self.merged {
             sets.join(kept, gone);
         }
-        sets.leaders().to_vec()
+        sets.representatives().to_vec()
     }
 
     /// Above every class.
@@ -127,8 +129,8 @@ impl Ancestry {
 
     /// The links between vertices, the youngest first, with a number of each node's vertex.
     fn youngest_links(&self, number: impl Fn(u32) -> u32) -> Vec<(u32, [u32; 2])> {
-        let leaders = self.leaders();
-        let number = |node: u32| number(leaders[node as usize]);
+        let representatives = self.representatives();
+        let number = |node: u32| number(representatives[node as usize]);
         let links = self.links.iter();
         let mut links: Vec<_> = links
             .map(|&(cut, nodes)| (cut, nodes.map(number)))
@@ -177,7 +179,7 @@ impl Ancestry {
         for of_cut in links.chunk_by(|a, b| a.0 == b.0) {
             let first = split_off.len();
             for &(cut, ends) in of_cut {
-                let [one, other] = ends.map(|end| joined.leader(end));
+                let [one, other] = ends.map(|end| joined.representative(end));
                 if one != other {
                     joined.join(one, other);
                     let vertex = one.max(other);
@@ -186,7 +188,7 @@ impl Ancestry {
                 }
             }
             for split in &mut split_off[first..] {
-                split.from = joined.leader(split.vertex);
+                split.from = joined.representative(split.vertex);
             }
         }
         split_off.sort_unstable_by_key(|split| split.vertex);

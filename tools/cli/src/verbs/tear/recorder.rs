@@ -24,7 +24,7 @@ impl Recorder {
         let mut page = Page::new(title, up);
         let is_solid = |one: &&Collider| !matches!(one.shape, ColliderShape::Plane(_));
         let solids: Vec<Collider> = colliders.iter().filter(is_solid).cloned().collect();
-        for (points, faces) in solids.iter().map(Collider::skin) {
+        for (points, faces) in solids.iter().map(Collider::surface) {
             page.add_solid(points, &faces);
         }
         Recorder {

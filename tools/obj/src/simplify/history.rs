@@ -23,7 +23,7 @@ use crate::torn::{length, normal_between, numbers_between};
 const ROUNDINGS: f64 = 8.0;
 
 /// A document as it was before the slides of some cuts. Corners are those of all faces, by half-edge.
-pub(super) struct Past<'d> {
+pub(super) struct History<'d> {
     document: &'d Document,
     pub(super) slides: &'d [Slid],
     /// The root of each vertex.
@@ -34,8 +34,8 @@ pub(super) struct Past<'d> {
     pub(super) is_intact: Vec<bool>,
 }
 
-impl<'d> Past<'d> {
-    pub(super) fn new(document: &'d Document, record: &'d Record) -> Past<'d> {
+impl<'d> History<'d> {
+    pub(super) fn new(document: &'d Document, record: &'d Record) -> History<'d> {
         let slides = &record.slides;
         let roots = record.roots(document.positions.len());
         let mut by_root: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -43,7 +43,7 @@ impl<'d> Past<'d> {
             let of_root = by_root.entry(roots[slid.vertex as usize]).or_default();
             of_root.push(slide);
         }
-        let mut past = Past {
+        let mut history = History {
             document,
             slides,
             roots,
@@ -51,9 +51,9 @@ impl<'d> Past<'d> {
             is_intact: vec![false; slides.len()],
         };
         for slide in (0..slides.len()).rev() {
-            past.is_intact[slide] = past.is_as_left(slide);
+            history.is_intact[slide] = history.is_as_left(slide);
         }
-        past
+        history
     }
 
     /// Whether a vertex is, but for later slides, as this one left it.
