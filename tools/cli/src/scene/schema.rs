@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 /// Keys that scene files once had, with their tables, and what to do without them.
-pub(super) const REMOVED: [(&str, &str); 4] = [
+pub(super) const REMOVED: [(&str, &str); 5] = [
     (
         "fabric.flexural_n_m2",
         "give `rigidity_n_m`, which is per width of the cloth",
@@ -12,6 +12,10 @@ pub(super) const REMOVED: [(&str, &str); 4] = [
     (
         "solver.newton_iterations",
         "leave it out; a shorter `dt_s` makes implicit steps more exact",
+    ),
+    (
+        "solver.substeps",
+        "give a `dt_s` that is as many times shorter",
     ),
     (
         "tear.delay_s",

@@ -124,7 +124,6 @@ pub struct FabricTable {
 pub struct SolverTable {
     pub method: Option<Word<fn() -> Method>>,
     pub dt_s: Option<Positive>,
-    pub substeps: Option<Whole>,
     pub sweeps: Option<Whole>,
     pub stiffness: Option<Fraction>,
     pub bend_stiffness: Option<Fraction>,

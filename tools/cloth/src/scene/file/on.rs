@@ -240,8 +240,7 @@ fn replace<T, U>(
 }
 
 /// The keys of `[solver]` that not all methods read, and which do.
-const OF_METHODS: [(&str, &[&str]); 8] = [
-    ("substeps", &["xpbd"]),
+const OF_METHODS: [(&str, &[&str]); 7] = [
     ("sweeps", &["xpbd", "pbd"]),
     ("stiffness", &["pbd"]),
     ("bend_stiffness", &["pbd"]),
@@ -264,7 +263,6 @@ impl SolverTable {
         scene.step_s = self.dt_s.as_deref().copied().or(scene.step_s);
         let given = present!(
             self,
-            substeps,
             sweeps,
             stiffness,
             bend_stiffness,
@@ -287,7 +285,7 @@ impl SolverTable {
     /// Puts what the table says in the place of a method's settings.
     fn set(&self, method: &mut Method) {
         let count = |number: &Option<Whole>| number.as_ref().map(Whole::get);
-        let (substeps, sweeps) = (count(&self.substeps), count(&self.sweeps));
+        let sweeps = count(&self.sweeps);
         match method {
             Method::Provot(limiter) => {
                 put(&mut limiter.stretch_ratio_max, self.limit_ratio.as_deref());
@@ -300,7 +298,6 @@ impl SolverTable {
             }
             Method::Verlet => {}
             Method::Xpbd(xpbd) => {
-                put(&mut xpbd.substeps, substeps.as_ref());
                 put(&mut xpbd.sweeps, sweeps.as_ref());
             }
             Method::Implicit(settings) => {
