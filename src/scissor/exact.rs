@@ -250,7 +250,7 @@ impl Slit {
             if piece.inset > 0.0 {
                 off_plane.extend(&chain);
             }
-            edges.extend(chain.array_windows::<2>());
+            edges.extend(chain.windows(2).map(|two| [two[0], two[1]]));
             for (end, v) in piece.tips.into_iter().zip([chain.first(), chain.last()]) {
                 if let Some(side) = end {
                     tips[side].extend(v);

@@ -305,13 +305,17 @@ impl Text {
         span: &Range<usize>,
         label: &str,
     ) -> Fault {
-        let start = self.text.floor_char_boundary(span.start);
+        let is_boundary = |text: &str, at: &usize| text.is_char_boundary(*at);
+        let before = (0..=span.start.min(self.text.len())).rev();
+        let start = { before }
+            .find(|at| is_boundary(&self.text, at))
+            .unwrap_or(0);
         let line_start = self.text[..start].rfind('\n').map_or(0, |at| at + 1);
         let rest = &self.text[line_start..];
         let line_text = rest.lines().next().unwrap_or_default();
         let at = (start - line_start).min(line_text.len());
         let end = (span.end.max(start) - line_start).clamp(at, line_text.len());
-        let end = line_text.ceil_char_boundary(end);
+        let end = (end..).find(|at| is_boundary(line_text, at)).unwrap_or(end);
         let line = self.text[..line_start].matches('\n').count() + 1;
         Fault::error(code, message).at((&self.path, line), line_text, at..end, label)
     }

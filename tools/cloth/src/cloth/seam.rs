@@ -134,9 +134,10 @@ pub(crate) fn joined(panels: &Mesh, seams: &[Seam]) -> Result<(Mesh, Vec<u32>), 
     for (number, seam) in seams.iter().enumerate() {
         seam.check(number, panels)?;
         for side in [&seam.one, &seam.other] {
-            for ends in side.array_windows() {
-                let h = boundary(panels, *ends);
-                let h = h.ok_or_else(|| SeamError::new(number, *ends, SeamFault::NoBoundary))?;
+            for (&one, &other) in side.iter().zip(&side[1..]) {
+                let ends = [one, other];
+                let h = boundary(panels, ends);
+                let h = h.ok_or_else(|| SeamError::new(number, ends, SeamFault::NoBoundary))?;
                 labels[h.index()] = number as u32 + 1;
             }
         }
@@ -190,8 +191,8 @@ impl Seam {
             if let Some(&vertex) = sorted.last().filter(|v| v.index() >= panels.vertex_count()) {
                 return Err(SeamError::new(seam, [vertex], SeamFault::NoVertex));
             }
-            if let Some(&[vertex, _]) = sorted.array_windows().find(|[a, b]| a == b) {
-                return Err(SeamError::new(seam, [vertex], SeamFault::Repeated));
+            if let Some(two) = sorted.windows(2).find(|two| two[0] == two[1]) {
+                return Err(SeamError::new(seam, [two[0]], SeamFault::Repeated));
             }
         }
         Ok(())

@@ -101,13 +101,13 @@ impl<'l> Scan<'l> {
     #[inline(never)]
     fn behind_blanks(mut self) -> Self {
         loop {
-            match self.peek() {
-                Some(b' ' | b'\t' | 0x0b | 0x0c) => self.skip(1),
-                Some(b'\\') if let Some(length) = self.continuation() => {
-                    self.skip(length);
-                    self.continuations += 1;
-                }
-                _ => return self,
+            if let Some(b' ' | b'\t' | 0x0b | 0x0c) = self.peek() {
+                self.skip(1);
+            } else if let Some(length) = self.continuation() {
+                self.skip(length);
+                self.continuations += 1;
+            } else {
+                return self;
             }
         }
     }
