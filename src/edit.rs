@@ -32,6 +32,8 @@ pub use record::{
     ChildFace, Edit, Insert, InsertedPoint, Merge, Renumbered, Slide, Split, TornLink,
 };
 
+use std::ops::Range;
+
 use crate::id::HalfEdgeId;
 use crate::mesh::MeshSize;
 
@@ -55,6 +57,42 @@ pub struct Edits {
     end: Cursor,
     records: Vec<Record>,
     lists: Lists,
+}
+
+/// The iterator over the records of a log: see [`Edits::iter`].
+#[derive(Clone, Debug)]
+pub struct EditsIter<'e> {
+    edits: &'e Edits,
+    left: Range<usize>,
+}
+
+impl<'e> Iterator for EditsIter<'e> {
+    type Item = Edit<'e>;
+
+    fn next(&mut self) -> Option<Edit<'e>> {
+        self.left.next().map(|i| self.edits.record(i))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.left.size_hint()
+    }
+}
+
+impl DoubleEndedIterator for EditsIter<'_> {
+    fn next_back(&mut self) -> Option<Self::Item> {
+        self.left.next_back().map(|i| self.edits.record(i))
+    }
+}
+
+impl ExactSizeIterator for EditsIter<'_> {}
+
+impl<'e> IntoIterator for &'e Edits {
+    type Item = Edit<'e>;
+    type IntoIter = EditsIter<'e>;
+
+    fn into_iter(self) -> EditsIter<'e> {
+        self.iter()
+    }
 }
 
 /// The lists of all records, one after another.
@@ -131,8 +169,11 @@ impl Edits {
 
     /// Returns the records, from the oldest to the newest.
     #[must_use]
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = Edit<'_>> + DoubleEndedIterator {
-        (0..self.records.len()).map(|i| self.record(i))
+    pub fn iter(&self) -> EditsIter<'_> {
+        EditsIter {
+            edits: self,
+            left: 0..self.records.len(),
+        }
     }
 
     /// Returns the records after the place `cursor`, from the oldest to the newest.
@@ -312,7 +353,7 @@ impl Edits {
     }
 
     /// Where the corners noted since the last record are.
-    pub(crate) fn noted(&self) -> std::ops::Range<usize> {
+    pub(crate) fn noted(&self) -> Range<usize> {
         self.ends_before(self.records.len()).corners..self.lists.corners.len()
     }
 

@@ -145,6 +145,7 @@ impl Plane {
 
 /// The reason why a plane was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PlaneError {
     /// A coordinate of the point is not finite, or exceeds [`COORDINATE_MAX`] in absolute value.
     Point {
@@ -263,6 +264,7 @@ impl From<Ray> for (Point, Vector) {
 
 /// The reason why a ray was refused.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RayError {
     /// A coordinate of the origin is not finite, or exceeds [`COORDINATE_MAX`] in absolute value.
     Origin {

@@ -85,10 +85,10 @@ macro_rules! id {
         }
 
         impl TryFrom<u32> for $name {
-            type Error = &'static str;
+            type Error = IdError;
 
-            fn try_from(index: u32) -> Result<$name, &'static str> {
-                $name::new(index as usize).ok_or("an index beyond all ids")
+            fn try_from(index: u32) -> Result<$name, IdError> {
+                $name::new(index as usize).ok_or(IdError { index })
             }
         }
 
@@ -99,6 +99,22 @@ macro_rules! id {
         }
     };
 }
+
+/// The reason why a number is no id: it is beyond all ids of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct IdError {
+    /// The number that was given.
+    pub index: u32,
+}
+
+impl fmt::Display for IdError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the index {} is beyond all ids", self.index)
+    }
+}
+
+impl std::error::Error for IdError {}
 
 id!(
     /// The id of a vertex, displayed as `v7`.

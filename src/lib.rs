@@ -121,12 +121,12 @@ pub mod unshare;
 
 pub use attribute::{Blend, PerCorner, PerVertex, Values};
 pub use edit::{
-    ChildFace, Cursor, Edit, Edits, Follower, Followers, Insert, InsertedPoint, Merge, Mix,
-    Renumbered, Slide, Split, TornLink, VertexOp,
+    ChildFace, Cursor, Edit, Edits, EditsIter, Follower, Followers, Insert, InsertedPoint, Merge,
+    Mix, Renumbered, Slide, Split, TornLink, VertexOp,
 };
 pub use exact::ExactSum;
 pub use geometry::{COORDINATE_MAX, Plane, PlaneError, Point, Ray, RayError, Side, Vector};
-pub use id::{FaceId, HalfEdgeId, VertexId};
+pub use id::{FaceId, HalfEdgeId, IdError, VertexId};
 pub use insert::InsertRefusal;
 pub use mass::{MassError, MassLedger, Masses};
 pub use mend::MergeRefusal;
@@ -142,8 +142,10 @@ pub use scissor::{
     Cut, CutAim, CutEnd, CutError, CutLayers, CutMethod, CutNeck, CutPieces, CutReport, CutTips,
     LayerHit, Scissor, ScissorError, SeamLine,
 };
+#[doc(hidden)]
 pub use sets::DisjointSets;
 pub use sheet::Sheet;
 pub use slide::SlideRefusal;
 pub use split::SplitRefusal;
+#[doc(hidden)]
 pub use undo::{FacePart, Insertions, RemovalPlan};

@@ -367,6 +367,7 @@ impl Copied {
 
 /// The reason why a merge was refused. A refused merge changes nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum MergeRefusal {
     /// The two vertices are the same.
     Same {

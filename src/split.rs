@@ -247,6 +247,7 @@ fn corner_at(mesh: &Mesh, face: FaceId, v: VertexId) -> Option<HalfEdgeId> {
 
 /// The reason why a split was refused. A refused split changes nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SplitRefusal {
     /// The set of faces to move was empty.
     Empty {

@@ -39,6 +39,7 @@ fn mixed(mix: Mix<&Value>) -> Value {
         Mix::Copy(one) => *one,
         Mix::Between { ends: [a, b], t } => between(*a, *b, t),
         Mix::Weighted { of, weights } => weighted(of.map(|one| *one), weights),
+        _ => unreachable!("there is no other mix"),
     }
 }
 
@@ -107,6 +108,7 @@ fn kinds<'e>(mesh: &Mesh, edits: impl Iterator<Item = Edit<'e>>) -> [usize; 5] {
             }
             Edit::Merge(_) => kinds[3] += 1,
             Edit::Slide(_) => kinds[4] += 1,
+            _ => unreachable!("there is no other edit"),
         }
     }
     kinds

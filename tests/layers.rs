@@ -201,7 +201,7 @@ impl Counts {
         let mut after = work.clone();
         let (cut, report) = after.cut(CutMethod::Exact, &scissor);
         let mut divided = BTreeSet::new();
-        for edit in after.edits.iter() {
+        for edit in &after.edits {
             if let Edit::Insert(insert) = edit {
                 divided.extend(insert.children.iter().map(|child| child.parent.index()));
             }

@@ -297,7 +297,7 @@ impl Case {
         let longest = before.longest_edge();
         let edge = |h: HalfEdgeId| [h, h.next()].map(|h| positions.at(mesh.origin(h)).into());
         let mut torn: Vec<[Point; 2]> = Vec::new();
-        for edit in edits.iter() {
+        for edit in edits {
             let Edit::Split(split) = edit else { continue };
             torn.extend(split.torn.iter().map(|link| edge(link.stayed)));
         }

@@ -138,6 +138,7 @@ fn write_step(
             }
             Edit::Insert(_) => write!(to, "insert{}", place(step))?,
             Edit::Slide(_) => continue,
+            _ => unreachable!("there is no other edit"),
         }
         writeln!(to)?;
     }

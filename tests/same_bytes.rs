@@ -74,7 +74,7 @@ impl Digest {
         for &value in world.corners.as_slice() {
             self.floats(value);
         }
-        for edit in world.edits.iter() {
+        for edit in &world.edits {
             self.edit(&edit);
         }
     }
@@ -94,6 +94,7 @@ impl Digest {
                 self.vertices([slide.vertex, slide.toward]);
                 self.float(slide.t);
             }
+            _ => unreachable!("there is no other edit"),
         }
     }
 }

@@ -26,7 +26,7 @@ fn slit(sheet: &Surface, ends: [[f64; 2]; 2], snap: f64, moves: bool) -> (Work, 
 fn slid_and_torn(work: &Work) -> [BTreeSet<VertexId>; 2] {
     let mut sets = [BTreeSet::new(), BTreeSet::new()];
     let root = |v| work.mesh.root(v);
-    for edit in work.edits.iter() {
+    for edit in &work.edits {
         match edit {
             Edit::Slide(slide) => {
                 sets[0].insert(root(slide.vertex));
@@ -37,6 +37,7 @@ fn slid_and_torn(work: &Work) -> [BTreeSet<VertexId>; 2] {
                 sets[1].extend(ends.map(root));
             }
             Edit::Insert(_) | Edit::Merge(_) => {}
+            _ => unreachable!("there is no other edit"),
         }
     }
     sets

@@ -89,6 +89,7 @@ impl Plain {
                     self.divisions.push(division);
                 }
             }
+            _ => unreachable!("there is no other edit"),
         }
     }
 

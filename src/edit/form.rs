@@ -24,6 +24,7 @@ use crate::id::{HalfEdgeId, VertexId};
 /// A change to a list that has one value for each vertex. The operations of one edit must be
 /// applied in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum VertexOp {
     /// Appends a value to the list.
     Push {

@@ -7,6 +7,7 @@ use crate::id::HalfEdgeId;
 /// A copy has its own case because it must be exact to the bit, and interpolation because a value
 /// between two equal values must equal them. A general weighted sum guarantees neither.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Mix<I> {
     /// A copy of one value.
     Copy(I),

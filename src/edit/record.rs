@@ -5,7 +5,11 @@ use super::mix::Mix;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 /// A record of one change of a mesh.
+///
+/// Later versions may have other records. A follower that does not know one is out of step with the mesh from there
+/// on, so it must stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Edit<'e> {
     /// A vertex was split into two.
     Split(Split<'e>),

@@ -146,4 +146,11 @@ impl fmt::Display for TornError {
     }
 }
 
-impl std::error::Error for TornError {}
+impl std::error::Error for TornError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            TornError::Root { .. } => None,
+            TornError::Build(error) => Some(error),
+        }
+    }
+}

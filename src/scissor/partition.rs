@@ -25,6 +25,7 @@ use crate::unshare;
 
 /// The rule for where a finite cut by the method `partition` ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum CutTips {
     /// A vertex is split if it lies between the side planes. This is the rule of the paper. It separates
     /// everything strictly between the planes, and each tip overshoots by half an edge on average.

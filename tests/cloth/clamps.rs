@@ -92,6 +92,7 @@ fn weights(at: Mix<VertexId>) -> Vec<(VertexId, f64)> {
         Mix::Copy(v) => vec![(v, 1.0)],
         Mix::Between { ends: [a, b], t } => vec![(a, 1.0 - t), (b, t)],
         Mix::Weighted { of, weights } => of.into_iter().zip(weights).collect(),
+        _ => unreachable!("there is no other mix"),
     }
 }
 
@@ -184,7 +185,7 @@ fn what_is_inserted_within_a_hold_is_held_and_stays_between_its_ends() {
         let (mut run, mut expected) = some_run(&mut Random(seed));
         for step in 0..40 {
             let is_done = run.step().is_ok();
-            for edit in run.edits().iter() {
+            for edit in run.edits() {
                 expected
                     .iter_mut()
                     .for_each(|hold| hold.follow(&edit, step));

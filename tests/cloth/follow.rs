@@ -222,7 +222,7 @@ fn stretch_j(cloth: &Cloth, h: HalfEdgeId) -> f64 {
 
 /// The energy of each link that the last record tears, in joules, by a cloth that has not followed it.
 fn torn_j(cloth: &Cloth, edits: &Edits) -> Vec<f64> {
-    let Some(Edit::Split(split)) = edits.iter().last() else {
+    let Some(Edit::Split(split)) = edits.iter().next_back() else {
         return Vec::new();
     };
     let of = |link: &TornLink| stretch_j(cloth, link.stayed);
@@ -233,7 +233,7 @@ fn torn_j(cloth: &Cloth, edits: &Edits) -> Vec<f64> {
 /// nothing, and by whole copies as much again. Sides that disagree on the length of an edge strained each other in
 /// it, which shows once they part.
 fn made_j(cloth: &Cloth, edits: &Edits, before: &[f64], torn: TornStiffness) -> f64 {
-    let Some(Edit::Split(split)) = edits.iter().last() else {
+    let Some(Edit::Split(split)) = edits.iter().next_back() else {
         return 0.0;
     };
     let rest = |h: HalfEdgeId| cloth.rest_corners()[h.index()];
@@ -244,6 +244,7 @@ fn made_j(cloth: &Cloth, edits: &Edits, before: &[f64], torn: TornStiffness) -> 
             _ if one != other => sides.map(|h| stretch_j(cloth, h)).iter().sum::<f64>() - before_j,
             TornStiffness::Whole => before_j,
             TornStiffness::Halved => 0.0,
+            _ => unreachable!("there is no other kind"),
         }
     };
     split.torn.iter().zip(before).map(of).sum()

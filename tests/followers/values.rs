@@ -36,6 +36,7 @@ impl Values {
                     Mix::Copy(v) => at(v),
                     Mix::Between { ends: [a, b], t } => between(at(a), at(b), t),
                     Mix::Weighted { of, weights } => weighted(of.map(at), weights),
+                    _ => unreachable!("there is no other mix"),
                 });
                 let new: Vec<Value> = new.collect();
                 self.vertices.extend(new);
@@ -59,6 +60,7 @@ impl Values {
                             Mix::Weighted { weights, .. } => {
                                 weighted([0, 1, 2].map(|j| of(3 * parent + j)), weights)
                             }
+                            _ => unreachable!("there is no other mix"),
                         };
                         self.indices[3 * face + i] = child.vertices[i].index() as u32;
                     }
@@ -96,6 +98,7 @@ impl Values {
                     }
                 }
             }
+            _ => unreachable!("there is no other edit"),
         }
     }
 }

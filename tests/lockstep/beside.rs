@@ -90,6 +90,7 @@ pub(crate) fn weights_in_parent(child: &ChildFace, source: &Mix<HalfEdgeId>) -> 
             add(b, t);
         }
         Mix::Weighted { weights: given, .. } => weights = given,
+        _ => unreachable!("there is no other mix"),
     }
     weights
 }

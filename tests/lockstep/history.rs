@@ -60,6 +60,7 @@ pub(super) fn undone<'e>(
                 assert!(has(&faces, kept), "{kept} had a corner of its own");
             }
             Edit::Slide(_) => {}
+            _ => unreachable!("there is no other edit"),
         }
     }
     (vertices, faces)

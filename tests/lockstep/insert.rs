@@ -101,6 +101,7 @@ impl Request {
                         vertices: of.map(u32::from),
                         weights,
                     },
+                    _ => unreachable!("there is no other mix"),
                 };
                 (point.vertex.into(), place)
             })

@@ -236,6 +236,7 @@ impl Model {
                 slide::changes_nothing_else(before, after, &slide);
                 self.done.slides += 1;
             }
+            _ => unreachable!("there is no other edit"),
         }
     }
 

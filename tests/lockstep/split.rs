@@ -13,6 +13,7 @@ pub(super) fn plain(refusal: SplitRefusal) -> Refused {
         SplitRefusal::Everything { .. } => Refused::Everything,
         SplitRefusal::Foreign { face, .. } => Refused::Foreign(face.index()),
         SplitRefusal::Repeated { face, .. } => Refused::Repeated(face.index()),
+        _ => unreachable!("there is no other kind"),
     }
 }
 

@@ -127,6 +127,7 @@ impl Followed {
                         tearmesh::Mix::Copy(v) => vec![v],
                         tearmesh::Mix::Between { ends, .. } => ends.to_vec(),
                         tearmesh::Mix::Weighted { of, .. } => of.to_vec(),
+                        _ => unreachable!("there is no other mix"),
                     };
                     let anchors = sources.into_iter().map(|v| root(self, v));
                     let last = anchors.max().expect("sources");
@@ -146,6 +147,7 @@ impl Followed {
                 self.anchors.swap_remove(gone);
             }
             Edit::Slide(_) => {}
+            _ => unreachable!("there is no other edit"),
         }
     }
 }

@@ -48,7 +48,7 @@ fn outcome(bytes: &[u8], known: Option<&BTreeMap<String, String>>) -> String {
             let place = refusal.location.expect("every refusal has a place");
             return format!("{} {}:{}", refusal.code, place.line, place.column);
         }
-        Err(error @ ReadError::Input(_)) => panic!("{error}"),
+        Err(error) => panic!("{error}"),
     };
     let count = |column: &str| -> Option<usize> { known?[column].parse().ok() };
     let counts = (document.positions().len(), document.polygon_count());

@@ -17,6 +17,7 @@ use crate::sets::DisjointSets;
 
 /// The layers of the mesh that a cut passes through.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum CutLayers {
     /// All layers that the plane meets between the rays.
     #[default]

@@ -197,7 +197,7 @@ impl Holds {
     /// Follows the edits of a cut or of one step.
     fn follow(&mut self, sim: &Simulation) {
         let mut is_sewn = false;
-        for edit in sim.edits().iter() {
+        for edit in sim.edits() {
             let sets = self.held.iter_mut().zip(&mut self.inserted);
             for (held, inserted) in sets {
                 match edit {
@@ -214,6 +214,7 @@ impl Holds {
                                 Mix::Copy(v) => vec![v],
                                 Mix::Between { ends, .. } => ends.to_vec(),
                                 Mix::Weighted { of, .. } => of.to_vec(),
+                                _ => unreachable!("there is no other mix"),
                             };
                             if ends.iter().all(|v| held.contains(v)) {
                                 held.insert(point.vertex);
@@ -232,6 +233,7 @@ impl Holds {
                         }
                     }
                     Edit::Slide(_) => {}
+                    _ => unreachable!("there is no other edit"),
                 }
             }
         }

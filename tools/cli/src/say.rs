@@ -103,7 +103,7 @@ impl Fault {
         let level = match self.level {
             Level::Error => Title::ERROR,
             Level::Warning => Title::WARNING,
-            Level::Note => Title::NOTE,
+            _ => Title::NOTE,
         };
         let (message, path) = (printable(&self.message), printable(&self.path));
         let mut group = Group::with_title(level.primary_title(&*message).id(self.code));

@@ -286,6 +286,7 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
                     let why = format!("the air slows vertex {vertex} at a rate of {per_s} /s");
                     (why, "")
                 }
+                _ => ("a limit of the method".to_owned(), ""),
             };
             let limit = two_digits(limit_s);
             (

@@ -530,4 +530,12 @@ impl fmt::Display for ClothError {
     }
 }
 
-impl std::error::Error for ClothError {}
+impl std::error::Error for ClothError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            ClothError::Mass(error) => Some(error),
+            ClothError::Number(error) => Some(error),
+            _ => None,
+        }
+    }
+}

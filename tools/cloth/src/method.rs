@@ -33,6 +33,7 @@ use crate::system::guard::Guard;
 /// ```
 #[must_use]
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Method {
     /// Provot's mass-spring model with its limiter ([`Provot`]). The tearing rule
     /// uses lengths before the limiter changes them.

@@ -205,6 +205,7 @@ impl HeldVertices {
 
 /// A part of a cloth, selected by positions at rest or by ids.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Region {
     /// The vertices within a radius of the vertex that is nearest to a place. With radius 0 it is
     /// just that vertex.

@@ -26,6 +26,7 @@ pub struct Diagnostic {
 
 /// The severity of a [`Diagnostic`]. Levels are ordered from the most to the least severe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Level {
     /// The file was refused, or its triangles do not form a mesh.
     Error,
@@ -114,6 +115,7 @@ impl fmt::Display for Level {
 
 /// Why a file could not be read.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum ReadError {
     /// An I/O error occurred while the input was read.
     Input(io::Error),
@@ -141,7 +143,14 @@ impl fmt::Display for ReadError {
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for ReadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            ReadError::Input(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl From<Diagnostic> for ReadError {
     fn from(diagnostic: Diagnostic) -> Self {

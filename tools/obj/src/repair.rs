@@ -32,6 +32,7 @@ const REPORTED: usize = 100;
 
 /// The kinds of repair that [`Document::repaired`] may make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Repair {
     /// Adds vertices so that each fan of a bow-tie vertex has its own vertex. No face is dropped.
     SeparateFans,

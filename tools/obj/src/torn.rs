@@ -345,6 +345,7 @@ impl<'d> TornDocument<'d> {
                         }
                         Mix::Weighted { of, weights } => (of.map(class), weights),
                         Mix::Copy(v) => unreachable!("{v} was inserted nowhere"),
+                        _ => unreachable!("there is no other mix"),
                     };
                     self.inserted.push(Inserted {
                         vertex: self.ancestry.class_count() as u32,
@@ -393,6 +394,7 @@ impl<'d> TornDocument<'d> {
                 VertexOp::Set { .. } if matches!(edit, Edit::Merge(_)) => continue,
                 VertexOp::Set { at, .. } => self.extras[at.index()].clone(),
                 VertexOp::Push { .. } | VertexOp::SwapRemove { .. } => Vec::new(),
+                _ => unreachable!("there is no other change"),
             };
             op.apply(&mut self.extras, |mix| {
                 mixed(mix).unwrap_or_else(|| own.clone())
@@ -441,6 +443,7 @@ impl Follower for TornDocument<'_> {
         let before = match edit {
             Edit::Slide(slide) => self.numbers(slide.vertex),
             Edit::Split(_) | Edit::Insert(_) | Edit::Merge(_) => Vec::new(),
+            _ => unreachable!("there is no other edit"),
         };
         for op in edit.vertex_ops() {
             op.apply(self.places.to_mut(), Blend::blend);
@@ -460,6 +463,7 @@ impl Follower for TornDocument<'_> {
             Edit::Insert(insert) => self.insert(insert),
             Edit::Merge(merge) => self.ancestry.merge(merge.kept.index(), merge.gone.index()),
             Edit::Slide(slide) => self.slide(slide, &before),
+            _ => unreachable!("there is no other edit"),
         }
     }
 }

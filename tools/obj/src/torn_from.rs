@@ -94,4 +94,11 @@ impl fmt::Display for TornFromError {
     }
 }
 
-impl std::error::Error for TornFromError {}
+impl std::error::Error for TornFromError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            TornFromError::Mesh(error) => Some(error),
+            _ => None,
+        }
+    }
+}

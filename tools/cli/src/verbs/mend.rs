@@ -154,7 +154,7 @@ fn summary(mended: &report::Mend) -> String {
 /// from where it is by another way.
 fn close_gaps(torn: &mut TornDocument<'_>, mesh: &Mesh, edits: &Edits, vertices_before: usize) {
     let mut is_sewn = vec![false; vertices_before];
-    for edit in edits.iter() {
+    for edit in edits {
         for op in edit.vertex_ops() {
             op.apply(&mut is_sewn, |_| false);
         }

@@ -28,6 +28,7 @@ pub(crate) fn run(
         Some(Repair::All) => " --repair",
         Some(Repair::SeparateFans) => " --separate-fans",
         None => "",
+        _ => unreachable!("there is no other repair"),
     };
     let first = &args.inputs[0].display().to_string();
     let mut made = Page::new(page::title(Some(first)), args.up.coords);

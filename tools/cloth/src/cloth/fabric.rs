@@ -29,6 +29,7 @@ pub struct Fabric {
 
 /// The resistance of the edges of a cloth to stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Stretch {
     /// A membrane of this modulus E, in N/m, whatever the mesh. The stiffness of an edge is the sum
     /// of E A / l² over its faces, where A is the area of a face and l the length of the edge, both
@@ -210,6 +211,7 @@ pub struct Orthotropic {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Bending {
     /// A spring of the same stiffness across every edge (the flexion springs of Provot 1995, §2).
     Spring {
@@ -261,6 +263,7 @@ impl Bending {
 
 /// The stiffness of the two constraints that replace the constraint of a torn edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TornStiffness {
     /// Each copy has half the stiffness, so a split does not change the energy.
     #[default]
@@ -272,6 +275,7 @@ pub enum TornStiffness {
 
 /// The bend constraints that a split removes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum BendRemoval {
     /// The bend constraints across the edges that the split tears.
     #[default]

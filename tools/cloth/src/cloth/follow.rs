@@ -23,6 +23,7 @@ impl Follower for Cloth {
             Edit::Insert(insert) => self.insert(insert, edit),
             Edit::Merge(merge) => self.merge(merge, edit),
             Edit::Slide(slide) => self.slide(slide, edit),
+            _ => unreachable!("there is no other edit"),
         }
     }
 }
@@ -310,6 +311,7 @@ pub(crate) fn lies_on(source: &Mix<HalfEdgeId>, h: HalfEdgeId) -> bool {
         Mix::Copy(corner) => corner == h || corner == h.next(),
         Mix::Between { ends, .. } => ends.contains(&h) && ends.contains(&h.next()),
         Mix::Weighted { .. } => false,
+        _ => unreachable!("there is no other mix"),
     }
 }
 
@@ -322,6 +324,7 @@ fn push_particle(system: &mut System, from: Mix<VertexId>) {
     let like = match from {
         Mix::Copy(v) => Some(v.index()),
         Mix::Between { .. } | Mix::Weighted { .. } => None,
+        _ => unreachable!("there is no other mix"),
     };
     let unlimited = &mut system.scratch.unlimited;
     if unlimited.len() == system.positions.len() {

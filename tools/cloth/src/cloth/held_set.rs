@@ -90,6 +90,7 @@ impl HeldSet {
             }
             Edit::Merge(merge) => self.merge(merge),
             Edit::Split(_) | Edit::Insert(_) | Edit::Slide(_) => {}
+            _ => unreachable!("there is no other edit"),
         }
     }
 

@@ -248,6 +248,7 @@ pub enum StepError {
 
 /// What sets the stability limit of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum StepLimit {
     /// The frequency of springs.
     Springs(Frequency),

@@ -25,8 +25,8 @@ use serde::Deserialize;
 use tearmesh::CutMethod;
 
 pub use self::number::{
-    AboveOne, Finite, Fraction, Gravity, Name, NotNegative, OUT_OF_RANGE, Positive, Range, Rows,
-    Vertices, Whole,
+    AboveOne, Finite, Fraction, Gravity, Name, NotFinite, NotNegative, OUT_OF_RANGE, OutOfRange,
+    Positive, Range, Rows, Vertices, Whole,
 };
 pub use self::on::{BodyMesh, SceneFault};
 pub use self::packed::PackedScene;

@@ -14,7 +14,7 @@ use crate::system::load::Loads;
 pub struct SimulationDef {
     /// The mass of the cloth per area, in kg/m²: 0.15 by default, as of shirt cotton.
     pub density_kg_per_m2: f64,
-    /// The material: by default springs of 1000 N/m along edges.
+    /// The material: by default a membrane of 1000 N/m with 1.6 ms of damping ([`Fabric::default`]).
     pub fabric: Fabric,
     /// The method: by default [`Method::Verlet`].
     pub method: Method,

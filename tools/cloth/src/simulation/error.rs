@@ -51,7 +51,17 @@ impl fmt::Display for SimulationError {
     }
 }
 
-impl Error for SimulationError {}
+impl Error for SimulationError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            SimulationError::Cloth(error) => Some(error),
+            SimulationError::Seams(error) => Some(error),
+            SimulationError::Loads(error) => Some(error),
+            SimulationError::Tearing(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 /// The reason why a simulation refused an input. A refused input changes nothing.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +106,15 @@ impl fmt::Display for InputError {
     }
 }
 
-impl Error for InputError {}
+impl Error for InputError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            InputError::Positions(error) => Some(error),
+            InputError::Cut(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 /// The reason why a log could not be replayed.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,4 +143,13 @@ impl fmt::Display for ReplayError {
     }
 }
 
-impl Error for ReplayError {}
+impl Error for ReplayError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            ReplayError::Definition(error) => Some(error),
+            ReplayError::Input(_, Some(error)) => Some(error),
+            ReplayError::Step(Some(error)) => Some(error),
+            _ => None,
+        }
+    }
+}

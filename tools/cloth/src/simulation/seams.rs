@@ -95,6 +95,7 @@ impl Seams {
                 }
             }
             Edit::Split(_) | Edit::Slide(_) => {}
+            _ => unreachable!("there is no other edit"),
         }
     }
 }

@@ -69,4 +69,8 @@ impl fmt::Display for SystemError {
     }
 }
 
-impl std::error::Error for SystemError {}
+impl std::error::Error for SystemError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.number)
+    }
+}

@@ -66,6 +66,7 @@ pub struct Collider {
 
 /// The shape of a [`Collider`].
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ColliderShape {
     /// The half-space behind a plane, on the side away from its normal.
     Plane(Plane),

@@ -195,6 +195,7 @@ impl<'d> Corners<'d> {
                 ([a, b, b], [1.0 - t, t, 0.0])
             }
             Mix::Weighted { weights, .. } => (before, weights),
+            _ => unreachable!("there is no other mix"),
         };
         if between.contains(&NONE) {
             return NONE;

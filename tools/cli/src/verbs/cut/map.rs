@@ -22,6 +22,7 @@ fn mixed(mix: Mix<&Sources>) -> Sources {
             let [a, b, c] = weights;
             sum(&[(of[0], a), (of[1], b), (of[2], c)])
         }
+        _ => unreachable!("there is no other mix"),
     }
 }
 

@@ -80,7 +80,7 @@ impl Frames {
 
     /// Notes where vertices are added.
     pub(super) fn follow(&mut self, edits: &Edits) {
-        for edit in edits.iter() {
+        for edit in edits {
             for op in edit.vertex_ops() {
                 // A slide adds no vertex, and where seams are sewn no frame waits for the last.
                 if let VertexOp::Push { from, .. } = op {

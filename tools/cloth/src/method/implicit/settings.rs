@@ -29,6 +29,7 @@ impl Default for Settings {
 
 /// The time discretisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Method {
     /// Backward Euler: of order one, and damps all motion.
     #[default]
@@ -63,6 +64,7 @@ pub struct Stats {
 
 /// The reason why an implicit step was not taken. Positions and velocities are unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum StepError {
     /// The residual stayed above the limit that the tolerance sets.
     NotConverged {

@@ -1,5 +1,6 @@
 //! The numbers of scene files: a type for each kind, so that a value out of its range cannot be held.
 
+use std::fmt;
 use std::ops::Deref;
 
 use serde::Deserialize;
@@ -10,6 +11,18 @@ use tearmesh::geometry::{Point, Vector};
 /// The error of a value that has the right type and is out of range.
 pub const OUT_OF_RANGE: &str = "out of range";
 
+/// The reason why a value that has the right type is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutOfRange;
+
+impl fmt::Display for OutOfRange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(OUT_OF_RANGE)
+    }
+}
+
+impl std::error::Error for OutOfRange {}
+
 /// A kind of values: those of another type for which something holds.
 macro_rules! kind {
     ($(#[$doc:meta])* $name:ident $(<const $n:ident: usize>)?, $inner:ty, $text:literal, $holds:expr) => {
@@ -19,11 +32,11 @@ macro_rules! kind {
         pub struct $name $(<const $n: usize>)? ($inner);
 
         impl $(<const $n: usize>)? TryFrom<$inner> for $name $(<$n>)? {
-            type Error = &'static str;
+            type Error = OutOfRange;
 
-            fn try_from(value: $inner) -> Result<Self, &'static str> {
+            fn try_from(value: $inner) -> Result<Self, OutOfRange> {
                 let holds: fn(&$inner) -> bool = $holds;
-                holds(&value).then_some($name(value)).ok_or(OUT_OF_RANGE)
+                holds(&value).then_some($name(value)).ok_or(OutOfRange)
             }
         }
 
@@ -101,20 +114,30 @@ impl Vertices {
     }
 }
 
+/// The reason why a list is not so many finite numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotFinite<const N: usize>;
+
+impl<const N: usize> fmt::Display for NotFinite<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "not {N} finite numbers")
+    }
+}
+
+impl<const N: usize> std::error::Error for NotFinite<N> {}
+
 /// So many finite numbers. Others are of the wrong type, not out of range.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Vec<f64>")]
 pub struct Finite<const N: usize>([f64; N]);
 
 impl<const N: usize> TryFrom<Vec<f64>> for Finite<N> {
-    type Error = String;
+    type Error = NotFinite<N>;
 
-    fn try_from(numbers: Vec<f64>) -> Result<Self, String> {
+    fn try_from(numbers: Vec<f64>) -> Result<Self, NotFinite<N>> {
         let numbers = <[f64; N]>::try_from(numbers).ok();
         let finite = numbers.filter(|numbers| numbers.iter().all(|x| x.is_finite()));
-        finite
-            .map(Finite)
-            .ok_or_else(|| format!("not {N} finite numbers"))
+        finite.map(Finite).ok_or(NotFinite)
     }
 }
 
@@ -142,6 +165,7 @@ impl Finite<3> {
 
 /// A number, which means that much downward, or a vector.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Gravity {
     /// An acceleration downward, in m/s².
     Down(NotNegative),
@@ -161,7 +185,7 @@ struct GravityVisitor;
 impl<'de> Visitor<'de> for GravityVisitor {
     type Value = Gravity;
 
-    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a number or three")
     }
 

@@ -97,7 +97,7 @@ pub fn ray(text: &str) -> Result<Ray, Unreadable> {
         let (half, label) = match error {
             RayError::Origin { .. } => (0, "expected an origin that is less far away"),
             RayError::Direction { .. } if is_aimed => (1, "expected a point other than the origin"),
-            RayError::Direction { .. } => (1, "expected a direction"),
+            _ => (1, "expected a direction"),
         };
         Unreadable {
             code: "E-RAY-ZERO",
@@ -119,7 +119,7 @@ pub fn plane(text: &str) -> Result<Plane, Unreadable> {
     Plane::new(point.into(), normal.into()).map_err(|error| {
         let (half, label) = match error {
             PlaneError::Point { .. } => (0, "expected a point that is less far away"),
-            PlaneError::Normal { .. } => (1, "expected a normal"),
+            _ => (1, "expected a normal"),
         };
         Unreadable {
             code: "E-PLANE-ZERO",

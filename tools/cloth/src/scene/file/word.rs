@@ -49,6 +49,7 @@ impl<'de, T: Words> Deserialize<'de> for Word<T> {
 
 /// The resistance to bending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum BendLaw {
     /// A spring across each edge.
     Spring,

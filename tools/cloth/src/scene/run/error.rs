@@ -113,4 +113,13 @@ impl fmt::Display for RunError {
     }
 }
 
-impl std::error::Error for RunError {}
+impl std::error::Error for RunError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            RunError::Simulation(error) => Some(error),
+            RunError::Wind(error) => Some(error),
+            RunError::Cut { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
