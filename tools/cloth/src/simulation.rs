@@ -288,22 +288,38 @@ impl Simulation {
     /// [`StepError`] if the time is negative or not finite, or a step failed. The cloth is then as
     /// it was at the end of the last good step.
     pub fn advance(&mut self, dt_s: f64, steps_max: u64) -> Result<Reached, StepError> {
+        self.advance_while(dt_s, steps_max, || true)
+    }
+
+    /// Lets `dt_s` seconds pass as [`advance`](Simulation::advance) does, as long as `goes_on` says so, which is
+    /// called before each step. What is left out then is dropped too.
+    ///
+    /// # Errors
+    ///
+    /// As for [`advance`](Simulation::advance).
+    pub fn advance_while(
+        &mut self,
+        dt_s: f64,
+        steps_max: u64,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Result<Reached, StepError> {
         if !(dt_s >= 0.0 && dt_s.is_finite()) {
             return Err(StepError::Step { given_s: dt_s });
         }
         self.edits.clear();
         self.owed_s += dt_s;
         let wanted = (self.owed_s / self.step_s).round().max(0.0);
-        let steps = steps_max.min(wanted as u64);
-        let dropped_s = (wanted - steps as f64) * self.step_s;
         self.owed_s -= wanted * self.step_s;
-        for _ in 0..steps {
+        let mut steps = 0;
+        while steps < steps_max.min(wanted as u64) && goes_on() {
             if let Err(error) = self.step() {
                 self.owed_s = 0.0;
                 self.note("failed", []);
                 return Err(error);
             }
+            steps += 1;
         }
+        let dropped_s = (wanted - steps as f64) * self.step_s;
         Ok(Reached { steps, dropped_s })
     }
 

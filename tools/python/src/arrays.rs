@@ -1,10 +1,12 @@
 //! Arrays of numpy, in and out.
 
 use std::fmt::Display;
+use std::io;
+use std::path::Path;
 
 use numpy::prelude::*;
 use numpy::{Element, PyArray1, PyArrayDyn, PyUntypedArray};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use tearmesh_core::VertexId;
 
@@ -20,6 +22,17 @@ pub(crate) const ANY: usize = usize::MAX;
 /// The text of an error of the library, for Python.
 pub(crate) fn value_error(error: impl Display) -> PyErr {
     PyValueError::new_err(error.to_string())
+}
+
+/// An error of a file, with its name.
+pub(crate) fn os_error(error: &io::Error, path: &Path) -> PyErr {
+    let text = error.to_string();
+    let text = text
+        .split(" (os error")
+        .next()
+        .unwrap_or_default()
+        .to_owned();
+    PyOSError::new_err((error.raw_os_error(), text, path.to_owned()))
 }
 
 /// Whatever numpy makes an array of.
@@ -57,9 +70,20 @@ pub(crate) fn ids(name: &str, given: &Array<'_>, shape: &[usize]) -> PyResult<Ve
         let kind = array.dtype();
         return Err(value_error(format!("{name} must be integers, not {kind}")));
     }
+    let id = |number: i128| u32::try_from(number).map_err(|_| no_vertex(name, number));
+    // As they are: the largest numbers of either kind are none of the other.
+    if kind == b'u' {
+        let numbers: Vec<u64> = elements(name, array.as_any(), shape)?;
+        return numbers
+            .into_iter()
+            .map(|number| id(number.into()))
+            .collect();
+    }
     let numbers: Vec<i64> = elements(name, array.as_any(), shape)?;
-    let id = |&number: &i64| u32::try_from(number).map_err(|_| no_vertex(name, number));
-    numbers.iter().map(id).collect()
+    numbers
+        .into_iter()
+        .map(|number| id(number.into()))
+        .collect()
 }
 
 /// Vertices from an array of one dimension.

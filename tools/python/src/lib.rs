@@ -11,6 +11,7 @@ mod obj;
 mod scene;
 mod simulation;
 mod torn;
+mod waiting;
 
 use pyo3::prelude::*;
 use tearmesh_core::gap::gapped;
@@ -20,6 +21,24 @@ use tearmesh_core::{Cursor, Cut, CutError, CutMethod, Edits, Mesh, Scissor, mend
 use arguments::{Triple, mesh_of, parts_of, scissor_of};
 use arrays::{Array, Made, triangles, value_error};
 use torn::Log;
+use waiting::heard;
+
+/// A number of vertices.
+fn vertex_count(n: i64) -> PyResult<usize> {
+    let count = u32::try_from(n).map(|n| n as usize);
+    count.map_err(|_| value_error(format!("n must be a number of vertices, not {n}")))
+}
+
+/// The distance that is given for `weld`: True is 0, and False none.
+fn distance_of(weld: &Array<'_>) -> PyResult<Option<f64>> {
+    match weld.extract::<bool>() {
+        Ok(is_welded) => Ok(is_welded.then_some(0.0)),
+        Err(_) => weld.extract().map(Some),
+    }
+}
+
+// Defaults that Python shows have to be literals.
+const _: () = assert!(Scissor::SNAP == 0.05 && tearmesh_cloth::Simulation::GRIP_RADIUS_M == 0.12);
 
 /// Cuts, tears, mends and simulates triangle meshes that are held in numpy arrays.
 ///
@@ -52,8 +71,16 @@ mod tearmesh {
     /// faces: (m, 3) integers. n: the number of vertices. At most a thousand defects of a kind are listed. A torn mesh
     /// need not be a manifold.
     #[pyfunction]
-    fn check(faces: &Array<'_>, n: usize) -> PyResult<Vec<String>> {
-        let built = Mesh::build(n, triangles(faces)?);
+    fn check(faces: &Array<'_>, n: i64) -> PyResult<Vec<String>> {
+        let triangles = triangles(faces)?;
+        let n = vertex_count(n)?;
+        // Vertices without faces are no defects, and take no room.
+        let named = triangles
+            .iter()
+            .flatten()
+            .max()
+            .map_or(0, |&last| last as usize + 1);
+        let built = heard(faces.py(), move || Mesh::build(n.min(named), triangles))?;
         let defects = built
             .err()
             .map_or(Vec::new(), |error| error.defects().to_vec());
@@ -67,8 +94,8 @@ mod tearmesh {
     /// faces: (m, 3) integers. n: the number of vertices. roots: (n,) integers, for a torn mesh.
     #[pyfunction]
     #[pyo3(signature = (faces, n, *, roots=None))]
-    fn pieces<'py>(faces: &Array<'py>, n: usize, roots: Option<&Array<'py>>) -> Made<'py> {
-        let mesh = mesh_of(n, faces, roots)?;
+    fn pieces<'py>(faces: &Array<'py>, n: i64, roots: Option<&Array<'py>>) -> Made<'py> {
+        let mesh = mesh_of(vertex_count(n)?, faces, roots)?;
         torn::pieces_of(faces.py(), &mesh, &mesh.components())
     }
 
@@ -82,14 +109,14 @@ mod tearmesh {
     /// snap: how near the end of an edge a crossing is moved to that end, as a fraction of the edge: 0 to 0.49.
     /// roots: (n,) integers, if the mesh is torn already.
     /// weld: a distance. Seams whose sides are at most that far apart are sewn first: boundary edges that lie on each
-    /// other, such as those of a mesh with a vertex for each texture coordinate. To keep the texture coordinates of
+    /// other, such as those of a mesh with a vertex for each texture coordinate. True is 0. To keep the texture coordinates of
     /// both sides, give uv per corner. Without weld, the cut crosses such seams, and they stay as they are.
     ///
     /// Raises ValueError if the faces form no oriented manifold, a coordinate is not finite or exceeds 1.8e75, the
     /// plane has no normal, both rays lie on one line, or they cross within the mesh. A cut that misses the mesh
     /// changes nothing.
     #[pyfunction]
-    #[pyo3(signature = (points, faces, plane=None, rays=None, *, uv=None, layers="all", gap=0.0, snap=Scissor::SNAP, roots=None, weld=None))]
+    #[pyo3(signature = (points, faces, plane=None, rays=None, *, uv=None, layers="all", gap=0.0, snap=0.05, roots=None, weld=None))]
     #[expect(clippy::too_many_arguments, reason = "in Python they have names")]
     fn cut<'py>(
         py: Python<'py>,
@@ -102,8 +129,9 @@ mod tearmesh {
         gap: f64,
         snap: f64,
         roots: Option<&Array<'py>>,
-        weld: Option<f64>,
+        weld: Option<&Array<'py>>,
     ) -> PyResult<TornMesh> {
+        let weld = weld.map(distance_of).transpose()?.flatten();
         if let Some(distance) = weld.filter(|distance| !(0.0..f64::INFINITY).contains(distance)) {
             let why = format!("weld must be a distance of 0 or more, not {distance}");
             return Err(value_error(why));
@@ -147,20 +175,20 @@ mod tearmesh {
     ///
     /// Vertices that a cut inserted stay. Raises ValueError if two vertices are farther apart, or for the reasons of `cut`.
     #[pyfunction]
-    #[pyo3(signature = (points, faces, roots, *, uv=None, max_distance=f64::INFINITY))]
+    #[pyo3(signature = (points, faces, roots, *, uv=None, max_distance=None))]
     fn mend<'py>(
         py: Python<'py>,
         points: &Array<'py>,
         faces: &Array<'py>,
         roots: &Array<'py>,
         uv: Option<&Array<'py>>,
-        max_distance: f64,
+        max_distance: Option<f64>,
     ) -> PyResult<TornMesh> {
         let (mut mesh, mut positions) = parts_of(points, faces, Some(roots))?;
         let (log, mut edits) = (Log::new(&mesh, Cursor::START), Edits::new());
         let sewn = py.detach(|| {
             let stitches = sewing::stitches(&mesh, |_| true);
-            let (far, even) = (max_distance, |_| 1.0);
+            let (far, even) = (max_distance.unwrap_or(f64::INFINITY), |_| 1.0);
             let sewn = sewing::sew(&mut mesh, &positions, &stitches, even, far, &mut edits);
             edits.replay(&mut positions);
             sewn

@@ -3,17 +3,21 @@
 use std::collections::HashMap;
 use std::ffi::{CString, OsString};
 use std::fmt::Display;
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 use std::{fs, process};
 
+use numpy::prelude::*;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
-use tearmesh_core::{Cursor, Cut, Edits};
+use tearmesh_core::{Cursor, Cut, Edits, Mesh};
 use tearmesh_obj::{Document, TornDocument};
 
 use crate::arguments::parts_of;
-use crate::arrays::{Array, array, floats, value_error};
+use crate::arrays::{Array, any, array, floats, os_error, value_error};
 use crate::torn::{Log, TornMesh};
+use crate::waiting::heard;
 
 /// Reads an OBJ file, and returns a TornMesh. If tearmesh wrote the file, what was torn is torn again.
 ///
@@ -22,8 +26,11 @@ use crate::torn::{Log, TornMesh};
 #[pyfunction]
 pub(crate) fn read_obj(py: Python<'_>, path: PathBuf) -> PyResult<TornMesh> {
     let refused = |why: &dyn Display| value_error(format!("{}: {why}", path.display()));
-    let bytes = fs::read(&path)?;
-    let document = py.detach(|| Document::read(&bytes[..]));
+    let from = path.clone();
+    let document = heard(py, || {
+        fs::read(from).map(|bytes| Document::read(&bytes[..]))
+    })?;
+    let document = document.map_err(|error| os_error(&error, &path))?;
     let document = document.map_err(|error| refused(&error))?;
     let mesh = document.mesh().map_err(|error| refused(&error))?;
     for diagnostic in document.diagnostics() {
@@ -44,7 +51,8 @@ pub(crate) fn read_obj(py: Python<'_>, path: PathBuf) -> PyResult<TornMesh> {
 
 /// Writes an OBJ file, with a record of what is torn, so that `read_obj` and the command `tearmesh mend` know it.
 ///
-/// points: (n, 3) floats. faces: (m, 3) integers. roots: (n,) integers, for a torn mesh. uv: (m, 3, 2) floats.
+/// points: (n, 3) floats. faces: (m, 3) integers. roots: (n,) integers, for a torn mesh. uv: floats, (n, 2) per
+/// vertex or (m, 3, 2) per corner, as a TornMesh has them.
 /// Raises OSError, and then the old file is still there, or ValueError for the reasons of `cut`.
 #[pyfunction]
 #[pyo3(signature = (path, points, faces, *, roots=None, uv=None))]
@@ -56,9 +64,7 @@ pub(crate) fn write_obj(
     uv: Option<&Array<'_>>,
 ) -> PyResult<()> {
     let (mesh, positions) = parts_of(points, faces, roots)?;
-    let uv = uv
-        .map(|uv| floats("uv", uv, &[mesh.face_count(), 3, 2]))
-        .transpose()?;
+    let uv = uv.map(|uv| per_corner(uv, &mesh)).transpose()?;
     let mut text = String::new();
     let mut line = |line: String| text.extend([&line, "\n"]);
     for p in positions.as_slice() {
@@ -83,9 +89,40 @@ pub(crate) fn write_obj(
     let (document, mesh) = document.torn_from(&mesh.roots()).map_err(value_error)?;
     let mut bytes = Vec::new();
     TornDocument::new(&document).write(&mesh, &positions, &mut bytes)?;
-    // The old file, or the new one: never a part of it.
+    let to = path.clone();
+    let written = heard(points.py(), move || replace(&to, &bytes))?;
+    written.map_err(|error| os_error(&error, &path))
+}
+
+/// Texture coordinates by corner, from those of vertices or of corners.
+fn per_corner(uv: &Array<'_>, mesh: &Mesh) -> PyResult<Vec<f64>> {
+    if any(uv)?.ndim() == 3 {
+        return floats("uv", uv, &[mesh.face_count(), 3, 2]);
+    }
+    let of_vertices = floats("uv", uv, &[mesh.vertex_count(), 2])?;
+    let pairs = of_vertices.as_chunks::<2>().0;
+    Ok(mesh
+        .indices()
+        .iter()
+        .flat_map(|&v| pairs[v as usize])
+        .collect())
+}
+
+/// Writes the file that a path leads to: the old one stays, or the new one is whole, with the mode of the old one. What
+/// is no file, such as a pipe, is written to.
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // A link leads elsewhere, and stays; one that leads nowhere is replaced.
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let existing = fs::metadata(&path).ok();
+    if existing.as_ref().is_some_and(|found| !found.is_file()) {
+        return File::options().write(true).open(&path)?.write_all(bytes);
+    }
     let mut beside = OsString::from(&path);
     beside.push(format!(".{}.new", process::id()));
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, &path));
-    Ok(written.inspect_err(|_| drop(fs::remove_file(&beside)))?)
+    let filled = fs::write(&beside, bytes).and_then(|()| match existing {
+        Some(existing) => fs::set_permissions(&beside, existing.permissions()),
+        None => Ok(()),
+    });
+    let written = filled.and_then(|()| fs::rename(&beside, &path));
+    written.inspect_err(|_| drop(fs::remove_file(&beside)))
 }

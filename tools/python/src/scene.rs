@@ -11,7 +11,7 @@ use tearmesh_cloth::scene::{Frame, Opening};
 use tearmesh_core::{Mesh, Point, Positions};
 use tearmesh_obj::Document;
 
-use crate::arrays::value_error;
+use crate::arrays::{os_error, value_error};
 
 /// How the scene of a file begins on a mesh. `uv` has the texture coordinates of corners.
 pub(crate) fn opening(
@@ -21,8 +21,8 @@ pub(crate) fn opening(
     uv: Option<&[f64]>,
 ) -> PyResult<Opening> {
     let refused = |why: &dyn Display| value_error(format!("{}: {why}", path.display()));
-    let file: SceneFile =
-        toml::from_str(&fs::read_to_string(path)?).map_err(|error| refused(&error))?;
+    let text = fs::read_to_string(path).map_err(|error| os_error(&error, path))?;
+    let file: SceneFile = toml::from_str(&text).map_err(|error| refused(&error))?;
     let frame = Frame::new(mesh, positions.as_slice(), file.up());
     let scene = file.on(&frame, None, &mut |_, name| {
         body(&path.with_file_name(name)).map_err(|why| format!("{name}: {why}"))

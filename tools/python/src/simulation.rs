@@ -1,5 +1,6 @@
 //! A cloth in motion, with the verbs of the library.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use pyo3::exceptions::PyRuntimeError;
@@ -9,12 +10,13 @@ use tearmesh_cloth::{
     Collider, CutId, Event, Fabric, HandId, InputError, Loads, Method, Picked, SimulationDef,
     StepError, Tearing, Threshold, Wind, Wounds, force,
 };
-use tearmesh_core::{Mesh, Plane, Positions, Ray, Scissor, Vector};
+use tearmesh_core::{Mesh, Plane, Positions, Ray, Vector, VertexId};
 
 use crate::arguments::{Triple, parts_of, scissor_of};
 use crate::arrays::{self, Array, Made, array, floats, indices, rows, value_error};
 use crate::scene;
 use crate::torn::{Log, pieces_of};
+use crate::waiting::{Listener, heard};
 
 /// A cloth in motion. It is at rest where it is given. Lengths are in metres, masses in kilograms, times in seconds,
 /// and forces in newtons.
@@ -44,8 +46,14 @@ pub(crate) struct Simulation {
 }
 
 impl Simulation {
-    fn of(mesh: Mesh, positions: &Positions, def: SimulationDef) -> PyResult<Simulation> {
-        let sim = tearmesh_cloth::Simulation::new(mesh, positions, def).map_err(value_error)?;
+    fn of(
+        py: Python<'_>,
+        mesh: Mesh,
+        positions: Positions,
+        def: SimulationDef,
+    ) -> PyResult<Simulation> {
+        let made = move || tearmesh_cloth::Simulation::new(mesh, &positions, def);
+        let sim = heard(py, made)?.map_err(value_error)?;
         Ok(Simulation {
             before: Log::new(sim.mesh(), sim.edits().cursor()),
             hands: Vec::new(),
@@ -105,7 +113,7 @@ fn collider((place, second): (Triple, Array<'_>), friction: f64) -> PyResult<Col
 #[pymethods]
 impl Simulation {
     #[new]
-    #[pyo3(signature = (points, faces, *, roots=None, density=0.15, modulus=1000.0, damping=1.6e-3, method="verlet", stretch=1.5, toughness=None, weakening=None, strengths=None, gravity=[0.0, -9.81, 0.0], drag=0.5, colliders=Vec::new(), friction=0.0, step=None))]
+    #[pyo3(signature = (points, faces, *, roots=None, density=0.15, modulus=1000.0, damping=1.6e-3, method="verlet", stretch=1.5, toughness=None, weakening=None, strengths=None, gravity=None, drag=0.5, colliders=None, friction=0.0, step=None))]
     #[expect(clippy::too_many_arguments, reason = "in Python they have names")]
     fn new(
         points: &Array<'_>,
@@ -119,9 +127,9 @@ impl Simulation {
         toughness: Option<f64>,
         weakening: Option<f64>,
         strengths: Option<&Array<'_>>,
-        gravity: Triple,
+        gravity: Option<Triple>,
         drag: f64,
-        colliders: Vec<(Triple, Array<'_>)>,
+        colliders: Option<Vec<(Triple, Array<'_>)>>,
         friction: f64,
         step: Option<f64>,
     ) -> PyResult<Simulation> {
@@ -135,7 +143,10 @@ impl Simulation {
             ..Tearing::new(threshold)
         };
         let strengths = strengths.map(|given| floats("strengths", given, &[arrays::ANY]));
-        let colliders = colliders.into_iter().map(|it| collider(it, friction));
+        let colliders = colliders
+            .into_iter()
+            .flatten()
+            .map(|it| collider(it, friction));
         let def = SimulationDef {
             density_kg_per_m2: density,
             fabric: Fabric {
@@ -146,7 +157,7 @@ impl Simulation {
             tearing: threshold.map(tearing),
             strengths: strengths.transpose()?.unwrap_or_default(),
             loads: Loads {
-                gravity_m_per_s2: Some(gravity.into()),
+                gravity_m_per_s2: Some(gravity.unwrap_or([0.0, -9.81, 0.0]).into()),
                 drag_per_s: Some(drag),
                 wind: None,
                 colliders: colliders.collect::<PyResult<_>>()?,
@@ -154,7 +165,7 @@ impl Simulation {
             step_s: step,
             ..SimulationDef::default()
         };
-        Simulation::of(mesh, &positions, def)
+        Simulation::of(points.py(), mesh, positions, def)
     }
 
     /// Returns a cloth in motion that begins as a scene file (TOML) of the command `tearmesh tear` says: with its fabric,
@@ -175,7 +186,7 @@ impl Simulation {
         let (mesh, positions) = parts_of(points, faces, roots)?;
         let uv = uv.map(|uv| floats("uv", uv, &[mesh.face_count(), 3, 2]));
         let opening = scene::opening(&path, &mesh, &positions, uv.transpose()?.as_deref())?;
-        let mut made = Simulation::of(mesh, &positions, opening.def)?;
+        let mut made = Simulation::of(points.py(), mesh, positions, opening.def)?;
         made.sim.hold(opening.held).map_err(value_error)?;
         for scissor in &opening.cuts {
             made.cuts.push(made.sim.cut(scissor).map_err(value_error)?);
@@ -186,11 +197,16 @@ impl Simulation {
     /// Lets this many seconds pass, in whole steps and at most steps_max of them, and returns the number of steps.
     ///
     /// What is less than half a step is made up for by the next call. Raises RuntimeError if a step fails, as when the
-    /// cloth blows up; the cloth is then as it was after the last good step.
-    #[pyo3(signature = (seconds, steps_max=u64::MAX))]
-    fn advance(&mut self, py: Python<'_>, seconds: f64, steps_max: u64) -> PyResult<u64> {
+    /// cloth blows up; the cloth is then as it was after the last good step. Ctrl-C is heard between steps.
+    #[pyo3(signature = (seconds, steps_max=None))]
+    fn advance(&mut self, py: Python<'_>, seconds: f64, steps_max: Option<u64>) -> PyResult<u64> {
         self.begin();
-        let reached = py.detach(|| self.sim.advance(seconds, steps_max));
+        let (steps_max, mut listener) = (steps_max.unwrap_or(u64::MAX), Listener::new());
+        let sim = &mut self.sim;
+        let reached = py.detach(|| sim.advance_while(seconds, steps_max, || listener.goes_on()));
+        if let Some(raised) = listener.raised {
+            return Err(raised);
+        }
         let reached = reached.map_err(|error| match error {
             StepError::Step { .. } => value_error(error),
             failed => PyRuntimeError::new_err(failed.to_string()),
@@ -201,7 +217,8 @@ impl Simulation {
     /// Takes count steps, and returns their number. Raises RuntimeError as `advance` does.
     #[pyo3(signature = (count=1))]
     fn step(&mut self, py: Python<'_>, count: u32) -> PyResult<u64> {
-        self.advance(py, f64::from(count) * self.sim.step_s(), count.into())
+        let steps = Some(count.into());
+        self.advance(py, f64::from(count) * self.sim.step_s(), steps)
     }
 
     /// Holds vertices (integers) where they are, until they are freed. Raises ValueError if one is in a hand or is no vertex.
@@ -226,7 +243,7 @@ impl Simulation {
 
     /// Grabs a vertex, and returns the number of the hand. Within radius (in m, at rest) the cloth around is stronger, so
     /// that the hand tears out more than the vertex; 0 for no such grip.
-    #[pyo3(signature = (vertex, radius=tearmesh_cloth::Simulation::GRIP_RADIUS_M))]
+    #[pyo3(signature = (vertex, radius=0.12))]
     fn grab(&mut self, vertex: u32, radius: f64) -> PyResult<usize> {
         let vertex = arrays::vertex("vertex", vertex)?;
         self.hands
@@ -247,7 +264,7 @@ impl Simulation {
     }
 
     /// Cuts the cloth where it is now, and returns the number of the cut. Arguments as for the function `cut`.
-    #[pyo3(signature = (plane=None, rays=None, *, layers="all", snap=Scissor::SNAP))]
+    #[pyo3(signature = (plane=None, rays=None, *, layers="all", snap=0.05))]
     fn cut(
         &mut self,
         py: Python<'_>,
@@ -292,10 +309,14 @@ impl Simulation {
         events.collect()
     }
 
-    /// Returns the force (3,) in N that it takes to hold or lead these vertices together. Raises ValueError for no vertex.
+    /// Returns the force (3,) in N that it takes to hold or lead these vertices together, each of which counts once. Raises
+    /// ValueError for no vertex.
     fn reaction<'py>(&self, vertices: &Array<'py>) -> Made<'py> {
         let (py, mut sum) = (vertices.py(), Vector::zeros());
-        for v in arrays::vertices("vertices", vertices)? {
+        let vertices: BTreeSet<VertexId> = arrays::vertices("vertices", vertices)?
+            .into_iter()
+            .collect();
+        for v in vertices {
             if v.index() >= self.sim.mesh().vertex_count() {
                 return Err(value_error(InputError::NoVertex(v)));
             }
@@ -305,9 +326,16 @@ impl Simulation {
     }
 
     /// Carries an array over the last call of `step`, `advance` or `cut`: as TornMesh.map does.
-    #[pyo3(signature = (values, per="vertex"))]
-    fn map<'py>(&self, values: &Array<'py>, per: &str) -> Made<'py> {
-        self.before.map(self.sim.edits(), values, per)
+    #[pyo3(signature = (values, per="vertex", how=None))]
+    fn map<'py>(&self, values: &Array<'py>, per: &str, how: Option<&str>) -> Made<'py> {
+        self.before.map(self.sim.edits(), values, per, how)
+    }
+
+    fn __repr__(&self) -> String {
+        let mesh = self.sim.mesh();
+        let (vertices, faces) = (mesh.vertex_count(), mesh.face_count());
+        let time_s = self.sim.time_s();
+        format!("<tearmesh.Simulation: {vertices} points, {faces} faces, at {time_s:.6} s>")
     }
 
     #[getter]

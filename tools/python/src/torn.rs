@@ -1,5 +1,6 @@
 //! A mesh after edits, and what they make of arrays that belong to the mesh before.
 
+use numpy::PyUntypedArray;
 use numpy::prelude::*;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -25,10 +26,26 @@ impl Log {
         }
     }
 
-    /// What the edits make of an array that belongs to the mesh before. Floats are interpolated; of anything else
-    /// a new row is a copy of the nearest.
-    pub(crate) fn map<'py>(&self, edits: &Edits, values: &Array<'py>, per: &str) -> Made<'py> {
-        let (py, values) = (values.py(), any(values)?);
+    /// What the edits make of an array that belongs to the mesh before. Of what is mixed, a new row lies between
+    /// others; of anything else it is a copy of the nearest. Unless it is said how, floats are mixed.
+    pub(crate) fn map<'py>(
+        &self,
+        edits: &Edits,
+        values: &Array<'py>,
+        per: &str,
+        how: Option<&str>,
+    ) -> Made<'py> {
+        let (py, mut values) = (values.py(), any(values)?);
+        let is_float = values.dtype().kind() == b'f';
+        let mixes = match how {
+            None => is_float,
+            Some("mix") => true,
+            Some("source") => false,
+            Some(_) => return Err(value_error("how is mix or source")),
+        };
+        if mixes && !is_float {
+            values = as_floats(&values)?;
+        }
         let shape = values.shape().to_vec();
         let corners = [self.faces, 3];
         let head = match per {
@@ -46,9 +63,10 @@ impl Log {
             array.call_method1("reshape", (shape,))
         };
         let count = head.iter().product();
-        let is_float = values.dtype().kind() == b'f';
-        let width = if is_float { tail.iter().product() } else { 1 };
-        let given = match is_float {
+        // Of no numbers there is nothing to mix, but rows to count.
+        let mixes = mixes && !tail.contains(&0);
+        let width = if mixes { tail.iter().product() } else { 1 };
+        let given = match mixes {
             true => floats(
                 "values",
                 &reshaped(&values, count, &[width])?,
@@ -58,7 +76,7 @@ impl Log {
         };
         let column = |at: usize| {
             let mut column: Vec<f64> = given.iter().skip(at).step_by(width).copied().collect();
-            let mix = |mix: Mix<&f64>| match is_float {
+            let mix = |mix: Mix<&f64>| match mixes {
                 true => f64::blend(mix),
                 false => *mix.nearest(),
             };
@@ -74,7 +92,7 @@ impl Log {
         let rows = columns.first().map_or(count, Vec::len);
         let cells = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
         let mapped = array(py, cells.collect(), &[rows, width])?;
-        let mapped = match is_float {
+        let mapped = match mixes {
             true => mapped.call_method1("astype", (values.dtype(),))?,
             false => {
                 let sources = mapped.call_method1("astype", ("int64",))?;
@@ -92,9 +110,25 @@ impl Log {
         uv: Option<&Array<'py>>,
     ) -> PyResult<Option<Array<'py>>> {
         let per = |dimensions| if dimensions == 3 { "corner" } else { "vertex" };
-        let map = |uv| self.map(edits, uv, per(any(uv)?.ndim()));
+        let map = |uv| {
+            let uv = any(uv)?;
+            self.map(edits, uv.as_any(), per(uv.ndim()), Some("mix"))
+        };
         uv.map(map).transpose()
     }
+}
+
+/// The array with its numbers as floats.
+fn as_floats<'py>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyUntypedArray>> {
+    let is_number = matches!(array.dtype().kind(), b'i' | b'u' | b'b');
+    if !is_number {
+        let kind = array.dtype();
+        return Err(value_error(format!(
+            "only numbers can be mixed, not {kind}"
+        )));
+    }
+    let floats = array.call_method1("astype", ("float64",))?;
+    Ok(floats.cast_into()?)
 }
 
 /// The piece of each face.
@@ -110,7 +144,10 @@ pub(crate) fn pieces_of<'py>(py: Python<'py>, mesh: &Mesh, of: &Components) -> M
 ///
 /// sides: (m,) int8, of a cut: 1 for a face on the side to which the normal of the plane points, -1 for one on the
 /// other, and 0 for one on neither, such as away from a slit. seam: of a cut, a list of lines, each (k, 2) integers:
-/// the vertices along the line, on side 1 and on side -1. Both are the same where a slit ends inside the mesh.
+/// the vertices along the line, on side 1 and on side -1. Both are the same where a slit ends inside the mesh. missed:
+/// whether nothing was changed, as by a cut that misses the mesh.
+///
+/// It never changes, so copies are itself. One that was pickled has all arrays, and no longer `map`.
 #[pyclass(module = "tearmesh", frozen)]
 pub(crate) struct TornMesh {
     #[pyo3(get)]
@@ -127,7 +164,11 @@ pub(crate) struct TornMesh {
     sides: Py<PyAny>,
     #[pyo3(get)]
     seam: Vec<Py<PyAny>>,
-    log: (Log, Edits),
+    /// Whether the cut met nothing.
+    #[pyo3(get)]
+    missed: bool,
+    /// None of one that was unpickled.
+    log: Option<(Log, Edits)>,
 }
 
 impl TornMesh {
@@ -163,7 +204,8 @@ impl TornMesh {
             uv: uv.map(Bound::unbind),
             sides: array(py, mesh.faces().map(side).collect(), &[faces])?.unbind(),
             seam: cut.seam().map(line).collect::<PyResult<_>>()?,
-            log,
+            missed: log.1.is_empty(),
+            log: Some(log),
         })
     }
 }
@@ -175,10 +217,73 @@ impl TornMesh {
     /// values: (n, ...) per vertex, (m, 3, ...) per corner, or (m, ...) per face, of any dtype, for the n vertices and
     /// m faces of before. per: "vertex", "corner" or "face".
     ///
-    /// Floats are interpolated, and averaged where vertices are sewn. Anything else, such as the number of a bone or a
-    /// material, is copied from the nearest. Raises ValueError if the shape does not fit.
-    #[pyo3(signature = (values, per="vertex"))]
-    fn map<'py>(&self, values: &Array<'py>, per: &str) -> Made<'py> {
-        self.log.0.map(&self.log.1, values, per)
+    /// how: "mix" interpolates, and averages where vertices are sewn: the result is floats. "source" copies from the
+    /// nearest, as is right for the number of a bone or a material. By default floats are mixed, and anything else is
+    /// copied. Raises ValueError if the shape does not fit, or for "mix" of what are no numbers.
+    #[pyo3(signature = (values, per="vertex", how=None))]
+    fn map<'py>(&self, values: &Array<'py>, per: &str, how: Option<&str>) -> Made<'py> {
+        let log = self.log.as_ref();
+        let (before, edits) =
+            log.ok_or_else(|| value_error("it was unpickled, and no longer knows the edits"))?;
+        before.map(edits, values, per, how)
+    }
+
+    fn __copy__(this: Py<Self>) -> Py<Self> {
+        this
+    }
+
+    fn __deepcopy__(this: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        this
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let of = py.get_type::<TornMesh>().getattr("_of")?;
+        let arrays = [
+            &self.points,
+            &self.faces,
+            &self.roots,
+            &self.pieces,
+            &self.sides,
+        ];
+        let arrays = PyTuple::new(py, arrays)?;
+        let uv = self.uv.as_ref().map(|uv| uv.bind(py));
+        let seam: Vec<_> = self.seam.iter().map(|line| line.bind(py)).collect();
+        Ok((of, (arrays, uv, seam, self.missed).into_pyobject(py)?))
+    }
+
+    /// The mesh of what was pickled.
+    #[staticmethod]
+    fn _of(
+        arrays: [Py<PyAny>; 5],
+        uv: Option<Py<PyAny>>,
+        seam: Vec<Py<PyAny>>,
+        missed: bool,
+    ) -> TornMesh {
+        let [points, faces, roots, pieces, sides] = arrays;
+        TornMesh {
+            points,
+            faces,
+            roots,
+            pieces,
+            uv,
+            sides,
+            seam,
+            missed,
+            log: None,
+        }
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let [points, faces] = [&self.points, &self.faces].map(|array| array.bind(py).len());
+        let pieces = self.pieces.bind(py).call_method0("max");
+        let pieces = pieces.and_then(|last| last.extract::<usize>());
+        let pieces = pieces.map_or(0, |last| last + 1);
+        let (points, faces) = (points?, faces?);
+        Ok(format!(
+            "<tearmesh.TornMesh: {points} points, {faces} faces, pieces: {pieces}>"
+        ))
     }
 }
