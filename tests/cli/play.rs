@@ -1,7 +1,7 @@
 //! Pages that are played: what mesh and what scene they have. (What is done on them is in `tests/browser`.)
 
 use tearmesh::{Point, Ray, Vector};
-use tearmesh_cloth::ColliderShape;
+use tearmesh_cloth::{ColliderShape, Wind};
 use tearmesh_obj::Document;
 use tearmesh_play::{Plan, Player, Settings};
 
@@ -102,4 +102,67 @@ fn what_a_scene_file_unpicks_is_named_and_its_bodies_move() {
         let off = after - before - Vector::y() * up;
         assert!(up > 0.02 && off.norm() < 1e-12, "{off}");
     }
+}
+
+/// A page exchanges numbers, and none of them may stop it for good.
+#[test]
+fn numbers_that_mean_nothing_are_refused_in_words() {
+    let settings = |threshold: &str| {
+        let lines = "cloth sheet 8\nscene rip\nup y\nmethod xpbd\nthreshold ";
+        format!("{lines}{threshold}\n").parse::<Settings>()
+    };
+    for threshold in ["nan", "inf", "-1", "0", "1", "1e999"] {
+        let refused = settings(threshold).map(drop).expect_err("no threshold");
+        assert_eq!(refused, format!("there is no threshold `{threshold}`"));
+    }
+    let settings = settings("1.5").expect("settings");
+    let document = settings.document(b"").expect("a document");
+    let begun = || Player::new(&document, settings.clone()).expect("a player");
+    let mut player = begun();
+    player.number_hands_from(7);
+    let down = |x| Ray::new(Point::new(x, 0.5, 5.0), -Vector::z()).expect("a ray");
+    assert_eq!(player.grab(&down(9.0)), Ok(None));
+    let hand = player.grab(&down(0.5)).expect("a hand");
+    assert_eq!((hand, player.next_hand()), (Some(7), 8));
+    let no_hand = || Err("there is no such hand".to_owned());
+    for wrong in [0, 6, 8, u32::MAX as usize, usize::MAX] {
+        assert_eq!(player.lead(wrong, Point::origin()), no_hand(), "{wrong}");
+        assert_eq!(player.release(wrong), no_hand(), "{wrong}");
+    }
+    let far = Point::new(f64::NAN, 0.0, 0.0);
+    player.lead(7, far).expect_err("no place");
+    player.release(7).expect("a hand");
+    player.release(7).expect_err("it was released");
+    for coefficient in [f64::NAN, f64::INFINITY, -1.0] {
+        let velocity_m_per_s = Vector::z();
+        let wind = Wind {
+            velocity_m_per_s,
+            coefficient,
+        };
+        player.set_wind(Some(wind)).expect_err("no wind");
+    }
+    for seconds in [f64::NAN, f64::INFINITY, -1.0] {
+        player.advance(seconds, 10).expect_err("no time");
+    }
+    // And nothing of that left a trace.
+    let mut other = begun();
+    other.grab(&down(0.5)).expect("a hand");
+    other.release(0).expect("a hand");
+    for player in [&mut player, &mut other] {
+        player.advance(0.1, 1_000).expect("steps");
+    }
+    assert_eq!(player.digest(), other.digest());
+}
+
+/// A log begins with the settings, in which a name may be that of the next part.
+#[test]
+fn a_file_may_have_any_name_in_a_log() {
+    let lines = "cloth file tearmesh inputs 1 digest.obj\nscene fall\nup y\nmethod scene\nthreshold scene\n";
+    let settings: Settings = lines.parse().expect("settings");
+    let square = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+    let document = settings.document(square).expect("a document");
+    let mut player = Player::new(&document, settings.clone()).expect("a player");
+    player.advance(0.1, 100).expect("steps");
+    let again = Player::replayed(&document, settings, &player.log()).expect("a replay");
+    assert_eq!(again.digest(), player.digest());
 }

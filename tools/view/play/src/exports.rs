@@ -41,11 +41,15 @@ thread_local! {
 /// up to date: positions, indices, pieces, edges, held vertices, facts, and positions and indices of solids.
 const TEXT: u32 = 8;
 
-/// Makes room for a text or a file; where.
+/// Makes room for a text or a file; where, or 0 if there is none for so many bytes.
 #[unsafe(no_mangle)]
 extern "C" fn room(length: usize) -> usize {
     MODULE.with_borrow_mut(|module| {
         module.input.clear();
+        if module.input.try_reserve(length).is_err() {
+            module.text = b"there is no room for so much".to_vec();
+            return 0;
+        }
         module.input.resize(length, 0);
         module.input.as_ptr() as usize
     })
@@ -133,10 +137,10 @@ extern "C" fn lead(hand: usize, x: f64, y: f64, z: f64) -> bool {
     verb(false, |player| player.lead(hand, to).map(|()| true))
 }
 
-/// Releases a hand.
+/// Releases a hand; whether there was one.
 #[unsafe(no_mangle)]
-extern "C" fn release(hand: usize) {
-    verb((), |player| player.release(hand));
+extern "C" fn release(hand: usize) -> bool {
+    verb(false, |player| player.release(hand).map(|()| true))
 }
 
 /// Pins what a ray hits, or unpins it: 1 and 0, and −1 if it hits nothing.
@@ -182,7 +186,7 @@ extern "C" fn wind(x: f64, y: f64, z: f64, coefficient: f64) -> bool {
         velocity_m_per_s: Vector::new(x, y, z),
         coefficient,
     };
-    let wind = Some(wind).filter(|wind| wind.coefficient > 0.0);
+    let wind = Some(wind).filter(|wind| wind.coefficient != 0.0);
     verb(false, |player| player.set_wind(wind).map(|()| true))
 }
 
@@ -274,7 +278,11 @@ impl Module {
         let made = made.map_err(|why| self.text = why.into_bytes()).ok();
         let is_there = made.is_some();
         if is_there {
+            let next_hand = self.player.as_ref().map_or(0, Player::next_hand);
             self.player = made;
+            if let Some(player) = &mut self.player {
+                player.number_hands_from(next_hand);
+            }
             self.draw();
         }
         is_there

@@ -35,6 +35,8 @@ pub struct Player<'d> {
     is_wind_of_scene: bool,
     grip_radius_m: f64,
     /// By the number that the page knows.
+    /// The hands of earlier players of the page.
+    hands_before: usize,
     hands: Vec<HandId>,
     /// Of all events so far.
     events_hash: u64,
@@ -153,6 +155,7 @@ impl<'d> Player<'d> {
             wind,
             is_wind_of_scene: true,
             grip_radius_m: Simulation::GRIP_RADIUS_M * size_m,
+            hands_before: 0,
             hands: Vec::new(),
             events_hash: digest::EMPTY,
             facts: Facts::default(),
@@ -210,9 +213,10 @@ impl<'d> Player<'d> {
         };
         let hand = words(self.sim.grab(picked.vertex, self.grip_radius_m))?;
         self.hands.push(hand);
+        let number = self.hands_before + self.hands.len() - 1;
         let at = self.sim.cloth().positions()[picked.vertex.index()];
         self.facts.grabbed_at = at.into();
-        Ok(Some(self.hands.len() - 1))
+        Ok(Some(number))
     }
 
     /// Leads a hand to a point: see [`Simulation::lead`].
@@ -220,25 +224,36 @@ impl<'d> Player<'d> {
     /// # Errors
     ///
     /// Why it cannot be led there, in words.
-    ///
-    /// # Panics
-    ///
-    /// If there never was such a hand.
     pub fn lead(&mut self, hand: usize, to: Point) -> Result<(), String> {
-        words(self.sim.lead(self.hands[hand], to))
+        let hand = self.hand(hand)?;
+        words(self.sim.lead(hand, to))
     }
 
     /// Releases a hand.
     ///
     /// # Errors
     ///
-    /// That it was released before, in words.
-    ///
-    /// # Panics
-    ///
-    /// If there never was such a hand.
+    /// That it was released before, or never was, in words.
     pub fn release(&mut self, hand: usize) -> Result<(), String> {
-        words(self.sim.release(self.hands[hand]))
+        let hand = self.hand(hand)?;
+        words(self.sim.release(hand))
+    }
+
+    /// Has hands numbered from here on, so that none has the number of one of an earlier player.
+    pub fn number_hands_from(&mut self, first: usize) {
+        self.hands_before = first;
+    }
+
+    /// Returns the number that the next hand has.
+    #[must_use]
+    pub fn next_hand(&self) -> usize {
+        self.hands_before + self.hands.len()
+    }
+
+    fn hand(&self, number: usize) -> Result<HandId, String> {
+        let own = number.checked_sub(self.hands_before);
+        let hand = own.and_then(|own| self.hands.get(own).copied());
+        hand.ok_or_else(|| "there is no such hand".to_owned())
     }
 
     /// Pins the vertex that a ray hits, or unpins it. Returns whether it is pinned now; `None` if the ray misses.
@@ -306,8 +321,9 @@ impl<'d> Player<'d> {
     ///
     /// Which number cannot be used, in words.
     pub fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), String> {
+        words(self.sim.set_wind(wind))?;
         self.is_wind_of_scene = false;
-        words(self.sim.set_wind(wind))
+        Ok(())
     }
 
     /// Returns the OBJ file of the cloth as it is now, with the record of its tears and cuts.
@@ -402,5 +418,6 @@ impl Start {
 /// The settings of a log, and its inputs.
 fn split_log(log: &str) -> Option<(&str, &str)> {
     let rest = log.strip_prefix(HEAD)?;
-    Some(rest.split_at(rest.find("tearmesh inputs")?))
+    // A file may have that name too, but on a line that begins with another word.
+    Some(rest.split_at(rest.find("\ntearmesh inputs")? + 1))
 }

@@ -168,7 +168,11 @@ impl FromStr for Settings {
         let threshold = match threshold {
             "scene" => None,
             "never" => Some(f64::INFINITY),
-            ratio => Some(ratio.parse().map_err(|_| unknown("threshold", ratio))?),
+            ratio => {
+                let number = ratio.parse().ok();
+                let number = number.filter(|number: &f64| number.is_finite() && *number > 1.0);
+                Some(number.ok_or_else(|| unknown("threshold", ratio))?)
+            }
         };
         Ok(Settings {
             cloth,

@@ -10,7 +10,7 @@ class Cloth {
     return new Type(memory.buffer, address(number), length(number) / Type.BYTES_PER_ELEMENT);
   }
   give(bytes) {
-    const at = this.wasm.room(bytes.length);
+    const at = this.ask(this.wasm.room(bytes.length));
     new Uint8Array(this.wasm.memory.buffer, at, bytes.length).set(bytes);
   }
   text() { return new TextDecoder().decode(this.block(8)); }
