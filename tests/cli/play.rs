@@ -1,6 +1,6 @@
 //! Pages that are played: what mesh and what scene they have. (What is done on them is in `tests/browser`.)
 
-use tearmesh::{Point, Ray, Vector};
+use tearmesh::{Point, Ray, Vector, VertexId};
 use tearmesh_cloth::{ColliderShape, Wind};
 use tearmesh_obj::Document;
 use tearmesh_play::{Plan, Player, Settings};
@@ -165,4 +165,35 @@ fn a_file_may_have_any_name_in_a_log() {
     player.advance(0.1, 100).expect("steps");
     let again = Player::replayed(&document, settings, &player.log()).expect("a replay");
     assert_eq!(again.digest(), player.digest());
+}
+
+/// A log that was saved while a hand held on: whoever grabs there takes over.
+#[test]
+fn a_hand_of_a_log_is_taken_over() {
+    let lines = "cloth sheet 8\nscene rip\nup y\nmethod xpbd\nthreshold 1.5\n";
+    let settings: Settings = lines.parse().expect("settings");
+    let document = settings.document(b"").expect("a document");
+    let mut player = Player::new(&document, settings.clone()).expect("a player");
+    let down = |x, y| Ray::new(Point::new(x, y, 5.0), -Vector::z()).expect("a ray");
+    let hand = player
+        .grab(&down(0.5, 0.5))
+        .expect("a hand")
+        .expect("a hit");
+    let to = Point::new(0.5, 0.4, 0.3);
+    player.lead(hand, to).expect("a hand");
+    player.advance(0.2, 1_000).expect("steps");
+    let mut again = Player::replayed(&document, settings, &player.log()).expect("a replay");
+    assert_eq!(again.digest(), player.digest());
+    again.number_hands_from(3);
+    assert_eq!(again.grab(&down(to.x, to.y)), Ok(Some(3)));
+    assert_eq!(
+        again
+            .grab(&down(to.x, to.y))
+            .map_err(|why| why.ends_with("in hand 0")),
+        Err(true)
+    );
+    let middle = VertexId::new(40).expect("an id");
+    assert!(again.is_held(middle));
+    again.release(3).expect("a hand");
+    assert!(!again.is_held(middle));
 }

@@ -4,7 +4,7 @@ use tearmesh::geometry::{Plane, Point, Ray};
 use tearmesh::{CutLayers, Edits, Mesh, Positions, Scissor, VertexId};
 use tearmesh_cloth::scene::{Frame, Opening, SwayingWind};
 use tearmesh_cloth::{
-    ClothBuffers, Collider, Event, HandId, InputLog, Simulation, Wind, Wounds, digest,
+    ClothBuffers, Collider, Event, HandId, InputError, InputLog, Simulation, Wind, Wounds, digest,
 };
 use tearmesh_obj::{Document, TornDocument};
 
@@ -211,7 +211,11 @@ impl<'d> Player<'d> {
         let Some(picked) = self.sim.pick(ray) else {
             return Ok(None);
         };
-        let hand = words(self.sim.grab(picked.vertex, self.grip_radius_m))?;
+        let hand = match self.sim.grab(picked.vertex, self.grip_radius_m) {
+            // Someone held on while the log was saved that was repeated here, and is taken over.
+            Err(InputError::InHand(_, hand)) if !self.hands.contains(&hand) => hand,
+            grabbed => words(grabbed)?,
+        };
         self.hands.push(hand);
         let number = self.hands_before + self.hands.len() - 1;
         let at = self.sim.cloth().positions()[picked.vertex.index()];
