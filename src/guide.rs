@@ -5,10 +5,14 @@
 //! * [`proven`]: what is proven, what is tested, and what is promised.
 //! * [`peers`]: how it compares with other software.
 //! * [`semver`]: what a version number promises.
+//! * [`changes`]: what each version changed.
 //!
 //! The crate `tearmesh-cloth` has a guide to simulating and tearing cloth. The crate `tearmesh-cli`
 //! has a guide to the command line tool: cutting files, error codes, the JSON report, scene files,
 //! batches and Blender.
+
+#[doc = include_str!("guide/changes.md")]
+pub mod changes {}
 
 #[doc = include_str!("guide/link.md")]
 pub mod link {}
