@@ -90,14 +90,11 @@ impl Input {
 
 /// That a file is of another format, if its name says so, and how it is converted.
 fn foreign(name: &str) -> Option<Fault> {
-    let (stem, ending) = name.rsplit_once('.')?;
-    let (format, options) = match &*ending.to_ascii_lowercase() {
-        "ply" => ("a PLY", "`"),
-        "stl" => (
-            "an STL",
-            " -jiv`, which joins the corners that STL has once a face",
-        ),
-        _ => return None,
+    let format = tearmesh_obj::named_format(Path::new(name))?;
+    let (stem, _) = name.rsplit_once('.')?;
+    let options = match format {
+        "an STL" => " -jiv`, which joins the corners that STL has once a face",
+        _ => "`",
     };
     let help = format!("convert it first, as with `assimp export {name} {stem}.obj{options}");
     let message = format!("`{name}` is {format} file, not OBJ");

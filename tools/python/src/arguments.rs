@@ -1,7 +1,7 @@
 //! What several functions take: a mesh, torn or not, and what to cut it by.
 
 use pyo3::prelude::*;
-use tearmesh_core::{CutLayers, Mesh, Plane, Positions, Ray, Scissor};
+use tearmesh_core::{BuildError, CutLayers, Defect, Mesh, Plane, Positions, Ray, Scissor};
 
 use crate::arrays::{ANY, Array, floats, ids, triangles, value_error};
 
@@ -9,10 +9,23 @@ use crate::arrays::{ANY, Array, floats, ids, triangles, value_error};
 pub(crate) fn mesh_of(n: usize, faces: &Array<'_>, roots: Option<&Array<'_>>) -> PyResult<Mesh> {
     let faces = triangles(faces)?;
     let Some(roots) = roots else {
-        return Mesh::build(n, faces).map_err(value_error);
+        return Mesh::build(n, faces).map_err(|error| no_manifold(&error));
     };
     let roots = ids("roots", roots, &[n])?;
     Mesh::build_torn(&faces, &roots).map_err(value_error)
+}
+
+/// What is wrong with triangles, and two ways out where vertices were parted for their texture coordinates.
+fn no_manifold(error: &BuildError) -> PyErr {
+    let is_bow_tie = |defect: &Defect| matches!(defect, Defect::BowTie { .. });
+    let hint = match error.defects().iter().all(is_bow_tie) {
+        true => {
+            "\n  If vertices are parted for their texture coordinates, read the file with tearmesh.read_obj, or with \
+             trimesh.load(..., process=False, maintain_order=True)"
+        }
+        false => "",
+    };
+    value_error(format!("{error}{hint}"))
 }
 
 /// The mesh and the positions of arrays.

@@ -12,7 +12,7 @@ use numpy::prelude::*;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use tearmesh_core::{Cursor, Cut, Edits, Mesh};
-use tearmesh_obj::{Document, TornDocument};
+use tearmesh_obj::{Document, TornDocument, named_format};
 
 use crate::arguments::parts_of;
 use crate::arrays::{Array, any, array, floats, os_error, value_error};
@@ -31,7 +31,10 @@ pub(crate) fn read_obj(py: Python<'_>, path: PathBuf) -> PyResult<TornMesh> {
         fs::read(from).map(|bytes| Document::read(&bytes[..]))
     })?;
     let document = document.map_err(|error| os_error(&error, &path))?;
-    let document = document.map_err(|error| refused(&error))?;
+    let document = document.map_err(|error| match named_format(&path) {
+        Some(format) => refused(&format!("this is {format} file, not OBJ; convert it first")),
+        None => refused(&error),
+    })?;
     let mesh = document.mesh().map_err(|error| refused(&error))?;
     for diagnostic in document.diagnostics() {
         let text = CString::new(format!("{}: {diagnostic}", path.display()))?;

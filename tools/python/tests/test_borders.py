@@ -79,6 +79,24 @@ def test_errors_of_files_have_their_name(tmp_path):
     assert str(error.value.filename).endswith("none.toml")
 
 
+def test_files_of_other_formats_are_named(tmp_path):
+    for name, said in [("a.stl", "an STL"), ("a.PLY", "a PLY")]:
+        (tmp_path / name).write_bytes(b"solid x\n" + bytes(80))
+        with pytest.raises(ValueError, match=f"this is {said} file, not OBJ; convert it first"):
+            tearmesh.read_obj(tmp_path / name)
+    (tmp_path / "b.stl").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert len(tearmesh.read_obj(tmp_path / "b.stl").faces) == 1
+
+
+def test_vertices_parted_for_texture_coordinates_have_two_ways_out():
+    tie = [[0, 1, 2], [0, 3, 4]]
+    with pytest.raises(ValueError, match="(?s)v0 joins 2 fans.*read_obj.*maintain_order=True"):
+        tearmesh.cut(np.random.default_rng(1).random((5, 3)), tie, plane=PLANE)
+    with pytest.raises(ValueError) as error:
+        tearmesh.cut(POINTS, [[0, 1, 2], [1, 0, 3], [0, 1, 3]], plane=PLANE)
+    assert "read_obj" not in str(error.value)
+
+
 def test_numbers_of_vertices_are_said_as_they_are():
     with pytest.raises(ValueError, match="faces has 9223372036854775813, which is no vertex"):
         tearmesh.check(np.array([[0, 1, 2**63 + 5]], dtype=np.uint64), 3)
