@@ -460,6 +460,7 @@ impl Lists {
 ///                 Mix::Weighted { of, weights } => {
 ///                     [0, 1].map(|i| (0..3).map(|j| of[j][i] * weights[j] as f32).sum())
 ///                 }
+///                 _ => unimplemented!("a mix of a later version"),
 ///             });
 ///         }
 ///         edit.pass_on(&mut self.masses);

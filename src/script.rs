@@ -80,6 +80,7 @@
 //!                 self.divided.clear();
 //!             }
 //!             Edit::Slide(_) => {} // It moves a vertex, and no corner.
+//!             _ => unimplemented!("an edit of a later version"),
 //!         }
 //!     }
 //! }
