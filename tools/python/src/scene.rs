@@ -21,7 +21,8 @@ pub(crate) fn opening(
     uv: Option<&[f64]>,
 ) -> PyResult<Opening> {
     let refused = |why: &dyn Display| value_error(format!("{}: {why}", path.display()));
-    let text = fs::read_to_string(path).map_err(|error| os_error(&error, path))?;
+    let bytes = fs::read(path).map_err(|error| os_error(&error, path))?;
+    let text = String::from_utf8(bytes).map_err(|error| refused(&error))?;
     let file: SceneFile = toml::from_str(&text).map_err(|error| refused(&error))?;
     let frame = Frame::new(mesh, positions.as_slice(), file.up());
     let scene = file.on(&frame, None, &mut |_, name| {

@@ -44,6 +44,8 @@ def test_a_scene_file_begins_as_the_command_plays_it(sheet, tmp_path):
     ("text", "said"),
     [
         ("[wind]\nvelocity = 1\n", "line 2"),
+        ("base = 'none'\n", "it is none of hang, flag, rip, trouser, fall"),
+        ("base = '\N{LATIN SMALL LETTER E WITH ACUTE}'\n".encode("latin-1"), "utf-8"),
         ("[[hold]]\n[tear]\nnever = true\nthreshold = 2\n", "hold.*; .*tear"),
         ("[[hold]]\nvertices = [9999]\n", "v9998"),
         ("[fabric]\nvt_m = 1\n", "uv"),
@@ -53,7 +55,7 @@ def test_a_scene_file_begins_as_the_command_plays_it(sheet, tmp_path):
 )
 def test_a_scene_file_is_refused_with_what_is_wrong(sheet, tmp_path, text, said):
     path = tmp_path / "scene.toml"
-    path.write_text(text)
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
     (tmp_path / "broken.obj").write_text("v 1\n")
     with pytest.raises(ValueError, match=rf"(?s)\.(toml|obj): .*{said}|{said}"):
         tearmesh.Simulation.of_scene(*sheet, path)

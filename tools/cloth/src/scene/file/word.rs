@@ -43,7 +43,11 @@ impl<'de, T: Words> Deserialize<'de> for Word<T> {
         let word = String::deserialize(from)?;
         let found = T::ALL.iter().find(|(one, _)| *one == word);
         let known = found.map(|&(_, value)| Word(value));
-        known.ok_or_else(|| D::Error::custom(OUT_OF_RANGE))
+        known.ok_or_else(|| {
+            let words: Vec<&str> = T::ALL.iter().map(|(word, _)| *word).collect();
+            let words = words.join(", ");
+            D::Error::custom(format!("{OUT_OF_RANGE}: it is none of {words}"))
+        })
     }
 }
 
