@@ -1,4 +1,4 @@
-//! What a new value is made of.
+//! The mixture of old values that a new value is.
 
 use crate::id::HalfEdgeId;
 

@@ -1,4 +1,4 @@
-//! What exactly is wrong with triangles that `build.rs` refused.
+//! The defects of triangles that `build.rs` refused.
 //!
 //! Thorough rather than fast: nothing is assumed of the rest of the mesh when one part of it is broken.
 //! O(n log n).

@@ -1,4 +1,4 @@
-//! What a cut inserts between vertices that one hold has is held as well, and goes where they go.
+//! Vertices that a cut inserts between those of one hold: they are held as well, and go where those go.
 
 use std::collections::BTreeSet;
 

@@ -298,10 +298,11 @@ fn a_path_that_overflows_between_its_points_is_refused() {
 #[test]
 fn a_wind_that_begins_later_is_none_before() {
     // Times are exact.
-    let step_s = 1.0 / 1024.0;
-    let after = |from_s: Option<f64>, steps: u32| {
+    let step_s = 1.0 / 2048.0;
+    let after = |method: &Method, from_s: Option<f64>, steps: u32| {
         let run = play(staged(8, |frame| Scene {
             duration_s: f64::from(steps) * step_s,
+            solver: method.clone(),
             step_s: Some(step_s),
             wind: from_s.map(|from_s| SwayingWind {
                 from_s,
@@ -312,9 +313,12 @@ fn a_wind_that_begins_later_is_none_before() {
         }));
         run.cloth().positions().to_vec()
     };
-    let (none, early) = (after(None, 100), after(Some(0.0), 100));
-    assert_ne!(early, none);
-    assert_eq!(after(Some(0.125), 128), none);
-    // A cloth at rest does not know how late it is.
-    assert_eq!(after(Some(0.125), 228), early);
+    for (name, method) in methods() {
+        let none = after(&method, None, 200);
+        let early = after(&method, Some(0.0), 200);
+        assert_ne!(early, none, "{name}");
+        assert_eq!(after(&method, Some(0.125), 256), none, "{name}");
+        // A cloth at rest does not know how late it is.
+        assert_eq!(after(&method, Some(0.125), 456), early, "{name}");
+    }
 }

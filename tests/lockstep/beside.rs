@@ -1,4 +1,4 @@
-//! What is kept beside a mesh: positions, masses, data of vertices and corners.
+//! The followers beside a mesh: positions, masses, data of vertices and corners.
 
 use tearmesh::{ChildFace, HalfEdgeId, Masses, Mix, PerCorner, Positions, VertexId};
 

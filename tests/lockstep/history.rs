@@ -1,4 +1,4 @@
-//! How to undo what the log told.
+//! Undoing the edits of a log.
 
 use tearmesh::{Edit, HalfEdgeId, Mesh, Mix, VertexId};
 

@@ -1,4 +1,4 @@
-//! What an insertion must do, and what it must leave as it was.
+//! The oracle of insertions: what one must do, and what it must leave as it was.
 
 use tearmesh::insert::{Chord, ChordEnd, InsertRefusal, Plan, Point};
 use tearmesh::{Cursor, Edit, HalfEdgeId, Insert, Mesh, Mix};

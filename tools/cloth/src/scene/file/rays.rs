@@ -29,12 +29,12 @@ impl<'de> Deserialize<'de> for RayPair {
         let texts = Vec::<String>::deserialize(from)?;
         let rays = texts
             .iter()
-            .flat_map(|text| split_pair(text).map(|part| ray(&text[part])));
-        let rays: Result<Vec<Ray>, Unreadable> = rays.collect();
-        let rays = rays.map_err(D::Error::custom)?;
-        let two = <[Ray; 2]>::try_from(rays);
-        let two = two.map_err(|found| D::Error::invalid_length(found.len(), &"two rays"));
-        two.map(RayPair)
+            .flat_map(|text| split_pair(text).map(|part| ray(&text[part])))
+            .collect::<Result<Vec<Ray>, Unreadable>>()
+            .map_err(D::Error::custom)?;
+        <[Ray; 2]>::try_from(rays)
+            .map(RayPair)
+            .map_err(|found| D::Error::invalid_length(found.len(), &"two rays"))
     }
 }
 
@@ -99,12 +99,7 @@ pub fn ray(text: &str) -> Result<Ray, Unreadable> {
             RayError::Direction { .. } if is_aimed => (1, "expected a point other than the origin"),
             _ => (1, "expected a direction"),
         };
-        Unreadable {
-            code: "E-RAY-ZERO",
-            message: error.to_string(),
-            part: halves.parts[half].clone(),
-            label,
-        }
+        halves.wrong(half, "E-RAY-ZERO", error.to_string(), label)
     })
 }
 
@@ -121,12 +116,7 @@ pub fn plane(text: &str) -> Result<Plane, Unreadable> {
             PlaneError::Point { .. } => (0, "expected a point that is less far away"),
             _ => (1, "expected a normal"),
         };
-        Unreadable {
-            code: "E-PLANE-ZERO",
-            message: error.to_string(),
-            part: halves.parts[half].clone(),
-            label,
-        }
+        halves.wrong(half, "E-PLANE-ZERO", error.to_string(), label)
     })
 }
 
@@ -159,6 +149,22 @@ struct Halves {
 }
 
 impl Halves {
+    /// Why one of both halves cannot be used.
+    fn wrong(
+        &self,
+        half: usize,
+        code: &'static str,
+        message: String,
+        label: &'static str,
+    ) -> Unreadable {
+        Unreadable {
+            code,
+            message,
+            part: self.parts[half].clone(),
+            label,
+        }
+    }
+
     /// Reads the text of a ray or a plane. `label` is what to say where it has none of the marks.
     fn read(
         text: &str,

@@ -45,8 +45,10 @@ impl<'de, T: Words> Deserialize<'de> for Word<T> {
         let known = found.map(|&(_, value)| Word(value));
         known.ok_or_else(|| {
             let words: Vec<&str> = T::ALL.iter().map(|(word, _)| *word).collect();
-            let words = words.join(", ");
-            D::Error::custom(format!("{OUT_OF_RANGE}: it is none of {words}"))
+            D::Error::custom(format!(
+                "{OUT_OF_RANGE}: it is none of {}",
+                words.join(", ")
+            ))
         })
     }
 }
