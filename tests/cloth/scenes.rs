@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 
 use tearmesh::{CutMethod, Point, Vector, VertexId};
 use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut};
-use tearmesh_cloth::{Collider, Constraint, Limiter, Method, Path, Quality, StepError, energy};
+use tearmesh_cloth::{
+    Collider, Constraint, Limiter, Method, Path, Quality, StepError, Wind, energy,
+};
 
 use crate::parts::scenes::{Played, methods, play, played, square, staged, swaying, top};
 use crate::parts::{near, plane, ray, v};
@@ -292,6 +294,29 @@ fn a_path_that_overflows_between_its_points_is_refused() {
     let middle = widest.expect("coordinates that can be used").at(0.0);
     assert_eq!(middle, x(0.0));
     assert_eq!(Path::new([(0.0, x(most * 1.01))]), None);
+}
+
+/// The step of a light cloth suits the gale that it will be in.
+#[test]
+fn the_step_suits_a_wind_that_begins_later() {
+    for (name, method) in methods() {
+        let step_s = |from_s| {
+            let run = staged(8, |frame| Scene {
+                solver: method.clone(),
+                areal_density_kg_per_m2: 0.02,
+                wind: Some(SwayingWind {
+                    from_s,
+                    ..SwayingWind::steady(Wind {
+                        velocity_m_per_s: Vector::z() * 20.0,
+                        coefficient: 200.0,
+                    })
+                }),
+                ..Scene::hang(frame)
+            });
+            run.step_s()
+        };
+        assert_eq!(step_s(0.0), step_s(0.1), "{name}");
+    }
 }
 
 /// Before it begins a wind does nothing, and then it sways from its own beginning.

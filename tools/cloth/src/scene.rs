@@ -74,14 +74,15 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Returns the loads with which the scene begins.
+    /// Returns the loads with which the scene begins; but a wind that begins later blows already, since the step has
+    /// to suit it.
     #[must_use]
     pub fn loads(&self) -> Loads {
         Loads {
             gravity_m_per_s2: Some(self.gravity_m_per_s2)
                 .filter(|gravity| *gravity != Vector::zeros()),
             drag_per_s: Some(self.drag_per_s).filter(|drag| *drag != 0.0),
-            wind: self.wind.map(|wind| wind.at(0.0)),
+            wind: self.wind.map(|wind| wind.at(wind.from_s)),
             colliders: self.colliders.clone(),
         }
     }

@@ -187,6 +187,9 @@ impl Simulation {
         let uv = uv.map(|uv| floats("uv", uv, &[mesh.face_count(), 3, 2]));
         let opening = scene::opening(&path, &mesh, &positions, uv.transpose()?.as_deref())?;
         let mut made = Simulation::of(points.py(), mesh, positions, opening.def)?;
+        if let Some(wind) = opening.wind.filter(|wind| wind.from_s > 0.0) {
+            made.sim.set_wind(Some(wind.at(0.0))).map_err(value_error)?;
+        }
         made.sim.hold(opening.held).map_err(value_error)?;
         for scissor in &opening.cuts {
             made.cuts.push(made.sim.cut(scissor).map_err(value_error)?);

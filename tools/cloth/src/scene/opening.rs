@@ -26,7 +26,8 @@ use crate::simulation::definition::SimulationDef;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Opening {
-    /// The definition of the simulation. Its loads have the wind of the beginning.
+    /// The definition of the simulation. Its loads have the wind as it begins to blow, since the step has to suit it:
+    /// one that begins later is to be [set](crate::Simulation::set_wind) as it is at 0.
     pub def: SimulationDef,
     /// The vertices that are held, ascending: those of all holds that begin at 0 and lead nowhere, or of the first
     /// that leads if there are none.
