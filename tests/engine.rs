@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use tearmesh::engine::{DrawBuffers, DrawChanges, normals};
+use tearmesh::engine::{DrawBuffers, DrawChanges, draw_origin, normals};
 use tearmesh::script::{Step, World};
 use tearmesh::unsewn::{self, WeldError};
 use tearmesh::{
@@ -20,6 +20,9 @@ use crate::surfaces::corpus;
 use crate::work::Work;
 
 type Value = [f64; 2];
+
+/// Any origin serves, if it is the same throughout.
+const ORIGIN: Point = Point::new(0.25, -3.0, 1.0);
 
 /// What a GPU has, which is told of changes alone.
 #[derive(PartialEq)]
@@ -41,7 +44,7 @@ impl Gpu {
             .resize(buffers.len(), ([f32::NAN; 3], [f64::NAN; 2]));
         self.indices.resize(buffers.indices().len(), u32::MAX);
         for &slot in &changes.slots {
-            let place = buffers.place_f32(slot, positions);
+            let place = buffers.place_f32(slot, positions, ORIGIN);
             self.vertices[slot as usize] = (place, *buffers.value(slot));
         }
         for &corner in &changes.corners {
@@ -50,7 +53,7 @@ impl Gpu {
     }
 
     fn full(buffers: &DrawBuffers<Value>, positions: &Positions) -> Gpu {
-        let places = buffers.places_f32(positions);
+        let places = buffers.places_f32(positions, ORIGIN);
         let values = buffers.iter().map(|(_, &value)| value);
         Gpu {
             vertices: places.into_iter().zip(values).collect(),
@@ -122,6 +125,55 @@ fn buffers_that_follow_are_those_made_anew() {
         });
     }
     assert!(edits > 10 * count && seams > 100 * count && 10 * written < all);
+}
+
+/// Patches of all sizes, near zero and far from it.
+#[test]
+fn positions_relative_to_the_draw_origin_are_exact_to_a_millionth() {
+    let mut random = Random(7);
+    let (mut moved, mut stayed) = (0, 0);
+    for _ in 0..10 * cases() {
+        let extent = 10_f64.powf(24.0 * random.next() - 12.0);
+        let away = extent * 10_f64.powf(9.0 * random.next() - 1.0);
+        let corner = [0; 3].map(|_| away * (2.0 * random.next() - 1.0));
+        let points: Vec<Point> = (0..4)
+            .map(|_| Point::from(corner.map(|x| x + extent * random.next())))
+            .collect();
+        let origin = draw_origin(points.iter().copied());
+        let along = |axis: usize| points.iter().map(move |p| p[axis]);
+        let least = |axis| along(axis).fold(f64::INFINITY, f64::min);
+        let most = |axis| along(axis).fold(f64::NEG_INFINITY, f64::max);
+        let given = (0..3)
+            .map(|axis| most(axis) - least(axis))
+            .fold(0.0, f64::max);
+        for axis in 0..3 {
+            for x in along(axis) {
+                let drawn = f64::from((x - origin[axis]) as f32) + origin[axis];
+                assert!((drawn - x).abs() <= 1e-6 * given, "{points:?}: {origin}");
+            }
+        }
+        let farthest = (0..3)
+            .flat_map(along)
+            .fold(0.0, |far: f64, x| far.max(x.abs()));
+        if farthest <= 2.0 * given {
+            assert_eq!(origin, Point::origin(), "{points:?}");
+        }
+        let is_moved = origin != Point::origin();
+        (moved, stayed) = (
+            moved + usize::from(is_moved),
+            stayed + usize::from(!is_moved),
+        );
+    }
+    assert!(
+        moved > stayed && stayed > 100,
+        "{moved} moved, {stayed} stayed"
+    );
+    // None, one, and those at both ends of the numbers.
+    let one = Point::new(500_000.25, 0.1, 0.0);
+    assert_eq!(draw_origin([]), Point::origin());
+    assert_eq!(draw_origin([one, one]), one);
+    let ends = [f64::MAX, -f64::MAX].map(|x| Point::new(x, 1.0, 0.0));
+    assert_eq!(draw_origin(ends), Point::origin());
 }
 
 /// Twice the area of a face, along its normal.

@@ -16,6 +16,7 @@
 
 use crate::attribute::Blend;
 use crate::edit::{Cursor, Edit, Follower, divide_corners};
+use crate::geometry::{Point, max_abs};
 use crate::id::{HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Place;
@@ -29,13 +30,15 @@ use crate::place::Place;
 /// 20 bytes per slot.
 ///
 /// ```
-/// use tearmesh::engine::DrawBuffers;
+/// use tearmesh::engine::{DrawBuffers, draw_origin};
 /// use tearmesh::{shapes, split, Edits};
 ///
 /// let (mut mesh, mut positions) = shapes::grid(2, 2);
 /// let uv = mesh.half_edges().map(|h| positions.at(mesh.origin(h)));
 /// let mut buffers = DrawBuffers::new(&mesh, uv.map(|p| [p.x as f32, p.y as f32]).collect());
-/// let (mut on_gpu, mut index_buffer) = (buffers.places_f32(&positions), buffers.indices().to_vec());
+/// let origin = draw_origin(positions.as_slice().iter().copied());
+/// let mut on_gpu = buffers.places_f32(&positions, origin);
+/// let mut index_buffer = buffers.indices().to_vec();
 ///
 /// let (mut edits, v, face) = (Edits::new(), mesh.vertex(4), mesh.face(0));
 /// split::vertex(&mut mesh, v, &[face], &mut edits)?;
@@ -45,13 +48,14 @@ use crate::place::Place;
 /// assert_eq!((&changes.slots[..], changes.corners.len()), (&[9][..], 1)); // of 10 and 24
 /// on_gpu.resize(buffers.len(), [0.0; 3]);
 /// for &slot in &changes.slots {
-///     on_gpu[slot as usize] = buffers.place_f32(slot, &positions); // and buffers.value(slot)
+///     on_gpu[slot as usize] = buffers.place_f32(slot, &positions, origin); // and buffers.value(slot)
 /// }
 /// index_buffer.resize(buffers.indices().len(), 0);
 /// for &corner in &changes.corners {
 ///     index_buffer[corner as usize] = buffers.indices()[corner as usize];
 /// }
-/// assert_eq!((on_gpu, &index_buffer[..]), (buffers.places_f32(&positions), buffers.indices()));
+/// assert_eq!(on_gpu, buffers.places_f32(&positions, origin));
+/// assert_eq!(index_buffer, buffers.indices());
 /// # Ok::<(), tearmesh::SplitRefusal>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -189,32 +193,34 @@ impl<T: Blend> DrawBuffers<T> {
         slots.map(|slot| (slot.vertex, &self.values[slot.corner as usize]))
     }
 
-    /// Returns the position of a slot, rounded to `f32`.
+    /// Returns the position of a slot relative to `origin`, rounded to `f32`. For the origin, see [`draw_origin`].
     ///
     /// # Panics
     ///
     /// If `slot` is not a slot of the buffers, or `place` does not store the position of its vertex.
     #[must_use]
-    pub fn place_f32(&self, slot: u32, place: &(impl Place + ?Sized)) -> [f32; 3] {
-        let point = place.at(self.vertex(slot));
+    pub fn place_f32(&self, slot: u32, place: &(impl Place + ?Sized), origin: Point) -> [f32; 3] {
+        let point = place.at(self.vertex(slot)) - origin;
         [point.x as f32, point.y as f32, point.z as f32]
     }
 
-    /// Returns the positions of all slots, rounded to `f32`. Use it for a mesh whose vertices all move.
+    /// Returns the positions of all slots relative to `origin`, rounded to `f32`. Use it for a mesh whose vertices
+    /// all move.
     ///
     /// # Panics
     ///
     /// If `place` does not store the position of a vertex.
     #[must_use]
-    pub fn places_f32(&self, place: &(impl Place + ?Sized)) -> Vec<[f32; 3]> {
+    pub fn places_f32(&self, place: &(impl Place + ?Sized), origin: Point) -> Vec<[f32; 3]> {
         let slots = 0..self.slots.len() as u32;
-        slots.map(|slot| self.place_f32(slot, place)).collect()
+        let places = slots.map(|slot| self.place_f32(slot, place, origin));
+        places.collect()
     }
 
     /// Returns the changes that edits made since the previous call, and starts a new list. A slot
     /// counts as changed if an edit moved its vertex. Motion that is not in the log, such as that
     /// of a simulation, is not tracked.
-    #[must_use = "what was changed is not told again"]
+    #[must_use = "each change is listed once"]
     pub fn take_changes(&mut self) -> DrawChanges {
         DrawChanges {
             slots: self.changed_slots.take(self.slots.len()),
@@ -401,6 +407,50 @@ impl<T: Blend> Follower for DrawBuffers<T> {
             }
         }
     }
+}
+
+/// Returns an origin for positions in `f32`: they are exact to a millionth of the extent of the points if they
+/// are relative to it.
+///
+/// A number in `f32` has 24 bits, so a sheet of one metre that is 4,000 km from the origin of its coordinates has its
+/// vertices on steps of half a metre. The origin returned is a point of a grid with cells of at least four times the
+/// extent. It is therefore zero for points within twice their extent of zero, and otherwise has few digits. Points
+/// that do not extend anywhere are their own origin. Linear.
+///
+/// ```
+/// use tearmesh::engine::draw_origin;
+/// use tearmesh::Point;
+///
+/// let sheet = |x: f64, y: f64| draw_origin([Point::new(x, y, 0.0), Point::new(x + 1.0, y + 1.0, 0.0)]);
+/// assert_eq!(sheet(0.0, 1.0), Point::origin());
+/// assert_eq!(sheet(500_000.3, 4_649_776.2), Point::new(500_000.0, 4_649_776.0, 0.0));
+/// ```
+#[must_use]
+pub fn draw_origin(points: impl IntoIterator<Item = Point>) -> Point {
+    let boxes = points.into_iter().map(|p| [p.coords, p.coords]);
+    let bounds = boxes.reduce(|[least, most], [p, _]| [least.inf(&p), most.sup(&p)]);
+    let Some([least, most]) = bounds else {
+        return Point::origin();
+    };
+    let extent = max_abs(most - least);
+    if extent == 0.0 {
+        return least.into();
+    }
+    let cell = 4.0 * power_of_two_above(extent);
+    let middle = least / 2.0 + most / 2.0;
+    let origin = middle.map(|x| (x / cell).round() * cell);
+    if origin.iter().all(|x| x.is_finite()) {
+        origin.into()
+    } else {
+        Point::origin() // Beside numbers this large, no other origin is nearer.
+    }
+}
+
+/// The smallest power of two above a positive number; infinity if there is none.
+fn power_of_two_above(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    const LAST_PLACE: u64 = 1 << 52;
+    f64::from_bits((x.to_bits() & EXPONENT) + LAST_PLACE)
 }
 
 /// Numbers that were marked, each listed once.

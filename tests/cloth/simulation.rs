@@ -1,6 +1,7 @@
 //! A simulation does what its verbs say: grips hold, rips run, cuts and sewing keep everything in
 //! step, and what is refused changes nothing.
 
+mod buffers;
 mod replay;
 
 use tearmesh::geometry::length;
@@ -530,54 +531,6 @@ fn definitions_that_make_no_simulation_are_refused() {
         change(&mut def);
         let error = Simulation::new(mesh, &positions, def).expect_err(named);
         assert!(error.to_string().contains(named), "{error}");
-    }
-}
-
-#[test]
-fn what_changed_brings_a_copy_of_the_buffers_up_to_date() {
-    /// Copies the slots that changed.
-    fn copy<T: Copy + Default>(copied: &mut Vec<T>, from: &[T], changed: &[u32]) {
-        copied.resize(from.len(), T::default());
-        for slot in changed.iter().map(|&slot| slot as usize) {
-            copied[slot] = from[slot];
-        }
-    }
-    let mut sim = hung(8, SimulationDef::default());
-    let buffers = sim.draw_buffers();
-    let mut places = buffers.positions().to_vec();
-    let (mut indices, mut pieces) = (buffers.indices().to_vec(), buffers.pieces().to_vec());
-    assert_eq!(places.len(), 81);
-    assert_eq!(buffers.take_changes(), Default::default());
-    let mut cut = None;
-    for frame in 0..40 {
-        pass(&mut sim, 1.0 / 60.0);
-        match frame {
-            10 => cut = Some(sim.cut(&across(0.43)).expect("cut")),
-            20 => drop(sim.heal(Wounds::Cut(cut.expect("cut")))),
-            _ => {}
-        }
-        let buffers = sim.draw_buffers();
-        let changes = buffers.take_changes();
-        copy(&mut places, buffers.positions(), &changes.slots);
-        copy(&mut indices, buffers.indices(), &changes.corners);
-        copy(&mut pieces, buffers.pieces(), &changes.faces);
-        assert_eq!(places, buffers.positions());
-        assert_eq!(indices, buffers.indices());
-        assert_eq!(pieces, buffers.pieces());
-        let still = places.len() - changes.slots.len();
-        assert!(still >= 9, "held vertices do not change: {still}");
-        assert!(changes.faces.is_empty() || [10, 20, 21, 22, 23, 24].contains(&frame));
-        check(&mut sim);
-    }
-    assert_eq!(sim.open_pairs(), 0);
-    let mesh = sim.mesh();
-    let corners: Vec<_> = mesh.half_edges().map(|h| mesh.origin(h)).collect();
-    let points = sim.cloth().positions().to_vec();
-    let buffers = sim.draw_buffers();
-    for (corner, v) in corners.into_iter().enumerate() {
-        let slot = buffers.indices()[corner];
-        let at = buffers.positions()[slot as usize];
-        assert_eq!(at[1], points[v.index()].y as f32);
     }
 }
 

@@ -108,6 +108,8 @@ impl Simulation {
         mut def: SimulationDef,
     ) -> Result<Simulation, SimulationError> {
         let is_recorded = std::mem::take(&mut def.is_recorded);
+        // What a cloth looks like is not part of what its log repeats.
+        let mut texture = std::mem::take(&mut def.texture);
         let digest = is_recorded.then(|| log::digest(&mesh, positions, &def));
         let (mut mesh, seams) = Seams::open(mesh, def.seams)?;
         let seen = positions.seen();
@@ -119,6 +121,13 @@ impl Simulation {
         let (given, corners) = (rest.len(), mesh.half_edge_count());
         if given != corners {
             return Err(SimulationError::Rest { given, corners });
+        }
+        if texture.is_empty() {
+            texture.resize(corners, [0.0; 2]);
+        }
+        let given = texture.len();
+        if given != corners {
+            return Err(SimulationError::Texture { given, corners });
         }
         let area = |f: FaceId| {
             let [a, b, c] = f.half_edges().map(|h| rest[h.index()]);
@@ -146,7 +155,7 @@ impl Simulation {
         if !(step_s > 0.0 && step_s.is_finite()) {
             return Err(SimulationError::Step(step_s));
         }
-        let mut buffers = ClothBuffers::new(&mesh, cloth.positions(), seen);
+        let mut buffers = ClothBuffers::new(&mesh, cloth.positions(), texture, seen);
         let mut strengths = PerVertex::new(strengths).starting_at(seen);
         let mut events = Vec::new();
         if let Some(tear) = &mut tear {

@@ -26,6 +26,9 @@ pub struct SimulationDef {
     pub strengths: Vec<f64>,
     /// The rest shape of faces: a place in metres for each corner, face by face. Empty for where they are.
     pub rest: Vec<Point>,
+    /// The texture coordinates for [drawing](super::Simulation::draw_buffers): those of each corner, face by face.
+    /// Empty, as by default, for zero everywhere.
+    pub texture: Vec<[f32; 2]>,
     /// The seams of a garment, whose panels are the mesh; none by default.
     pub seams: Vec<Seam>,
     /// The loads: by default gravity along −y, and the drag of still air.
@@ -48,6 +51,7 @@ impl Default for SimulationDef {
             tearing: Some(Tearing::default()),
             strengths: Vec::new(),
             rest: Vec::new(),
+            texture: Vec::new(),
             seams: Vec::new(),
             loads: Loads {
                 gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),

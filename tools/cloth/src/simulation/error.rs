@@ -32,6 +32,13 @@ pub enum SimulationError {
         /// The number of corners.
         corners: usize,
     },
+    /// The number of texture coordinates is not that of corners.
+    Texture {
+        /// The number of texture coordinates.
+        given: usize,
+        /// The number of corners.
+        corners: usize,
+    },
     /// The step, in seconds, is not positive and finite.
     Step(f64),
 }
@@ -45,6 +52,12 @@ impl fmt::Display for SimulationError {
             SimulationError::Tearing(error) => error.fmt(f),
             SimulationError::Rest { given, corners } => {
                 write!(f, "there are {given} places at rest for {corners} corners")
+            }
+            SimulationError::Texture { given, corners } => {
+                write!(
+                    f,
+                    "there are {given} texture coordinates for {corners} corners"
+                )
             }
             SimulationError::Step(s) => write!(f, "a step of {s} s is not positive and finite"),
         }
