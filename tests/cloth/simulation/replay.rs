@@ -14,6 +14,7 @@ use tearmesh_cloth::{
 };
 
 use super::{ALL, across, at, check, drag, hung, pass, sheet};
+use crate::digest;
 use crate::parts::scenes::methods;
 use crate::parts::{ray, v};
 
@@ -88,10 +89,9 @@ fn a_run_of_verbs_has_the_bytes_that_it_had() {
         ..SimulationDef::default()
     };
     let sim = played(12, &def);
-    let hash = words(&sim).into_iter().fold(0, |hash: u64, word| {
-        (hash ^ word).wrapping_mul(0x0100_0000_01b3).rotate_left(29)
-    });
-    assert_eq!(format!("{hash:016x}"), "ac8c2d7f5d7fe64e");
+    let bytes = words(&sim).into_iter().flat_map(u64::to_le_bytes);
+    let digest = digest::after(digest::EMPTY, bytes);
+    assert_eq!(format!("{digest:016x}"), "52662c4a2055afa5");
 }
 
 #[test]
