@@ -108,7 +108,7 @@ pub struct Scissor {
 #[non_exhaustive]
 pub enum CutMethod {
     /// Inserts vertices where the plane crosses edges, so that the seam is straight. It adds faces,
-    /// and always divides a mesh that the slit crosses completely. A snap ([`Scissor::snap`])
+    /// and always divides a mesh that the slit crosses completely. A snap ([`Scissor::with_snap`])
     /// avoids thin faces; the seam may then deviate from the plane by as much as the snap allows.
     #[default]
     Exact,
@@ -170,7 +170,7 @@ impl Scissor {
         }
     }
 
-    /// The default value of [`Scissor::snap`], as a fraction of an edge.
+    /// The default value of [`Scissor::with_snap`], as a fraction of an edge.
     pub const SNAP: f64 = 0.05;
 
     /// Sets how close to an end of its edge a crossing may be, as a fraction of the edge, before the
@@ -185,7 +185,7 @@ impl Scissor {
     /// are off by a whole edge. [`CutReport::tip_overshoots`] reports the difference for each cut, and
     /// [`CutReport::aims`] the ends that are farther off than the snap accounts for.
     #[must_use]
-    pub fn snap(mut self, snap: f64) -> Scissor {
+    pub fn with_snap(mut self, snap: f64) -> Scissor {
         self.snap = if snap.is_nan() {
             0.0
         } else {
@@ -199,14 +199,14 @@ impl Scissor {
     /// surface changes slightly. A flat sheet keeps its area and its outline. The default is false.
     ///
     /// A vertex stays where it is, and the seam deviates there, if a face would turn over or lose 70 %
-    /// of its altitude, or would be cut into a face below the bound of [`Scissor::snap`]. So does a
+    /// of its altitude, or would be cut into a face below the bound of [`Scissor::with_snap`]. So does a
     /// vertex that is already torn. A vertex on the boundary moves only along a boundary that is
     /// straight there: both its boundary edges lie on one line, of which the edge of the crossing is a
     /// part. That is judged by coordinates, and exact but for their rounding: the vertex may be off the
     /// line between its neighbours by 32 · 2⁻⁵³ of the largest of their coordinates. So corners and
     /// curved boundaries never move.
     #[must_use]
-    pub fn snap_move(mut self, snap_move: bool) -> Scissor {
+    pub fn with_snap_move(mut self, snap_move: bool) -> Scissor {
         self.snap_move = snap_move;
         self
     }
@@ -283,14 +283,14 @@ impl Scissor {
     /// Sets whether to ignore the side planes and cut along the whole plane. The default is false.
     /// A scissor made by [`Scissor::by_plane`] always cuts along the whole plane.
     #[must_use]
-    pub fn through(mut self, through: bool) -> Scissor {
+    pub fn with_through(mut self, through: bool) -> Scissor {
         self.strip.through = through || self.rays.is_none();
         self
     }
 
     /// Sets the rule for where a finite cut of the method `partition` ends. Other methods ignore it.
     #[must_use]
-    pub fn tips(self, tips: CutTips) -> Scissor {
+    pub fn with_tips(self, tips: CutTips) -> Scissor {
         Scissor { tips, ..self }
     }
 
@@ -304,7 +304,7 @@ impl Scissor {
     /// let mut positions = Positions::new([sheet(1.0), sheet(0.0)].concat())?;
     /// let mut mesh = Mesh::build(8, &[[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])?;
     /// let down = |x, y| Ray::new(Point::new(x, y, 5.0), Vector::new(0.0, 0.0, -1.0));
-    /// let scissor = Scissor::new(down(0.4, -1.0)?, down(0.7, 2.0)?)?.layers(CutLayers::First);
+    /// let scissor = Scissor::new(down(0.4, -1.0)?, down(0.7, 2.0)?)?.with_layers(CutLayers::First);
     /// let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut Edits::new())?;
     /// assert_eq!(mesh.components().count(), 3);
     /// let [a, b] = cut.layers().map(|hit| hit.expect("the rays pass beside the sheet"));
@@ -312,7 +312,7 @@ impl Scissor {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn layers(self, layers: CutLayers) -> Scissor {
+    pub fn with_layers(self, layers: CutLayers) -> Scissor {
         Scissor { layers, ..self }
     }
 

@@ -1,11 +1,11 @@
 //! The sliding of a vertex along an edge.
 //!
-//! A straight cut may move a vertex that is almost on its plane onto it ([`Scissor::snap_move`]).
+//! A straight cut may move a vertex that is almost on its plane onto it ([`Scissor::with_snap_move`]).
 //! The mesh does not change but for a count of slides; its positions and other values do. Values at the vertex are
 //! interpolated along the edge, so a texture on the surface stays in place, and the rest state of a
 //! cloth still describes the same cloth. Masses do not change.
 //!
-//! [`Scissor::snap_move`]: crate::Scissor::snap_move
+//! [`Scissor::with_snap_move`]: crate::Scissor::with_snap_move
 
 use std::fmt;
 

@@ -170,10 +170,13 @@ impl World {
                 let Ok(scissor) = scissor else { return };
                 let scissor = match span {
                     Span::All => scissor,
-                    Span::First => scissor.layers(CutLayers::First),
+                    Span::First => scissor.with_layers(CutLayers::First),
                     Span::Plane => Scissor::by_plane(scissor.plane()),
                 };
-                let scissor = scissor.snap(snap).snap_move(snap_move).through(through);
+                let scissor = scissor
+                    .with_snap(snap)
+                    .with_snap_move(snap_move)
+                    .with_through(through);
                 if snap_move {
                     self.no_slide_leaves_a_thin_face(method, &scissor, snap);
                 }
@@ -231,7 +234,7 @@ impl World {
         let (first, before) = (self.work.edits.cursor(), self.work.altitudes());
         let kept = [false, true].map(|moves| {
             let mut work = self.work.clone();
-            let made = work.try_cut(method, &scissor.clone().snap_move(moves));
+            let made = work.try_cut(method, &scissor.clone().with_snap_move(moves));
             made.ok()?;
             Some(work.kept_by(work.edits.since(first), &before))
         });

@@ -118,13 +118,13 @@ impl Made {
     }
 
     fn a_plane_cuts_as_two_rays_through_everything_do(&self, case: &Case, method: CutMethod) {
-        let through = case.scissor().through(true);
+        let through = case.scissor().with_through(true);
         let by_rays = Made::new(case, &through, method);
         let before = Work::of(&case.before);
         let aimed = through.aimed_at(&before.mesh, &before.positions);
         let alone = Scissor::by_plane(aimed.expect("no side planes").plane());
         assert_eq!(alone.sides(), None);
-        let by_plane = Made::new(case, &alone.through(false), method);
+        let by_plane = Made::new(case, &alone.with_through(false), method);
         assert_eq!(by_plane.work.mesh, by_rays.work.mesh, "{}", self.name);
         let [bits, others] = [&by_plane, &by_rays].map(|made| made.work.positions.as_slice());
         assert_eq!(bits, others);
@@ -194,7 +194,7 @@ fn a_cut_tells_what_the_mesh_shows() {
 fn straight_cuts_satisfy_the_oracle_and_tell_what_it_sees() {
     let (mut tips_of_all, mut faces, mut sideless) = (0, 0, 0);
     for case in cases() {
-        let scissor = case.scissor().snap(0.0);
+        let scissor = case.scissor().with_snap(0.0);
         let made = Made::new(case, &scissor, CutMethod::Exact);
         let facts = judged(&case.before, &case.cut, &made.work.surface(), case.name);
         let report = &made.report;

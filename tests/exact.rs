@@ -78,7 +78,7 @@ fn along_polyline(work: &mut Work, corners: &[[f64; 2]], view: View<'_>, snap: f
             Some(end) => Scissor::continued(end, ray(view(two[1])), &work.positions),
             None => Scissor::new(ray(view(two[0])), ray(view(two[1]))),
         };
-        let scissor = scissor.expect("a plane").snap(snap);
+        let scissor = scissor.expect("a plane").with_snap(snap);
         let (cut, _) = work.cut(CutMethod::Exact, &scissor);
         last = cut.ends().map(|[_, end]| end.clone());
     }
@@ -177,7 +177,7 @@ fn for_through_cuts(
             let (scissor, _) = random_generic_cut(&sheet, &mut random);
             let before = Work::of(&sheet);
             let mut work = before.clone();
-            let report = work.exact(&make(scissor.through(true)));
+            let report = work.exact(&make(scissor.with_through(true)));
             visit(&before, &work, &report, &work.kept(&before.altitudes()));
         }
     }
@@ -187,7 +187,7 @@ fn for_through_cuts(
 fn a_snap_keeps_faces_from_getting_thin() {
     for snap in [0.0, 0.02, Scissor::SNAP, 0.1, 0.2] {
         let (mut least, mut slivers) = (f64::INFINITY, 0);
-        let make = |scissor: Scissor| scissor.snap(snap);
+        let make = |scissor: Scissor| scissor.with_snap(snap);
         for_through_cuts(47, make, |_, _, _, kept| {
             least = kept.iter().copied().fold(least, f64::min);
             slivers += kept.iter().filter(|kept| **kept < 0.02).count();
@@ -201,7 +201,7 @@ fn a_snap_keeps_faces_from_getting_thin() {
 #[test]
 fn a_snap_that_moves_makes_the_seam_straight() {
     let (mut deviations, mut moved) = (Vec::new(), 0);
-    let make = |scissor: Scissor| scissor.snap(Scissor::SNAP).snap_move(true);
+    let make = |scissor: Scissor| scissor.with_snap(Scissor::SNAP).with_snap_move(true);
     for_through_cuts(53, make, |before, work, report, kept| {
         let is_slide = |edit: &Edit<'_>| matches!(edit, Edit::Slide(_));
         moved += work.edits.iter().filter(is_slide).count();
@@ -231,7 +231,7 @@ fn snapped_slits_are_whole_and_of_the_right_length() {
                 let half = 0.1 + 0.1 * random.next();
                 let end = |t: f64| [x + t * cos, y + t * sin];
                 let mut work = Work::of(&sheet);
-                let report = work.exact(&between(end(-half), end(half)).snap(snap));
+                let report = work.exact(&between(end(-half), end(half)).with_snap(snap));
                 assert_eq!(work.mesh.boundary_loops().len(), 2, "{x} {y}");
                 assert_eq!(report.tip_overshoots.len(), 2, "{x} {y}");
                 let slit = report.seam_length / report.seam_length_ratio;
@@ -254,7 +254,7 @@ fn copies_of_a_vertex_are_all_split_or_none() {
         for _ in 0..60 {
             let mut work = Work::of(&sheet);
             let mut part = || 0.2 + 0.6 * random.next();
-            let cut = |a, b| between(a, b).through(true).snap(0.2);
+            let cut = |a, b| between(a, b).with_through(true).with_snap(0.2);
             work.exact(&cut([part(), -1.0], [part(), 2.0]));
             let (before, first) = (work.mesh.clone(), work.edits.cursor());
             work.exact(&cut([-1.0, part()], [2.0, part()]));

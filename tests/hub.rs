@@ -38,7 +38,7 @@ fn large_hubs_are_cut_by_all_methods_and_mended() {
     }
     let flat = Work::new(shapes::fan(FACES, true));
     for (y, x, through) in [(0.0, 0.5, false), (0.001, 2.0, true), (0.1, 0.5, false)] {
-        let across = between([-x, y - 0.3 * x], [x, y + 0.3 * x]).through(through);
+        let across = between([-x, y - 0.3 * x], [x, y + 0.3 * x]).with_through(through);
         cuts.push((flat.clone(), across, 0));
     }
     for (whole, scissor, least) in cuts {
@@ -80,7 +80,7 @@ fn a_large_hub_is_torn_in_any_order_built_again_and_mended() {
         work.follow();
         work.is_sound();
         for y in [0.001, 0.1] {
-            let through = between([-2.0, y], [2.0, 1.1 * y]).through(true);
+            let through = between([-2.0, y], [2.0, 1.1 * y]).with_through(true);
             let (_, report) = work.clone().cut(CutMethod::Exact, &through);
             assert!(report.faces_crossed > 0);
         }

@@ -196,8 +196,8 @@ impl Counts {
         let Choice { oracle, kept, .. } = &choice;
         let length_of = |f: &usize| length(minus(oracle.pieces[f][1].0, oracle.pieces[f][0].0));
         let length: f64 = kept.iter().map(length_of).sum();
-        let scissor = choice.scissor.clone().snap(0.0);
-        let scissor = scissor.layers(CutLayers::First);
+        let scissor = choice.scissor.clone().with_snap(0.0);
+        let scissor = scissor.with_layers(CutLayers::First);
         let mut after = work.clone();
         let (cut, report) = after.cut(CutMethod::Exact, &scissor);
         let mut divided = BTreeSet::new();

@@ -41,7 +41,7 @@ fn cut_along(surface: &Surface, scissor: &Scissor) -> CutReport {
 
 #[test]
 fn a_neck_narrower_than_the_snap_is_reported() {
-    let across = between([-2.0, 0.0], [2.0, 0.0]).through(true);
+    let across = between([-2.0, 0.0], [2.0, 0.0]).with_through(true);
     for (width, snap, moves, expected) in [
         (0.02, Scissor::SNAP, false, [3, 2, 1, 1]),
         (0.02, Scissor::SNAP, true, [3, 2, 1, 1]),
@@ -49,7 +49,7 @@ fn a_neck_narrower_than_the_snap_is_reported() {
         (0.02, 0.01, false, [2, 2, 0, 0]),
         (0.1, Scissor::SNAP, false, [2, 2, 0, 0]),
     ] {
-        let scissor = across.clone().snap(snap).snap_move(moves);
+        let scissor = across.clone().with_snap(snap).with_snap_move(moves);
         let report = cut_along(&notched(width), &scissor);
         let pieces = [report.pieces, report.pieces_expected, report.crumbs];
         assert_eq!(pieces[..], expected[..3], "{report:?}");
@@ -73,7 +73,7 @@ fn two_necks_side_by_side_are_two_pieces() {
         points: (0..10).map(|i| [x[i], y[i], 0.0]).collect(),
         faces: faces.as_flattened().as_chunks().0.to_vec(),
     };
-    let report = cut_along(&sheet, &between([-3.0, 0.0], [3.0, 0.0]).through(true));
+    let report = cut_along(&sheet, &between([-3.0, 0.0], [3.0, 0.0]).with_through(true));
     let sizes: Vec<usize> = report.necks.iter().map(|neck| neck.faces).collect();
     assert_eq!((report.pieces, sizes), (4, vec![1, 2]), "{report:?}");
 }
@@ -94,14 +94,14 @@ fn through_cuts_leave_ideal_pieces_and_those_on_necks() {
             }
         }
         let (scissor, cut) = random_generic_cut(&sheet, &mut random);
-        let (scissor, cut) = (scissor.through(true), cut.through());
+        let (scissor, cut) = (scissor.with_through(true), cut.through());
         if !is_generic(&sheet, &cut) {
             continue;
         }
         cuts += 1;
         let ideal = naive_cut::cut(&sheet, &cut).pieces().1;
         for snap in [0.0, Scissor::SNAP, 0.2] {
-            let report = cut_along(&sheet, &scissor.clone().snap(snap));
+            let report = cut_along(&sheet, &scissor.clone().with_snap(snap));
             let said = format!("case {case}, snap {snap}: {report:?}");
             assert_eq!(report.pieces_expected, ideal, "{said}");
             assert!(report.crumbs <= report.necks.len(), "{said}");

@@ -18,7 +18,11 @@ fn is_cut_into(pieces: usize, sheet: (Mesh, Positions), scissor: &Scissor, what:
     let sheet = Work::new(sheet);
     let is_folded = sheet.positions.as_slice().iter().any(|p| p.z != 0.0);
     for (method, snap, moves) in cuts() {
-        let scissor = scissor.clone().through(true).snap(snap).snap_move(moves);
+        let scissor = scissor
+            .clone()
+            .with_through(true)
+            .with_snap(snap)
+            .with_snap_move(moves);
         let (_, report) = sheet.clone().cut(method, &scissor);
         let said = format!("{what}, {method:?} with snap {snap}, moved {moves}: {report:?}");
         match method {

@@ -37,7 +37,10 @@ fn cut_out(sheet: &Surface, corners: &[[f64; 2]], snap: f64, layers: CutLayers) 
             Some([_, last]) => Scissor::continued(last, to, &work.positions),
             None => Scissor::new(rays[i], to),
         };
-        let scissor = scissor.expect("a plane").snap(snap).layers(layers);
+        let scissor = scissor
+            .expect("a plane")
+            .with_snap(snap)
+            .with_layers(layers);
         let (mesh, positions) = (&mut work.mesh, &mut work.positions);
         let cut = scissor.cut(CutMethod::Exact, mesh, positions, &mut work.edits);
         let made = cut.expect("positions are in step").ends().cloned();

@@ -261,9 +261,9 @@ impl Case {
                 continue;
             };
             let scissor = scissor
-                .snap(self.snap)
-                .snap_move(self.moves)
-                .layers(self.layers);
+                .with_snap(self.snap)
+                .with_snap_move(self.moves)
+                .with_layers(self.layers);
             let before = surface(&(mesh.clone(), positions.clone()));
             let made =
                 scissor.cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
@@ -474,7 +474,7 @@ fn skew_rays_cut_between_their_aims() {
         });
         let scissor = Scissor::new(ray(pair[0]), ray(pair[1]))
             .expect("a plane")
-            .snap(0.0);
+            .with_snap(0.0);
         let (mut mesh, mut positions) = built(sheet);
         let mut edits = Edits::new();
         let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
@@ -502,7 +502,7 @@ fn rays_that_cross_cut_the_wedge_in_which_the_mesh_is() {
         let mut positions = Positions::new(points).expect("finite");
         let scissor = Scissor::new(ray(pair[0]), ray(pair[1]))
             .expect("a plane")
-            .snap(0.0);
+            .with_snap(0.0);
         let mut edits = Edits::new();
         let made = scissor.cut_measured(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
         made.map(|(_, report)| report.seam_length)
@@ -529,7 +529,7 @@ fn rays_that_cross_cut_the_wedge_in_which_the_mesh_is() {
     assert!(mesh == uncut && edits.is_empty());
     let through =
         scissor
-            .through(true)
+            .with_through(true)
             .cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
     assert!(through.is_ok(), "a whole plane has no wedges");
 }
@@ -556,7 +556,7 @@ fn a_cut_shorter_than_the_snap_is_refused() {
     ] {
         let (mut mesh, mut positions) = (mesh.clone(), positions.clone());
         let scissor = Scissor::continued(end, down(x, 0.5), &positions).expect("a plane");
-        let scissor = scissor.snap(snap);
+        let scissor = scissor.with_snap(snap);
         let mut edits = Edits::starting_at(edits.cursor());
         let made = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);
         match made {

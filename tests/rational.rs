@@ -115,7 +115,7 @@ fn exact_cuts_in_lock_step_with_fractions() {
             let faces = mesh.face_count();
             torn_before += usize::from(mesh.half_edges().any(|h| mesh.ghost_pair(h).is_some()));
             Scissor::by_plane(plane)
-                .snap(0.0)
+                .with_snap(0.0)
                 .cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits)
                 .expect("positions are in step");
             let has_edge = |ends: [[Fraction; 2]; 2]| {

@@ -79,7 +79,7 @@ impl Case {
 
     /// The report of a cut; none if the rays cross between two parts of the mesh.
     fn cut(&self, scissor: Scissor, scale: f64) -> Option<CutReport> {
-        let scissor = scissor.through(self.through).tips(self.tips);
+        let scissor = scissor.with_through(self.through).with_tips(self.tips);
         let points = self.points.iter().map(|p| p * scale);
         let positions = Positions::new(points).expect("the shapes are small");
         a_refused_cut_changes_nothing(&scissor, &self.mesh, &positions);

@@ -124,16 +124,19 @@ fn described(words: &[&str]) -> (CutMethod, Scissor) {
     let [words @ .., a, b] = words else {
         panic!("two rays: {words:?}")
     };
-    let (mut method, mut scissor) = (CutMethod::Partition, scissor([ray(a), ray(b)]).snap(0.0));
+    let (mut method, mut scissor) = (
+        CutMethod::Partition,
+        scissor([ray(a), ray(b)]).with_snap(0.0),
+    );
     for &word in words {
         match word {
             "exact" => method = CutMethod::Exact,
             "uniform" => method = CutMethod::Uniform,
-            "through" => scissor = scissor.through(true),
-            "midpoint" => scissor = scissor.tips(CutTips::Midpoint),
-            "first" => scissor = scissor.layers(CutLayers::First),
-            "sliding" => scissor = scissor.snap_move(true),
-            snap => scissor = scissor.snap(numbers::<1>(snap)[0]),
+            "through" => scissor = scissor.with_through(true),
+            "midpoint" => scissor = scissor.with_tips(CutTips::Midpoint),
+            "first" => scissor = scissor.with_layers(CutLayers::First),
+            "sliding" => scissor = scissor.with_snap_move(true),
+            snap => scissor = scissor.with_snap(numbers::<1>(snap)[0]),
         }
     }
     (method, scissor)

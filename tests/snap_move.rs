@@ -116,9 +116,11 @@ impl Case {
         }
         let through = random.below(2) == 0;
         let snap = SNAPS[random.below(SNAPS.len())];
-        let scissor = between(ends[0], ends[1]).through(through).snap(snap);
+        let scissor = between(ends[0], ends[1])
+            .with_through(through)
+            .with_snap(snap);
         let mut after = before.clone();
-        after.cut(CutMethod::Exact, &scissor.snap_move(true));
+        after.cut(CutMethod::Exact, &scissor.with_snap_move(true));
         let slid = after.edits.iter().filter_map(|edit| match edit {
             Edit::Slide(slide) => Some(slide.vertex),
             _ => None,
@@ -219,7 +221,7 @@ fn regression_a_corner_of_a_sheet_stays() {
         Point::new(3.663, 2.558, 0.0),
         Vector::new(0.589, 0.398, 0.0),
     );
-    let scissor = Scissor::by_plane(plane.expect("a plane")).snap_move(true);
+    let scissor = Scissor::by_plane(plane.expect("a plane")).with_snap_move(true);
     work.cut(CutMethod::Exact, &scissor);
     let area = area(&work.mesh, &work.positions);
     assert!((area - 64.0).abs() < 1e-12, "{area}");

@@ -61,7 +61,7 @@ pub(crate) struct Case {
 
 impl Case {
     pub(crate) fn scissor(&self) -> Scissor {
-        scissor(self.rays).through(self.cut.sides.is_empty())
+        scissor(self.rays).with_through(self.cut.sides.is_empty())
     }
 }
 
@@ -86,8 +86,8 @@ fn random_case(before: &Surface, random: &mut Random) -> (Rays, Cut, Surface) {
 /// The scissor of a generic cut that meets a surface, without a snap, and the same for the oracle.
 pub(crate) fn random_generic_cut(before: &Surface, random: &mut Random) -> (Scissor, Cut) {
     let (rays, cut, _) = random_case(before, random);
-    let scissor = scissor(rays).through(cut.sides.is_empty());
-    (scissor.snap(0.0), cut)
+    let scissor = scissor(rays).with_through(cut.sides.is_empty());
+    (scissor.with_snap(0.0), cut)
 }
 
 /// A number of generic cuts of each surface, made by the naive implementation.

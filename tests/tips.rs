@@ -16,7 +16,9 @@ use crate::work::{Work, between};
 fn slit(sheet: &Surface, ends: [[f64; 2]; 2], snap: f64, moves: bool) -> (Work, CutReport, f64) {
     let mut work = Work::of(sheet);
     let before = work.altitudes();
-    let scissor = between(ends[0], ends[1]).snap(snap).snap_move(moves);
+    let scissor = between(ends[0], ends[1])
+        .with_snap(snap)
+        .with_snap_move(moves);
     let (_, report) = work.cut(CutMethod::Exact, &scissor);
     let least = work.kept(&before).into_iter().fold(f64::INFINITY, f64::min);
     (work, report, least)
@@ -136,7 +138,7 @@ fn vertices_that_slide_are_on_the_seam() {
 /// Asserts that a cut of a square by a method leaves two pieces.
 fn is_divided(n: u32, ends: [[f64; 2]; 2], method: CutMethod, snap: f64) {
     let mut work = Work::of(&surface(&shapes::grid(n, n)));
-    let scissor = between(ends[0], ends[1]).snap(snap);
+    let scissor = between(ends[0], ends[1]).with_snap(snap);
     let (_, report) = work.cut(method, &scissor);
     let counts = (report.pieces_expected, report.pieces, report.crumbs);
     // The seam of `partition` may end at a vertex beside the strip; then it says so.
@@ -189,7 +191,7 @@ fn rays_barely_beyond_the_boundary_cut_off_a_piece() {
     }
 }
 
-/// What [`Scissor::snap`] says of slits with both ends inside sheets of a few hundred triangles.
+/// What [`Scissor::with_snap`] says of slits with both ends inside sheets of a few hundred triangles.
 #[test]
 fn tips_are_as_far_from_where_they_should_be_as_the_documentation_says() {
     let (mut random, mut off, mut told) = (Random(7), Vec::new(), 0);

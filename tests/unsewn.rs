@@ -476,7 +476,10 @@ fn cuts_across_unsewn_seams_are_those_of_the_whole() {
         let method = [CutMethod::Exact, CutMethod::Exact, CutMethod::Partition][random.below(3)];
         let [scissor, second] = [0, 1].map(|_| {
             let scissor = scissor(whole, &mut random);
-            scissor.snap(snap).snap_move(moves).layers(layers)
+            scissor
+                .with_snap(snap)
+                .with_snap_move(moves)
+                .with_layers(layers)
         });
         let mut parts = built(&parts);
         let found = UnsewnSeams::find(&parts.0, &parts.1);
@@ -545,7 +548,10 @@ fn double_sided_cloth_stays_closed_round_its_outline() {
 /// The edges that a slit from one point to another, seen from above, leaves without an opposite.
 fn opened(cloth: &Surface, ends: [[f64; 2]; 2], snap: f64, moves: bool) -> Option<Vec<[Point; 2]>> {
     let [a, b] = ends.map(|[x, y]| ray(([x, y, 1.0], [0.0, 0.0, -1.0])));
-    let scissor = Scissor::new(a, b).ok()?.snap(snap).snap_move(moves);
+    let scissor = Scissor::new(a, b)
+        .ok()?
+        .with_snap(snap)
+        .with_snap_move(moves);
     let mut mesh = built(cloth);
     cut_closed(&mut mesh, &scissor, CutMethod::Exact).ok()?;
     Some(open_edges(&surface(&mesh)))

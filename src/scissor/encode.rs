@@ -12,7 +12,7 @@ impl Scissor {
     /// use tearmesh::{CutLayers, Point, Ray, Scissor, Vector};
     ///
     /// let down = |x| Ray::new(Point::new(x, 0.1, 5.0), Vector::new(0.3, 0.0, -1.0));
-    /// let scissor = Scissor::new(down(0.1)?, down(0.7)?)?.snap(0.2).layers(CutLayers::First);
+    /// let scissor = Scissor::new(down(0.1)?, down(0.7)?)?.with_snap(0.2).with_layers(CutLayers::First);
     /// let words = scissor.to_words().ok_or("it continues no cut")?;
     /// assert_eq!(Scissor::from_words(&words), Some(scissor));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -65,8 +65,13 @@ impl Scissor {
         let [through, snap_move, midpoint, first] = [1, 2, 4, 8].map(|flag| flags & flag != 0);
         let tips = [CutTips::Vertex, CutTips::Midpoint][usize::from(midpoint)];
         let layers = [CutLayers::All, CutLayers::First][usize::from(first)];
-        let scissor = scissor.through(through).snap_move(snap_move);
+        let scissor = scissor.with_through(through).with_snap_move(snap_move);
         let is_ours = rest.is_empty() && flags < 16;
-        is_ours.then(|| scissor.snap(f64::from_bits(snap)).tips(tips).layers(layers))
+        is_ours.then(|| {
+            scissor
+                .with_snap(f64::from_bits(snap))
+                .with_tips(tips)
+                .with_layers(layers)
+        })
     }
 }

@@ -61,7 +61,7 @@ pub enum CutError {
         at: Point,
     },
     /// The second ray meets a face of the vertex from which the cut should continue, closer to that
-    /// vertex than the [snap](super::Scissor::snap) as a part of the way through the face.
+    /// vertex than the [snap](super::Scissor::with_snap) as a part of the way through the face.
     TooShort {
         /// The vertex from which the cut should continue.
         joint: VertexId,

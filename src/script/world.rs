@@ -177,7 +177,7 @@ impl World {
                 tips,
                 rays,
             } => match scissor(rays) {
-                Some(scissor) => self.cut(&scissor.through(through).tips(tips), observe),
+                Some(scissor) => self.cut(&scissor.with_through(through).with_tips(tips), observe),
                 None => observe(self, &Step::Nothing),
             },
             Operation::Insert {

@@ -44,7 +44,7 @@ fn methods_along_edges_stay_with_the_chosen_chains() {
         };
         let Choice { kept, scissor, .. } = &choice;
         let mesh = &work.mesh;
-        let first = scissor.clone().layers(CutLayers::First);
+        let first = scissor.clone().with_layers(CutLayers::First);
         let others = choice.oracle.pieces.keys().filter(|f| !kept.contains(f));
         let others: BTreeSet<usize> = others.copied().collect();
         let corners = |faces: &BTreeSet<usize>| -> BTreeSet<u32> {
@@ -144,7 +144,7 @@ fn a_chosen_sheet_of_a_stack_is_torn_as_if_it_were_alone() {
         }
         let alone = work.mesh.pieces(&work.mesh.components());
         for (method, seen) in ALONG_EDGES.into_iter().zip(&mut seen) {
-            let first = scissor.clone().layers(CutLayers::First);
+            let first = scissor.clone().with_layers(CutLayers::First);
             let (_, torn) = torn_by(method, &first, &work);
             let (_, of_all) = torn_by(method, scissor, &work);
             let mut expected = BTreeSet::new();

@@ -51,8 +51,8 @@ fn cut(work: &mut Work<'_>, random: &mut Random, options: &Options) {
         return;
     };
     work.edit(|mesh, positions, edits| {
-        let scissor = scissor.through(through).snap(options.snap);
-        let scissor = scissor.snap_move(options.snap_move);
+        let scissor = scissor.with_through(through).with_snap(options.snap);
+        let scissor = scissor.with_snap_move(options.snap_move);
         let done = scissor.cut(CutMethod::Exact, mesh, positions, edits);
         done.expect("in step");
     });

@@ -231,7 +231,7 @@ impl<'d> Work<'d> {
         let Ok(scissor) = Scissor::new(rays[0], rays[1]) else {
             return;
         };
-        let scissor = scissor.snap(0.2).snap_move(true);
+        let scissor = scissor.with_snap(0.2).with_snap_move(true);
         self.edit(|mesh, positions, edits| {
             let done = scissor.cut(CutMethod::Exact, mesh, positions, edits);
             done.expect("positions are in step");

@@ -9,7 +9,9 @@ fn down(x: f64, y: f64) -> Ray {
 }
 
 fn cut(mesh: &mut Mesh, positions: &mut Positions, rays: [Ray; 2], snap: f64) -> Vec<[Point; 2]> {
-    let scissor = Scissor::new(rays[0], rays[1]).expect("a plane").snap(snap);
+    let scissor = Scissor::new(rays[0], rays[1])
+        .expect("a plane")
+        .with_snap(snap);
     let cut = scissor.cut(CutMethod::Exact, mesh, positions, &mut Edits::new());
     let cut = cut.expect("a cut");
     let ends = |h| [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v));
@@ -92,7 +94,7 @@ fn a_seam_behind_the_surface_is_hidden() {
     let (mut mesh, mut positions) = shapes::tube(40, 20);
     let towards = |y| Ray::new(Point::new(9.0, y, 0.5), -Vector::x()).expect("a ray");
     let scissor = Scissor::new(towards(-0.2), towards(0.2)).expect("a plane");
-    let scissor = scissor.layers(CutLayers::First);
+    let scissor = scissor.with_layers(CutLayers::First);
     let log = &mut Edits::new();
     let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, log);
     assert_eq!(cut.expect("a cut").seam().count(), 1);

@@ -21,7 +21,7 @@ use crate::slide;
 const ALTITUDE_KEPT: f64 = 0.3;
 
 /// Slides the vertices of the slit that stand for crossings, as far as that does no harm; see
-/// [`Scissor::snap_move`](super::super::Scissor::snap_move). A vertex near which the plane merely
+/// [`Scissor::with_snap_move`](super::super::Scissor::with_snap_move). A vertex near which the plane merely
 /// passes stays: nothing is cut there. `children` are the faces that the cut will insert.
 pub(super) fn onto_plane(
     context: &CutContext<'_>,

@@ -333,7 +333,7 @@ fn perform(sim: &mut Simulation, made: &mut Made, verb: &Verb) {
         }
         8 => {
             if let Ok(scissor) = Scissor::new(ray(x, y), ray(y, z)) {
-                cuts.push(sim.cut(&scissor.snap(0.3 * z)).expect("cut"));
+                cuts.push(sim.cut(&scissor.with_snap(0.3 * z)).expect("cut"));
                 holds.follow(sim);
             }
         }

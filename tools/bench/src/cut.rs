@@ -80,7 +80,7 @@ fn contest(sheet: &Sheet, options: &Options) -> String {
         (rival, started)
     });
     let ours = WAYS.map(|way| {
-        let scissor = scissor.clone().snap(way.snap);
+        let scissor = scissor.clone().with_snap(way.snap);
         move |sheet: &Sheet| Some(time(&scissor, way.method, way.form, sheet))
     });
     let theirs = rivals
@@ -157,7 +157,7 @@ fn contest(sheet: &Sheet, options: &Options) -> String {
             .iter()
             .find(|way| way.name == name && way.form == Form::First)
         {
-            let facts = Facts::new(&scissor.clone().snap(way.snap), way.method, sheet);
+            let facts = Facts::new(&scissor.clone().with_snap(way.snap), way.method, sheet);
             looks.push(look_of_ours(name, &facts, mean_edge));
         }
     }

@@ -139,7 +139,7 @@ fn cut_by(
     slides: bool,
     (mut mesh, mut positions): (Mesh, Positions),
 ) -> (Mesh, Positions) {
-    let scissor = scissor().snap_move(slides);
+    let scissor = scissor().with_snap_move(slides);
     let cut = scissor.cut(method, &mut mesh, &mut positions, &mut Edits::new());
     cut.expect("a cut");
     (mesh, positions)

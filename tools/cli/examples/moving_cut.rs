@@ -12,7 +12,7 @@ use std::fs::File;
 use std::io::BufWriter;
 
 use tearmesh::{PerCorner, Plane, Point, Scissor, Vector, shapes};
-use tearmesh_cloth::{Loads, Simulation, SimulationDef, Wind};
+use tearmesh_cloth::{Simulation, SimulationDef, Wind};
 use tearmesh_view::{Camera, Picture, PictureSize, RenderOptions, fit, render};
 
 const CELLS: u32 = 32;
@@ -29,11 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         velocity_m_per_s: Vector::new(0.0, 0.0, 2.0),
         coefficient: 0.5,
     };
-    let mut def = SimulationDef::default();
-    def.loads = Loads {
-        wind: Some(breeze),
-        ..def.loads
-    };
+    let def = SimulationDef::default().with_wind(breeze);
     let mut sim = Simulation::new(mesh, &positions, def)?;
     let corners = [CELLS * (CELLS + 1), (CELLS + 1) * (CELLS + 1) - 1];
     sim.hold(corners.map(|v| sim.mesh().vertex(v as usize)))?;

@@ -297,7 +297,7 @@ impl TimedCut {
     /// The scissor that makes the cut; an error if the rays span no plane.
     pub(crate) fn scissor(&self) -> Result<Scissor, ScissorError> {
         let scissor = Scissor::new(self.rays[0], self.rays[1])?;
-        Ok(scissor.through(self.through))
+        Ok(scissor.with_through(self.through))
     }
 }
 

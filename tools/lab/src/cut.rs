@@ -51,7 +51,7 @@ pub(crate) struct Row {
 }
 
 /// All methods and settings that are compared, in the order of tables: the name, the method, and the arguments
-/// of [`Scissor::snap`] and [`Scissor::snap_move`].
+/// of [`Scissor::with_snap`] and [`Scissor::with_snap_move`].
 const METHODS: [(&str, CutMethod, f64, bool); 10] = [
     ("uniform", CutMethod::Uniform, 0.0, false),
     ("alternating", CutMethod::Alternating, 0.0, false),
@@ -162,7 +162,7 @@ impl WavySheet {
     /// method of this name.
     fn cut(&self, method: &str, line: u32, bounds: &Bounds<'_>) -> Option<Measured> {
         let (_, method, snap, is_moved) = METHODS.into_iter().find(|(name, ..)| *name == method)?;
-        let scissor = scissor(line).snap(snap).snap_move(is_moved);
+        let scissor = scissor(line).with_snap(snap).with_snap_move(is_moved);
         let copy = || (self.mesh.clone(), self.positions.clone(), Edits::new());
         let (mut mesh, mut positions, mut edits) = copy();
         let began = bounds.now();

@@ -175,7 +175,7 @@ pub fn through([x, y]: [f64; 2], angle_rad: f64) -> Scissor {
         Ray::new(origin, -Vector::z()).expect("the z axis is a direction")
     };
     let scissor = Scissor::new(ray(-2.0), ray(2.0)).expect("the rays are on two lines");
-    scissor.through(true)
+    scissor.with_through(true)
 }
 
 /// A system at rest of points with masses, tied by springs: their two ends and their rest length in metres.

@@ -71,5 +71,5 @@ pub(crate) fn scissor_of(
         ("first", Some(_)) => CutLayers::First,
         _ => return Err(value_error("layers is all, or with rays first")),
     };
-    Ok(scissor.layers(layers).snap(snap))
+    Ok(scissor.with_layers(layers).with_snap(snap))
 }

@@ -43,7 +43,7 @@ impl Series {
         let mut facts = Vec::new();
         for _ in 0..CUTS {
             let at = [0.3 + 0.4 * random.next(), 0.3 + 0.4 * random.next()];
-            let scissor = through(at, std::f64::consts::PI * random.next()).snap(snap);
+            let scissor = through(at, std::f64::consts::PI * random.next()).with_snap(snap);
             facts.push(Facts::new(&scissor, method, sheet));
             for _ in 0..options.rounds {
                 times.push(time(&scissor, method, Form::Room, sheet) * 1e3);

@@ -86,7 +86,7 @@ pub(super) fn time(
         positions.reserve(room);
     }
     if form == Form::Second {
-        let before = through([0.31, 0.62], 0.4).snap(Scissor::SNAP);
+        let before = through([0.31, 0.62], 0.4).with_snap(Scissor::SNAP);
         let made = before.cut(method, &mut mesh, &mut positions, &mut edits);
         made.expect("positions are in step");
     }

@@ -49,12 +49,12 @@ pub(crate) fn reason(
     let tried = |scissor| tried(&scissor, method, mesh, positions);
     // Copies take memory, and most cuts that miss do so by far.
     if done.missed && !through && mesh.faces().any(|f| slit.meets(f)) {
-        let elsewhere = tried(scissor.clone().through(true));
+        let elsewhere = tried(scissor.clone().with_through(true));
         let elsewhere = elsewhere.map(|[faces, splits]| NoOpReason::Elsewhere { faces, splits });
         return elsewhere.unwrap_or(NoOpReason::Unknown);
     }
     let can_snap = !done.missed && is_exact && snap > 0.0;
-    match can_snap && tried(scissor.clone().snap(0.0)).is_some() {
+    match can_snap && tried(scissor.clone().with_snap(0.0)).is_some() {
         true => NoOpReason::Snap,
         false => NoOpReason::Unknown,
     }

@@ -219,9 +219,9 @@ fn scissor(
             scissor.map_err(|error| no_plane(pair, error))?
         }
     };
-    let scissor = scissor.through(args.through).tips(args.tips);
-    let scissor = scissor.layers(args.layers).snap(args.snap);
-    Ok(scissor.snap_move(args.snap_move))
+    let scissor = scissor.with_through(args.through).with_tips(args.tips);
+    let scissor = scissor.with_layers(args.layers).with_snap(args.snap);
+    Ok(scissor.with_snap_move(args.snap_move))
 }
 
 /// That a gap moves vertices to where no verb could read them.

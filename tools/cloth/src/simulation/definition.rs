@@ -7,9 +7,19 @@ use crate::cloth::seam::Seam;
 use crate::cloth::tearing::Tearing;
 use crate::method::Method;
 use crate::system::Unstable;
-use crate::system::load::Loads;
+use crate::system::load::{Loads, Wind};
 
 /// The definition of a simulation beside its mesh.
+///
+/// ```
+/// use tearmesh_cloth::{Fabric, Method, SimulationDef};
+///
+/// let def = SimulationDef::default()
+///     .with_fabric(Fabric::new(200.0))
+///     .with_method(Method::xpbd())
+///     .with_recording();
+/// assert_eq!(def.density_kg_per_m2, 0.15);
+/// ```
 #[derive(Clone, Debug)]
 pub struct SimulationDef {
     /// The mass of the cloth per area, in kg/m²: 0.15 by default, as of shirt cotton.
@@ -61,6 +71,100 @@ impl Default for SimulationDef {
             step_s: None,
             when_unstable: Unstable::Substep,
             is_recorded: false,
+        }
+    }
+}
+
+impl SimulationDef {
+    /// Sets the mass of the cloth per area, in kg/m².
+    #[must_use]
+    pub fn with_density(self, density_kg_per_m2: f64) -> SimulationDef {
+        SimulationDef {
+            density_kg_per_m2,
+            ..self
+        }
+    }
+
+    /// Sets the material.
+    #[must_use]
+    pub fn with_fabric(self, fabric: Fabric) -> SimulationDef {
+        SimulationDef { fabric, ..self }
+    }
+
+    /// Sets the method.
+    #[must_use]
+    pub fn with_method(self, method: Method) -> SimulationDef {
+        SimulationDef { method, ..self }
+    }
+
+    /// Sets the rule by which edges tear; `None` for never.
+    #[must_use]
+    pub fn with_tearing(self, tearing: impl Into<Option<Tearing>>) -> SimulationDef {
+        let tearing = tearing.into();
+        SimulationDef { tearing, ..self }
+    }
+
+    /// Sets the strength of each vertex, as a multiple of the threshold.
+    #[must_use]
+    pub fn with_strengths(self, strengths: Vec<f64>) -> SimulationDef {
+        SimulationDef { strengths, ..self }
+    }
+
+    /// Sets the rest shape: a place in metres for each corner, face by face.
+    #[must_use]
+    pub fn with_rest(self, rest: Vec<Point>) -> SimulationDef {
+        SimulationDef { rest, ..self }
+    }
+
+    /// Sets the texture coordinates of each corner, face by face.
+    #[must_use]
+    pub fn with_texture(self, texture: Vec<[f32; 2]>) -> SimulationDef {
+        SimulationDef { texture, ..self }
+    }
+
+    /// Sets the seams of a garment.
+    #[must_use]
+    pub fn with_seams(self, seams: Vec<Seam>) -> SimulationDef {
+        SimulationDef { seams, ..self }
+    }
+
+    /// Sets the loads, all of them.
+    #[must_use]
+    pub fn with_loads(self, loads: Loads) -> SimulationDef {
+        SimulationDef { loads, ..self }
+    }
+
+    /// Sets the wind among the loads.
+    #[must_use]
+    pub fn with_wind(self, wind: Wind) -> SimulationDef {
+        let wind = Some(wind);
+        let loads = Loads { wind, ..self.loads };
+        SimulationDef { loads, ..self }
+    }
+
+    /// Sets the length of a step, in seconds.
+    #[must_use]
+    pub fn with_step(self, step_s: f64) -> SimulationDef {
+        let step_s = Some(step_s);
+        SimulationDef { step_s, ..self }
+    }
+
+    /// Sets whether a step beyond the stability limit is divided or refused.
+    #[must_use]
+    pub fn with_unstable(self, when_unstable: Unstable) -> SimulationDef {
+        SimulationDef {
+            when_unstable,
+            ..self
+        }
+    }
+
+    /// Has inputs [logged](super::Simulation::log).
+    #[must_use]
+    pub fn with_recording(self) -> SimulationDef {
+        let is_recorded = true;
+        SimulationDef {
+            is_recorded,
+            ..self
         }
     }
 }

@@ -296,7 +296,7 @@ impl<'d> Player<'d> {
             false => CutLayers::All,
         };
         let scissor = words(Scissor::new(a, b))?;
-        self.cut_by(&scissor.layers(layers))
+        self.cut_by(&scissor.with_layers(layers))
     }
 
     fn cut_by(&mut self, scissor: &Scissor) -> Result<usize, String> {
