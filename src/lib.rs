@@ -149,3 +149,8 @@ pub use slide::SlideRefusal;
 pub use split::SplitRefusal;
 #[doc(hidden)]
 pub use undo::{FacePart, Insertions, RemovalPlan};
+
+/// The example on the page of the crate is a test.
+#[cfg(doctest)]
+#[doc = include_str!("README.md")]
+struct Readme;

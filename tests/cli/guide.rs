@@ -368,3 +368,15 @@ fn batches_by_gnu_parallel() {
     play(resumed, 0);
     assert!(!folder.path("cut/flag.obj").exists());
 }
+
+#[test]
+fn the_readme_links_to_every_page_of_the_guides() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("the README");
+    for folder in ["tools/cli/src/guide", "tools/cloth/src/guide", "src/guide"] {
+        for page in files_in(&root().join(folder)) {
+            let name = page.file_name().expect("a file").to_string_lossy();
+            let link = format!("]({folder}/{name})");
+            assert!(readme.contains(&link), "the README has no {link}");
+        }
+    }
+}
