@@ -222,6 +222,13 @@ fn time_passes_in_whole_steps_within_a_budget() {
         }
         assert_eq!(sim.steps(), steps);
     }
+    // A time of more steps than an f64 counts does not stop time for good.
+    for endless_s in [1e30, 1e308] {
+        let mut sim = sheet(4, stepping(0.001));
+        for (dt_s, steps) in [(endless_s, 3), (0.001, 1), (0.001, 1)] {
+            assert_eq!(sim.advance(dt_s, 3).map(|reached| reached.steps), Ok(steps));
+        }
+    }
     // One that is too long is divided or refused.
     for (when_unstable, steps) in [(Unstable::Substep, 6), (Unstable::Refuse, 0)] {
         let def = SimulationDef {

@@ -316,9 +316,15 @@ impl Simulation {
             return Err(StepError::Step { given_s: dt_s });
         }
         self.edits.clear();
-        self.owed_s += dt_s;
-        let wanted = (self.owed_s / self.step_s).round().max(0.0);
-        self.owed_s -= wanted * self.step_s;
+        let owed_s = self.owed_s + dt_s;
+        let wanted = (owed_s / self.step_s).round().max(0.0);
+        let left_s = owed_s - wanted * self.step_s;
+        // A time of more steps than an f64 counts leaves only rounding errors, which would stop time for good.
+        self.owed_s = if left_s.abs() <= self.step_s {
+            left_s
+        } else {
+            0.0
+        };
         let mut steps = 0;
         while steps < steps_max.min(wanted as u64) && goes_on() {
             if let Err(error) = self.step() {
