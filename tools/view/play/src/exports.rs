@@ -1,5 +1,8 @@
 //! What the module exports. A verb takes numbers; texts and files lie in a block of memory, as do its results.
-//! A verb that was refused says why in the block [`TEXT`].
+//! A verb that was refused says why in the block [`TEXT`], and changes nothing else.
+//!
+//! Every parameter is an `f64`, also where a whole number is meant: WebAssembly takes NaN, 2^32 and what was left out
+//! for 0 where a parameter is an integer, so that the module would never see what a page got wrong.
 
 use std::cell::RefCell;
 
@@ -7,7 +10,7 @@ use tearmesh::{Point, Ray, Vector};
 use tearmesh_cloth::Wind;
 use tearmesh_obj::Document;
 
-use crate::player::Player;
+use crate::player::{NO_HAND, Player};
 use crate::settings::{ClothSource, Plan, Settings};
 
 #[derive(Default)]
@@ -41,30 +44,34 @@ thread_local! {
 /// up to date: positions, indices, pieces, edges, held vertices, facts, and positions and indices of solids.
 const TEXT: u32 = 8;
 
+const NO_CLOTH: &str = "there is no cloth";
+
 /// Makes room for a text or a file; where, or 0 if there is none for so many bytes.
 #[unsafe(no_mangle)]
-extern "C" fn room(length: usize) -> usize {
+extern "C" fn room(length: f64) -> usize {
     MODULE.with_borrow_mut(|module| {
         module.input.clear();
-        if module.input.try_reserve(length).is_err() {
-            module.text = b"there is no room for so much".to_vec();
+        let bytes = whole(length).map(|bytes| bytes as usize);
+        let bytes = bytes.filter(|&bytes| module.input.try_reserve(bytes).is_ok());
+        let Some(bytes) = bytes else {
+            module.text = format!("there is no room for {length} bytes").into_bytes();
             return 0;
-        }
-        module.input.resize(length, 0);
+        };
+        module.input.resize(bytes, 0);
         module.input.as_ptr() as usize
     })
 }
 
-/// Where a block is.
+/// Where a block is, or 0 if there is none.
 #[unsafe(no_mangle)]
-extern "C" fn address(block: u32) -> usize {
-    MODULE.with_borrow(|module| module.block(block).0)
+extern "C" fn address(block: f64) -> usize {
+    MODULE.with_borrow_mut(|module| module.block(block).0)
 }
 
 /// How many bytes a block has.
 #[unsafe(no_mangle)]
-extern "C" fn length(block: u32) -> usize {
-    MODULE.with_borrow(|module| module.block(block).1)
+extern "C" fn length(block: f64) -> usize {
+    MODULE.with_borrow_mut(|module| module.block(block).1)
 }
 
 /// Takes the OBJ file in the room, for a cloth of a file.
@@ -108,17 +115,20 @@ extern "C" fn replay() -> bool {
 
 /// Lets time pass: the number of steps, or −1.
 #[unsafe(no_mangle)]
-extern "C" fn advance(dt_s: f64, steps_max: u32) -> i32 {
+extern "C" fn advance(dt_s: f64, steps_max: f64) -> i32 {
     verb(-1, |player| {
-        let steps = player.advance(dt_s, steps_max.into())?;
+        let most = whole(steps_max).ok_or_else(|| format!("steps_max cannot be {steps_max}"))?;
+        let steps = player.advance(dt_s, most.into())?;
         Ok(i32::try_from(steps).unwrap_or(i32::MAX))
     })
 }
 
-/// Brings all blocks but the text up to date, until the next verb.
+/// Brings all blocks but the text up to date, until the next verb; whether there is a cloth.
 #[unsafe(no_mangle)]
-extern "C" fn draw() {
+extern "C" fn draw() -> bool {
+    let is_there = verb(false, |_| Ok(true));
     MODULE.with_borrow_mut(Module::draw);
+    is_there
 }
 
 /// The number of a hand that grabs what a ray hits; −1 if there is none. Its place is in the facts.
@@ -132,15 +142,17 @@ extern "C" fn grab(x: f64, y: f64, z: f64, dx: f64, dy: f64, dz: f64) -> i32 {
 
 /// Leads a hand to a point.
 #[unsafe(no_mangle)]
-extern "C" fn lead(hand: usize, x: f64, y: f64, z: f64) -> bool {
+extern "C" fn lead(hand: f64, x: f64, y: f64, z: f64) -> bool {
     let to = Point::new(x, y, z);
-    verb(false, |player| player.lead(hand, to).map(|()| true))
+    verb(false, |player| {
+        player.lead(number(hand)?, to).map(|()| true)
+    })
 }
 
 /// Releases a hand; whether there was one.
 #[unsafe(no_mangle)]
-extern "C" fn release(hand: usize) -> bool {
-    verb(false, |player| player.release(hand).map(|()| true))
+extern "C" fn release(hand: f64) -> bool {
+    verb(false, |player| player.release(number(hand)?).map(|()| true))
 }
 
 /// Pins what a ray hits, or unpins it: 1 and 0, and −1 if it hits nothing.
@@ -152,9 +164,9 @@ extern "C" fn pin(x: f64, y: f64, z: f64, dx: f64, dy: f64, dz: f64) -> i32 {
     })
 }
 
-/// Cuts between two rays from one point: the number of vertices that were split, or −1.
+/// Cuts between two rays from one point, through all layers or, if the last number is 1, only the front one: the
+/// number of vertices that were split, or −1.
 #[unsafe(no_mangle)]
-#[expect(clippy::too_many_arguments, reason = "a module exchanges numbers")]
 extern "C" fn cut(
     x: f64,
     y: f64,
@@ -165,18 +177,23 @@ extern "C" fn cut(
     bx: f64,
     by: f64,
     bz: f64,
-    is_first_layer: bool,
+    is_first_layer: f64,
 ) -> i32 {
     verb(-1, |player| {
+        let is_first_layer = match whole(is_first_layer) {
+            Some(0) => false,
+            Some(1) => true,
+            _ => return Err(format!("is_first_layer is {is_first_layer}, not 0 or 1")),
+        };
         let rays = [ray([x, y, z], [ax, ay, az])?, ray([x, y, z], [bx, by, bz])?];
         Ok(player.cut(rays, is_first_layer)? as i32)
     })
 }
 
-/// Begins to mend everything: the number of pairs.
+/// Begins to mend everything: the number of pairs, or −1.
 #[unsafe(no_mangle)]
-extern "C" fn heal() -> u32 {
-    verb(0, |player| Ok(player.heal() as u32))
+extern "C" fn heal() -> i32 {
+    verb(-1, |player| Ok(player.heal() as i32))
 }
 
 /// Has another wind blow; none if its coefficient is 0.
@@ -222,6 +239,18 @@ fn ray(origin: [f64; 3], direction: [f64; 3]) -> Result<Ray, String> {
     ray.map_err(|error| error.to_string())
 }
 
+/// The whole number that was handed over, if it is one.
+fn whole(given: f64) -> Option<u32> {
+    let nearest = given as u32;
+    (f64::from(nearest) == given).then_some(nearest)
+}
+
+/// The number of a hand.
+fn number(hand: f64) -> Result<usize, String> {
+    let number = whole(hand).map(|number| number as usize);
+    number.ok_or_else(|| NO_HAND.to_owned())
+}
+
 fn missed() -> String {
     "there is no cloth there".to_owned()
 }
@@ -229,7 +258,7 @@ fn missed() -> String {
 /// Does something with the player; `refused` if it was refused, or there is no player.
 fn verb<T>(refused: T, act: impl FnOnce(&mut Player<'static>) -> Result<T, String>) -> T {
     MODULE.with_borrow_mut(|module| {
-        let player = module.player.as_mut().ok_or("there is no cloth");
+        let player = module.player.as_mut().ok_or(NO_CLOTH);
         let done = player.map_err(str::to_owned).and_then(act);
         done.unwrap_or_else(|why| {
             module.text = why.into_bytes();
@@ -330,11 +359,17 @@ impl Module {
     }
 
     /// Where a block is, and how many bytes it has.
-    fn block(&self, block: u32) -> (usize, usize) {
-        match block {
-            TEXT => of(&self.text),
-            _ => self.drawn.get(block as usize).copied().unwrap_or_default(),
-        }
+    fn block(&mut self, block: f64) -> (usize, usize) {
+        let why = match whole(block) {
+            Some(TEXT) => return of(&self.text),
+            Some(number) if number < TEXT => match self.drawn.get(number as usize) {
+                Some(&drawn) => return drawn,
+                None => NO_CLOTH.to_owned(),
+            },
+            _ => format!("there is no block {block}"),
+        };
+        self.text = why.into_bytes();
+        (0, 0)
     }
 }
 

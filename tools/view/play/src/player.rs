@@ -34,9 +34,9 @@ pub struct Player<'d> {
     /// Whether the wind of the scene blows, and no other.
     is_wind_of_scene: bool,
     grip_radius_m: f64,
-    /// By the number that the page knows.
-    /// The hands of earlier players of the page.
+    /// The number of hands of earlier players of the page.
     hands_before: usize,
+    /// By the number that the page knows, less that of the earlier ones.
     hands: Vec<HandId>,
     /// Of all events so far.
     events_hash: u64,
@@ -64,6 +64,9 @@ pub struct Facts {
 
 /// How often a second a wind that sways changes. Each change is an input, and takes a line of the log.
 const SWAYS_PER_S: f64 = 20.0;
+
+/// Why a hand that was never one, or is one of an earlier player, does nothing.
+pub(crate) const NO_HAND: &str = "there is no such hand";
 
 const HEAD: &str = "tearmesh play 1\n";
 
@@ -257,7 +260,7 @@ impl<'d> Player<'d> {
     fn hand(&self, number: usize) -> Result<HandId, String> {
         let own = number.checked_sub(self.hands_before);
         let hand = own.and_then(|own| self.hands.get(own).copied());
-        hand.ok_or_else(|| "there is no such hand".to_owned())
+        hand.ok_or_else(|| NO_HAND.to_owned())
     }
 
     /// Pins the vertex that a ray hits, or unpins it. Returns whether it is pinned now; `None` if the ray misses.

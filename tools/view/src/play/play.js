@@ -139,7 +139,7 @@ async function open() {
 
   function mend() {
     const pairs = tried(() => cloth.wasm.heal());
-    say(pairs ? `Mending ${pairs} pairs of vertices.` : facts.open ? "It is being mended." : "Nothing is torn.");
+    say(pairs > 0 ? `Mending ${pairs} pairs of vertices.` : facts.open ? "It is being mended." : "Nothing is torn.");
   }
 
   // ---- Hands: each pointer that hits the cloth has one, and leads it in a plane that faces the viewer
