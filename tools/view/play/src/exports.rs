@@ -11,19 +11,19 @@ use tearmesh_cloth::Wind;
 use tearmesh_obj::Document;
 
 use crate::player::{NO_HAND, Player};
-use crate::settings::{ClothSource, Plan, Settings};
+use crate::settings::{ClothSource, Plan, Settings, document};
 
 #[derive(Default)]
 struct Module {
     input: Vec<u8>,
     text: Vec<u8>,
-    /// The file that was dropped on the page last.
-    obj: Vec<u8>,
+    /// The file that was dropped on the page last. Documents are leaked, since players borrow them; a page that
+    /// shows twenty files has twenty of them.
+    file: Option<&'static Document>,
     /// The scene of the file.
     plan: Option<Plan>,
-    /// The document of the player, and the cloth that it is of. It is leaked, since the player borrows it; a page
-    /// that shows twenty files has twenty of them.
-    document: Option<(ClothSource, &'static Document)>,
+    /// The sheet that was begun last, and its document.
+    sheet: Option<(ClothSource, &'static Document)>,
     player: Option<Player<'static>>,
     /// Of each half-edge: 0 if the faces on both sides are joined, 1 if there never was another, 2 if they are torn.
     edges: Vec<u8>,
@@ -74,13 +74,16 @@ extern "C" fn length(block: f64) -> usize {
     MODULE.with_borrow_mut(|module| module.block(block).1)
 }
 
-/// Takes the OBJ file in the room, for a cloth of a file.
+/// Takes the OBJ file in the room, for a cloth of a file; whether it could.
 #[unsafe(no_mangle)]
-extern "C" fn take_file() {
+extern "C" fn take_file() -> bool {
     MODULE.with_borrow_mut(|module| {
-        module.obj = std::mem::take(&mut module.input);
-        module.document = None;
-    });
+        let obj = std::mem::take(&mut module.input);
+        let read = document(&obj).map_err(|why| module.text = why.into_bytes());
+        let Ok(read) = read else { return false };
+        module.file = Some(Box::leak(Box::new(read)));
+        true
+    })
 }
 
 /// Takes the packed scene of a file in the room, as JSON; whether it could.
@@ -89,8 +92,9 @@ extern "C" fn take_scene() -> bool {
     MODULE.with_borrow_mut(|module| {
         let read = Plan::read(&module.input);
         let read = read.map_err(|why| module.text = why.into_bytes());
-        module.plan = read.ok();
-        module.plan.is_some()
+        let Ok(read) = read else { return false };
+        module.plan = Some(read);
+        true
     })
 }
 
@@ -281,12 +285,15 @@ fn refill<T>(block: &mut Vec<T>, elements: impl IntoIterator<Item = T>) {
 
 impl Module {
     fn document(&mut self, settings: &Settings) -> Result<&'static Document, String> {
-        let known = self.document.as_ref();
+        if let ClothSource::File(name) = &settings.cloth {
+            return self.file.ok_or_else(|| format!("`{name}` is not here"));
+        }
+        let known = self.sheet.as_ref();
         if let Some((_, document)) = known.filter(|(cloth, _)| *cloth == settings.cloth) {
             return Ok(document);
         }
-        let document: &'static Document = Box::leak(Box::new(settings.document(&self.obj)?));
-        self.document = Some((settings.cloth.clone(), document));
+        let document: &'static Document = Box::leak(Box::new(settings.document(&[])?));
+        self.sheet = Some((settings.cloth.clone(), document));
         Ok(document)
     }
 

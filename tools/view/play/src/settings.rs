@@ -105,17 +105,21 @@ impl Settings {
     ///
     /// What is wrong with the file, in words.
     pub fn document(&self, obj: &[u8]) -> Result<Document, String> {
-        let document = match self.cloth {
-            ClothSource::Sheet(cells) => Document::read(sheet(cells).as_bytes()),
-            ClothSource::File(_) => Document::read(obj),
-        };
-        let document = document.map_err(|error| error.to_string())?;
-        match document.positions().len() {
-            0..=VERTICES_MAX => Ok(document),
-            given => Err(format!(
-                "the mesh has {given} vertices, and a page plays with at most {VERTICES_MAX}"
-            )),
+        match self.cloth {
+            ClothSource::Sheet(cells) => document(sheet(cells).as_bytes()),
+            ClothSource::File(_) => document(obj),
         }
+    }
+}
+
+/// Reads an OBJ file that a page can play with.
+pub(crate) fn document(obj: &[u8]) -> Result<Document, String> {
+    let document = words(Document::read(obj))?;
+    match document.positions().len() {
+        0..=VERTICES_MAX => Ok(document),
+        given => Err(format!(
+            "the mesh has {given} vertices, and a page plays with at most {VERTICES_MAX}"
+        )),
     }
 }
 

@@ -18,7 +18,7 @@ class Cloth {
     if (answer === 0 || answer === -1) throw new Error(this.text());
     return answer;
   }
-  file(bytes) { this.give(bytes); this.wasm.take_file(); }
+  file(bytes) { this.give(bytes); this.ask(this.wasm.take_file()); }
   scene(plan) { this.give(new TextEncoder().encode(plan)); this.ask(this.wasm.take_scene()); }
   start(settings) { this.give(new TextEncoder().encode(settings)); this.ask(this.wasm.start()); }
   replay(log) { this.give(new TextEncoder().encode(log)); this.ask(this.wasm.replay()); }

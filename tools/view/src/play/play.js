@@ -414,8 +414,8 @@ async function open() {
   }
 
   function use(bytes, name) {
-    file = { name: name.replaceAll("\n", " "), bytes };
     cloth.file(bytes);
+    file = { name: name.replaceAll("\n", " "), bytes };
     let option = $("source").querySelector("[value=file]");
     if (!option) {
       option = new Option("", "file");
@@ -431,10 +431,11 @@ async function open() {
     const head = new TextDecoder().decode(bytes.subarray(0, 16));
     if (head.startsWith("tearmesh play 1")) return replay(new TextDecoder().decode(bytes));
     const had = file, source = $("source").value, held = $("held").value;
-    use(bytes, dropped.name);
-    if (start()) return pause(false);
+    const isTaken = tried(() => (use(bytes, dropped.name), true));
+    if (isTaken && start()) return pause(false);
     // A file that is refused changes nothing.
     const why = $("say").textContent;
+    if (!isTaken) return say(`${dropped.name}: ${why}`, 30);
     if (had) use(had.bytes, had.name);
     else $("source").querySelector("[value=file]").remove();
     file = had;
