@@ -102,7 +102,7 @@ extern "C" fn take_scene() -> bool {
 #[unsafe(no_mangle)]
 extern "C" fn start() -> bool {
     MODULE.with_borrow_mut(|module| {
-        let settings = module.input_text().parse();
+        let settings = module.input_text().and_then(|text| text.parse());
         module.replace(settings, Player::new)
     })
 }
@@ -112,8 +112,11 @@ extern "C" fn start() -> bool {
 extern "C" fn replay() -> bool {
     MODULE.with_borrow_mut(|module| {
         let text = module.input_text();
+        let settings = text.as_deref().map_err(Clone::clone);
+        let settings = settings.and_then(Player::settings_of);
+        let text = text.unwrap_or_default();
         let again = |document, settings| Player::replayed(document, settings, &text);
-        module.replace(Player::settings_of(&text), again)
+        module.replace(settings, again)
     })
 }
 
@@ -297,8 +300,10 @@ impl Module {
         Ok(document)
     }
 
-    fn input_text(&self) -> String {
-        String::from_utf8_lossy(&self.input).into_owned()
+    fn input_text(&self) -> Result<String, String> {
+        let text = std::str::from_utf8(&self.input);
+        text.map(str::to_owned)
+            .map_err(|_| "the text is not UTF-8".to_owned())
     }
 
     /// Puts a player in the place of the one before; whether there is one for these settings.

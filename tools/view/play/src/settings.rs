@@ -161,6 +161,10 @@ impl FromStr for Settings {
         };
         let (cloth, scene) = (value("cloth")?, value("scene")?);
         let (up, method, threshold) = (value("up")?, value("method")?, value("threshold")?);
+        let more = lines.next();
+        more.map_or(Ok(()), |line| {
+            Err(format!("expected nothing more, found `{line}`"))
+        })?;
         let unknown = |what: &str, given: &str| format!("there is no {what} `{given}`");
         let file = cloth.strip_prefix("file ").map(str::to_owned);
         let cells = cloth.strip_prefix("sheet ");
@@ -191,7 +195,8 @@ impl FromStr for Settings {
                 name => Some(Method::named(name).ok_or(unknown("method", name))?),
             },
             threshold,
-            text: text.to_owned(),
+            // Each with the end of its line, since the inputs follow in a log.
+            text: text.lines().flat_map(|line| [line, "\n"]).collect(),
         })
     }
 }
