@@ -210,8 +210,14 @@ extern "C" fn wind(x: f64, y: f64, z: f64, coefficient: f64) -> bool {
         velocity_m_per_s: Vector::new(x, y, z),
         coefficient,
     };
-    let wind = Some(wind).filter(|wind| wind.coefficient != 0.0);
-    verb(false, |player| player.set_wind(wind).map(|()| true))
+    verb(false, |player| {
+        // Also of a wind that has no force.
+        if let Some(bad) = [x, y, z].into_iter().find(|speed| !speed.is_finite()) {
+            return Err(format!("wind.velocity_m_per_s cannot be {bad}"));
+        }
+        let wind = Some(wind).filter(|wind| wind.coefficient != 0.0);
+        player.set_wind(wind).map(|()| true)
+    })
 }
 
 /// Has the wind of the scene blow again.

@@ -4,7 +4,8 @@ use tearmesh::geometry::{Plane, Point, Ray};
 use tearmesh::{CutLayers, Edits, Mesh, Positions, Scissor, VertexId};
 use tearmesh_cloth::scene::{Frame, Opening, SwayingWind};
 use tearmesh_cloth::{
-    ClothBuffers, Collider, Event, HandId, InputError, InputLog, Simulation, Wind, Wounds, digest,
+    ClothBuffers, Collider, Event, HandId, InputError, InputLog, Simulation, StepError, Wind,
+    Wounds, digest,
 };
 use tearmesh_obj::{Document, TornDocument};
 
@@ -172,6 +173,10 @@ impl<'d> Player<'d> {
     ///
     /// Why a step failed, in words. The cloth is then as it was after the last good one.
     pub fn advance(&mut self, dt_s: f64, steps_max: u64) -> Result<u64, String> {
+        // Before the wind changes.
+        if !(dt_s >= 0.0 && dt_s.is_finite()) {
+            return words(Err(StepError::Step { given_s: dt_s }));
+        }
         if self.is_wind_of_scene {
             let part = (self.sim.time_s() * SWAYS_PER_S).floor() / SWAYS_PER_S;
             let wind = self.wind.map(|wind| wind.at(part));
