@@ -76,6 +76,9 @@ pub const VERTICES_MAX: usize = 20_000;
 /// The largest number of cells a side of a sheet: its vertices are fewer than [`VERTICES_MAX`].
 pub const CELLS_MAX: u32 = 128;
 
+/// The largest coordinate that a page draws, in metres: cloths are drawn in `f32`, which ends at 3.4e38, and move.
+const COORDINATE_MAX: f64 = 1e30;
+
 impl Settings {
     /// Returns the scene for a cloth in this frame, with what was chosen. Where a scene that stands ready would
     /// strengthen the cloth for its own grip, hands grip where they grab.
@@ -115,6 +118,13 @@ impl Settings {
 /// Reads an OBJ file that a page can play with.
 pub(crate) fn document(obj: &[u8]) -> Result<Document, String> {
     let document = words(Document::read(obj))?;
+    let numbers = document.positions().iter().flat_map(|p| [p.x, p.y, p.z]);
+    let farthest = numbers.map(f64::abs).fold(0.0, f64::max);
+    if farthest > COORDINATE_MAX {
+        return Err(format!(
+            "a coordinate is {farthest:e}, and a page draws up to {COORDINATE_MAX:e}"
+        ));
+    }
     match document.positions().len() {
         0..=VERTICES_MAX => Ok(document),
         given => Err(format!(
