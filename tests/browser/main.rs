@@ -5,6 +5,7 @@
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod border;
 mod chrome;
 mod clicks;
 #[path = "../support/digest.rs"]
