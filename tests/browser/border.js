@@ -85,6 +85,16 @@ wind.coefficient x   x   x   x    x   !     !     x     !   + + +  +   +    !   
     const blocks = [0, 1, 2, 3, 4, 5, 6, 7].map((n) => block(n).join());
     return [wasm.digest(), log(), obj(), ...blocks].join("\n");
   };
+  // Whether the box round what is drawn is that of the vertices, for cloths of a metre.
+  const isDrawnInPlace = () => {
+    wasm.draw();
+    const origin = block(5, Float64Array).slice(-3), drawn = block(0, Float32Array);
+    const lines = obj().split("\n").filter((line) => line.startsWith("v "));
+    return [0, 1, 2].every((axis) => [Math.min, Math.max].every((end) => {
+      const is = end(...lines.map((line) => +line.split(" ")[axis + 1]));
+      return Math.abs(end(...drawn.filter((_, i) => i % 3 === axis)) + origin[axis] - is) < 1e-6;
+    }));
+  };
   const areFinite = () => (wasm.draw(), block(0, Float32Array).every(Number.isFinite));
 
   // Makes a call, and compares what comes of it: the letter of the outcome, or what happened instead.
@@ -146,7 +156,7 @@ wind.coefficient x   x   x   x    x   !     !     x     !   + + +  +   +    !   
     ["start", "a file", "+", null, () => took(FACE), () => start(FILE)],
     ["start", "a file that was refused after another", "+", null, () => (took(FACE), took("f")), () => start(FILE)],
     ["start", "a file with the name of the inputs of a log", "+", null, () => took(FACE), () => start(sheet("cloth", "file tearmesh inputs.obj"))],
-    ["start", "a file far away", "+", null, () => took(FAR), () => start(FILE)],
+    ["start", "a file far away", "+", null, () => took(FAR), () => start(FILE) && isDrawnInPlace()],
     ["start", "a tiny file", "+", null, () => took(scaled(1e-12)), () => start(FILE)],
     ["start", "a file whose area is 0 in numbers", "x", /no face has an area/, () => took(scaled(1e-200)), () => start(FILE)],
     ["take_file", "a file beyond the numbers that are drawn", "x", /draws up to/, (h) => h, () => took(scaled(1e40))],

@@ -342,6 +342,7 @@ impl Module {
         let buffers = player.draw_buffers();
         let pieces = buffers.pieces().iter().max().map_or(0, |&last| last + 1);
         let (positions, indices) = (buffers.positions(), buffers.indices());
+        let origin = buffers.origin();
         refill(
             &mut self.drawn,
             [of(positions), of(indices), of(buffers.pieces())],
@@ -366,9 +367,11 @@ impl Module {
         refill(&mut self.facts, counts.map(|count| count as f64));
         self.facts.extend([sim.time_s(), sim.step_s()]);
         self.facts.extend(facts.grabbed_at);
+        self.facts.extend(<[f64; 3]>::from(origin));
         let (points, faces) = player.solids();
         let (places, corners) = &mut self.solids;
-        let numbers = points.iter().flat_map(|p| [p.x, p.y, p.z]);
+        let drawn = points.iter().map(|p| p - origin);
+        let numbers = drawn.flat_map(|p| [p.x, p.y, p.z]);
         refill(places, numbers.map(|x| x as f32));
         refill(corners, faces.into_flattened());
         let cloth = [of(&self.edges), of(&self.held), of(&self.facts)];

@@ -22,6 +22,7 @@ class Cloth {
   scene(plan) { this.give(new TextEncoder().encode(plan)); this.ask(this.wasm.take_scene()); }
   start(settings) { this.give(new TextEncoder().encode(settings)); this.ask(this.wasm.start()); }
   replay(log) { this.give(new TextEncoder().encode(log)); this.ask(this.wasm.replay()); }
+  // Positions of cloth and solids are relative to the origin among the facts, all others are where they are.
   get positions() { return this.block(0, Float32Array); }
   get indices() { return this.block(1, Uint32Array); }
   get pieces() { return this.block(2, Uint32Array); }
@@ -31,8 +32,8 @@ class Cloth {
   get solidPositions() { return this.block(6, Float32Array); }
   get solidIndices() { return this.block(7, Uint32Array); }
   get facts() {
-    const [vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, ...at] = this.block(5, Float64Array);
-    return { vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, at };
+    const [vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, ...rest] = this.block(5, Float64Array);
+    return { vertices, faces, pieces, heldFirst, tears, heals, sewn, left, open, time, step, at: rest.slice(0, 3), origin: rest.slice(3) };
   }
   obj() { this.ask(this.wasm.write_obj()); return this.block(8).slice(); }
   log() { this.ask(this.wasm.write_log()); return this.block(8).slice(); }

@@ -71,7 +71,7 @@ async function open() {
     $("hint").textContent = "Choose Cut, and draw a line through the cloth.";
     const raw = cloth.positions, all = boxOf(raw, cloth.indices);
     const side = Math.max(...sub(all.most, all.least)) || 1;
-    lattice = { origin: all.least, side };
+    lattice = { origin: add(cloth.facts.origin, all.least), corner: all.least, side };
     refresh();
     aim();
     const up = $("up").selectedOptions[0].textContent;
@@ -109,9 +109,9 @@ async function open() {
   // Takes over where the cloth was drawn last, and its faces once they are others.
   function refresh() {
     facts = cloth.facts;
-    const raw = joined(cloth.positions, cloth.solidPositions), { origin, side } = lattice;
+    const raw = joined(cloth.positions, cloth.solidPositions), { corner, side } = lattice;
     places = new Float64Array(raw.length);
-    for (let i = 0; i < raw.length; i++) places[i] = (raw[i] - origin[i % 3]) / side;
+    for (let i = 0; i < raw.length; i++) places[i] = (raw[i] - corner[i % 3]) / side;
     const now = [facts.vertices, facts.faces, facts.pieces, facts.tears, facts.heals, facts.open].join();
     if (now !== topology) {
       topology = now;
