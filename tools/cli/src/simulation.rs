@@ -2,7 +2,9 @@
 
 use tearmesh::{FaceId, Point, Vector, VertexId};
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{Frame, Run, RunError, Scene, TimedCut};
+use tearmesh_cloth::scene::{
+    Frame, Run, RunError, Scene, TextureError, TimedCut, rest_from_texture,
+};
 use tearmesh_cloth::{
     BlowUpSite, ClothError, Method, SeamFault, SimulationError, StepError, StepLimit, Stretch,
     Tearing, TearingError, Threshold,
@@ -131,33 +133,21 @@ pub(crate) fn tearing(is_typed: bool, scene: &Scene, source: &SceneSource) -> Re
 
 /// The places at rest of corners, by their texture coordinates, if the scene has a unit of them.
 fn rest(opened: &Opened, source: &SceneSource) -> Result<Vec<Point>, Stop> {
-    let (mut rest, document) = (Vec::new(), &opened.document);
-    let Some(unit_m) = source.vt_m() else {
-        return Ok(rest);
+    let (Some(unit_m), document) = (source.vt_m(), &opened.document) else {
+        return Ok(Vec::new());
     };
-    for face in 0..document.triangles().len() {
-        let corner = |i| match document.texture(document.corner(face, i).texture? as usize) {
-            &[u, v, ..] => Some(Point::new(u * unit_m, v * unit_m, 0.0)),
-            _ => None,
-        };
-        let wrong = match [0, 1, 2].map(corner) {
-            [Some(a), Some(b), Some(c)] => {
-                rest.extend([a, b, c]);
-                match (b - a).cross(&(c - a)).z {
-                    twice if twice > 0.0 => continue,
-                    0.0 => "has no area",
-                    _ => "is flipped",
-                }
-            }
-            _ => "has no place",
-        };
+    let corner = |face, i| match document.texture(document.corner(face, i).texture? as usize) {
+        &[u, v, ..] => Some([u, v]),
+        _ => None,
+    };
+    let face = |face| [0, 1, 2].map(|i| corner(face, i));
+    let faces = (0..document.triangles().len()).map(face);
+    rest_from_texture(faces, unit_m).map_err(|TextureError { face, fault }| {
         let line = document.line_of_triangle(face);
-        let message = format!("the face on line {line} {wrong} in texture coordinates");
-        return Err(source
-            .blame(("fabric", 0, "vt_m"), "E-SCENE-VT", message)
-            .into());
-    }
-    Ok(rest)
+        let message = format!("the face on line {line} {fault}");
+        let fault = source.blame(("fabric", 0, "vt_m"), "E-SCENE-VT", message);
+        fault.into()
+    })
 }
 
 /// Why a scene cannot be played with this mesh.

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use pyo3::prelude::*;
 use tearmesh_cloth::scene::file::{BodyMesh, SceneFile};
-use tearmesh_cloth::scene::{Frame, Opening};
-use tearmesh_core::{Mesh, Point, Positions};
+use tearmesh_cloth::scene::{Frame, Opening, rest_from_texture};
+use tearmesh_core::{Mesh, Positions};
 use tearmesh_obj::Document;
 
 use crate::arrays::{os_error, value_error};
@@ -38,13 +38,17 @@ pub(crate) fn opening(
         .and_then(|fabric| fabric.vt_m.as_deref());
     if let Some(vt_m) = vt_m {
         let uv = uv.ok_or_else(|| refused(&"[fabric] has vt_m, which needs uv"))?;
-        let corners = uv.as_chunks::<2>().0.iter();
-        scene.rest = corners
-            .map(|[u, v]| Point::new(u * vt_m, v * vt_m, 0.0))
-            .collect();
+        let faces = uv.as_chunks::<2>().0.as_chunks::<3>().0.iter();
+        let rest = rest_from_texture(faces.map(|uv| uv.map(finite)), *vt_m);
+        scene.rest = rest.map_err(|error| refused(&error))?;
     }
     let opening = scene.opening(mesh, positions.as_slice(), &frame);
     opening.map_err(|error| refused(&error))
+}
+
+/// The texture coordinates of a corner, unless they are no numbers, which no file can have.
+fn finite(uv: [f64; 2]) -> Option<[f64; 2]> {
+    Some(uv).filter(|uv| uv.iter().all(|number| number.is_finite()))
 }
 
 /// The points and the triangles of an OBJ file.

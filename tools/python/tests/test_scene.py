@@ -77,6 +77,23 @@ def test_a_wind_that_begins_later_is_left_to_the_program(sheet, tmp_path):
     assert sim.step_length == tearmesh.Simulation.of_scene(*sheet, path).step_length
 
 
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ((0.0, 0.0), "f40 has no area in texture coordinates"),
+        ((9.0, -9.0), "f40 is flipped in texture coordinates"),
+        ((np.nan, 0.0), "f40 has no place in texture coordinates"),
+    ],
+)
+def test_texture_coordinates_are_refused_in_the_words_of_the_command(sheet, tmp_path, place, said):
+    path = tmp_path / "scene.toml"
+    path.write_text("[fabric]\nvt_m = 0.5\n")
+    uv = sheet[0][sheet[1]][:, :, :2]
+    uv[40] = [uv[40, 0], uv[40, 1], uv[40, 0] + place]
+    with pytest.raises(ValueError, match=said):
+        tearmesh.Simulation.of_scene(*sheet, path, uv=uv)
+
+
 def test_texture_coordinates_are_the_shape_at_rest(sheet, tmp_path):
     path = tmp_path / "scene.toml"
     path.write_text("[fabric]\nvt_m = 0.5\n[[hold]]\nalong = [1, 1]\nacross = [0, 1]\n[tear]\nnever = true\n")

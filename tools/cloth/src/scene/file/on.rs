@@ -143,7 +143,8 @@ impl SceneFile {
     /// and its name, or says why it cannot.
     ///
     /// Vertices have the ids that their numbers in the file say, counted from 1. The rest shape that
-    /// [`FabricTable::vt_m`](super::FabricTable::vt_m) asks for is not set: it needs texture coordinates.
+    /// [`FabricTable::vt_m`](super::FabricTable::vt_m) asks for is not set: it needs texture coordinates, of
+    /// which [`rest_from_texture`](crate::scene::rest_from_texture) makes it.
     ///
     /// # Errors
     ///
