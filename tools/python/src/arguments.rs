@@ -3,17 +3,41 @@
 use pyo3::prelude::*;
 use tearmesh_core::{BuildError, CutLayers, Defect, Mesh, Plane, Positions, Ray, Scissor};
 
-use crate::arrays::{ANY, Array, floats, ids, triangles, value_error};
+use crate::arrays::{ANY, Array, floats, ids, triangles};
+use crate::errors::value_error;
 
 /// The mesh of some triangles, torn where vertices have roots.
-pub(crate) fn mesh_of(n: usize, faces: &Array<'_>, roots: Option<&Array<'_>>) -> PyResult<Mesh> {
-    let faces = triangles(faces)?;
+pub(crate) fn mesh_of(
+    py: Python<'_>,
+    n: usize,
+    faces: Vec<[u32; 3]>,
+    roots: Option<&Array<'_>>,
+) -> PyResult<Mesh> {
     let Some(roots) = roots else {
-        return Mesh::build(n, faces).map_err(|error| no_manifold(&error));
+        let built = py.detach(|| Mesh::build(n, faces));
+        return built.map_err(|error| no_manifold(&error));
     };
     let roots = ids("roots", roots, &[n])?;
-    Mesh::build_torn(&faces, &roots).map_err(value_error)
+    let built = py.detach(|| Mesh::build_torn(&faces, &roots));
+    built.map_err(value_error)
 }
+
+/// How many of `n` vertices a mesh of triangles needs: up to the last that one of them names. The others, which have no
+/// faces, take no room; but so few faces may name so high a number that the room is not to be had.
+pub(crate) fn vertices_named(n: usize, triangles: &[[u32; 3]]) -> PyResult<usize> {
+    let last = triangles.iter().flatten().max().copied();
+    let named = last.map_or(0, |last| last as usize + 1).min(n);
+    match last {
+        Some(last) if named > SPARSE_MAX + 100 * triangles.len() => Err(value_error(format!(
+            "faces contains {last}, but only {} triangles: number the vertices without such gaps",
+            triangles.len()
+        ))),
+        _ => Ok(named),
+    }
+}
+
+/// The number of vertices, beyond a hundred for each face, up to which most may have no face: 200 MB.
+const SPARSE_MAX: usize = 1 << 24;
 
 /// What is wrong with triangles, and two ways out where vertices were parted for their texture coordinates.
 fn no_manifold(error: &BuildError) -> PyErr {
@@ -36,8 +60,11 @@ pub(crate) fn parts_of(
 ) -> PyResult<(Mesh, Positions)> {
     let points = floats("points", points, &[ANY, 3])?;
     let points = points.as_chunks::<3>().0;
-    let positions = Positions::new(points.iter().copied()).map_err(value_error)?;
-    Ok((mesh_of(points.len(), faces, roots)?, positions))
+    let py = faces.py();
+    let positions = py.detach(|| Positions::new(points.iter().copied()));
+    let positions = positions.map_err(value_error)?;
+    let mesh = mesh_of(py, points.len(), triangles(faces)?, roots)?;
+    Ok((mesh, positions))
 }
 
 /// Three numbers.
@@ -69,7 +96,7 @@ pub(crate) fn scissor_of(
     let layers = match (layers, rays) {
         ("all", _) => CutLayers::All,
         ("first", Some(_)) => CutLayers::First,
-        _ => return Err(value_error("layers is all, or with rays first")),
+        _ => return Err(value_error("layers must be 'all' or, with rays, 'first'")),
     };
     Ok(scissor.with_layers(layers).with_snap(snap))
 }

@@ -7,6 +7,8 @@
 
 mod arguments;
 mod arrays;
+mod errors;
+mod numbers;
 mod obj;
 mod scene;
 mod simulation;
@@ -18,16 +20,12 @@ use tearmesh_core::gap::gapped;
 use tearmesh_core::unsewn::UnsewnSeams;
 use tearmesh_core::{Cursor, Cut, CutError, CutMethod, Edits, Mesh, Scissor, mend as sewing};
 
-use arguments::{Triple, mesh_of, parts_of, scissor_of};
-use arrays::{Array, Made, triangles, value_error};
+use arguments::{Triple, mesh_of, parts_of, scissor_of, vertices_named};
+use arrays::{Array, Made, triangles};
+use errors::value_error;
+use numbers::{not_negative, vertex_count};
 use torn::Log;
 use waiting::heard;
-
-/// A number of vertices.
-fn vertex_count(n: i64) -> PyResult<usize> {
-    let count = u32::try_from(n).map(|n| n as usize);
-    count.map_err(|_| value_error(format!("n must be a number of vertices, not {n}")))
-}
 
 /// The distance that is given for `weld`: True is 0, and False none.
 fn distance_of(weld: &Array<'_>) -> PyResult<Option<f64>> {
@@ -50,7 +48,8 @@ const _: () = assert!(Scissor::SNAP == 0.05 && tearmesh_cloth::Simulation::GRIP_
 /// Both sides of a cut lie at the same place. Programs that merge equal points close it, as `trimesh.Trimesh` does
 /// unless it is given `process=False`. Or have the sides moved apart: `cut(..., gap=0.001)`.
 ///
-/// Whatever is refused raises ValueError, with the numbers of the vertices (v7) and faces (f3) concerned.
+/// Whatever is refused raises ValueError, with the numbers of the vertices (v7) and faces (f3) concerned, or TypeError if
+/// it is of the wrong type, as 1.5 or True is for the number of a vertex. Nothing is changed then.
 #[pymodule]
 mod tearmesh {
     use super::*;
@@ -71,20 +70,13 @@ mod tearmesh {
     /// faces: (m, 3) integers. n: the number of vertices. At most a thousand defects of a kind are listed. A torn mesh
     /// need not be a manifold.
     #[pyfunction]
-    fn check(faces: &Array<'_>, n: i64) -> PyResult<Vec<String>> {
-        let triangles = triangles(faces)?;
-        let n = vertex_count(n)?;
-        // Vertices without faces are no defects, and take no room.
-        let named = triangles
-            .iter()
-            .flatten()
-            .max()
-            .map_or(0, |&last| last as usize + 1);
-        let built = heard(faces.py(), move || Mesh::build(n.min(named), triangles))?;
-        let defects = built
-            .err()
-            .map_or(Vec::new(), |error| error.defects().to_vec());
-        Ok(defects.iter().map(ToString::to_string).collect())
+    fn check(faces: &Array<'_>, n: &Array<'_>) -> PyResult<Vec<String>> {
+        let (triangles, n) = (triangles(faces)?, vertex_count(n)?);
+        heard(faces.py(), move || {
+            let defects = Mesh::build(vertices_named(n, &triangles)?, triangles).err();
+            let defects = defects.iter().flat_map(|error| error.defects());
+            Ok(defects.map(ToString::to_string).collect())
+        })?
     }
 
     /// Returns the piece of each face, as (m,) integers. Pieces are numbered from 0 in the order of their first faces.
@@ -94,9 +86,14 @@ mod tearmesh {
     /// faces: (m, 3) integers. n: the number of vertices. roots: (n,) integers, for a torn mesh.
     #[pyfunction]
     #[pyo3(signature = (faces, n, *, roots=None))]
-    fn pieces<'py>(faces: &Array<'py>, n: i64, roots: Option<&Array<'py>>) -> Made<'py> {
-        let mesh = mesh_of(vertex_count(n)?, faces, roots)?;
-        torn::pieces_of(faces.py(), &mesh, &mesh.components())
+    fn pieces<'py>(faces: &Array<'py>, n: &Array<'py>, roots: Option<&Array<'py>>) -> Made<'py> {
+        let (py, triangles, n) = (faces.py(), triangles(faces)?, vertex_count(n)?);
+        let vertices = match roots {
+            Some(_) => n,
+            None => py.detach(|| vertices_named(n, &triangles))?,
+        };
+        let mesh = mesh_of(py, vertices, triangles, roots)?;
+        torn::pieces_of(py, &mesh)
     }
 
     /// Cuts a mesh along a plane, or between two rays, and returns a TornMesh. The arrays that are given stay as they are.
@@ -132,14 +129,8 @@ mod tearmesh {
         weld: Option<&Array<'py>>,
     ) -> PyResult<TornMesh> {
         let weld = weld.map(distance_of).transpose()?.flatten();
-        if let Some(distance) = weld.filter(|distance| !(0.0..f64::INFINITY).contains(distance)) {
-            let why = format!("weld must be a distance of 0 or more, not {distance}");
-            return Err(value_error(why));
-        }
-        if !(gap >= 0.0 && gap.is_finite()) {
-            let why = format!("gap must be a length of 0 or more, not {gap}");
-            return Err(value_error(why));
-        }
+        not_negative("weld", "a distance", weld.unwrap_or(0.0))?;
+        not_negative("gap", "a length", gap)?;
         let scissor = scissor_of(plane, rays, layers, snap)?;
         let (mut mesh, mut positions) = parts_of(points, faces, roots)?;
         let (log, mut edits) = (Log::new(&mesh, Cursor::START), Edits::new());
@@ -184,6 +175,8 @@ mod tearmesh {
         uv: Option<&Array<'py>>,
         max_distance: Option<f64>,
     ) -> PyResult<TornMesh> {
+        let max_distance = max_distance.filter(|&distance| distance != f64::INFINITY);
+        not_negative("max_distance", "a distance", max_distance.unwrap_or(0.0))?;
         let (mut mesh, mut positions) = parts_of(points, faces, Some(roots))?;
         let (log, mut edits) = (Log::new(&mesh, Cursor::START), Edits::new());
         let sewn = py.detach(|| {

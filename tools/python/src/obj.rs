@@ -11,11 +11,12 @@ use std::{fs, process};
 use numpy::prelude::*;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
-use tearmesh_core::{Cursor, Cut, Edits, Mesh};
+use tearmesh_core::{Cursor, Cut, Edits, Mesh, Positions};
 use tearmesh_obj::{Document, TornDocument, named_format};
 
 use crate::arguments::parts_of;
-use crate::arrays::{Array, any, array, floats, os_error, value_error};
+use crate::arrays::{Array, any, array, floats};
+use crate::errors::{os_error, value_error};
 use crate::torn::{Log, TornMesh};
 use crate::waiting::heard;
 
@@ -35,7 +36,8 @@ pub(crate) fn read_obj(py: Python<'_>, path: PathBuf) -> PyResult<TornMesh> {
         Some(format) => refused(&format!("this is {format} file, not OBJ; convert it first")),
         None => refused(&error),
     })?;
-    let mesh = document.mesh().map_err(|error| refused(&error))?;
+    let mesh = py.detach(|| document.mesh());
+    let mesh = mesh.map_err(|error| refused(&error))?;
     for diagnostic in document.diagnostics() {
         let text = CString::new(format!("{}: {diagnostic}", path.display()))?;
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
@@ -45,7 +47,7 @@ pub(crate) fn read_obj(py: Python<'_>, path: PathBuf) -> PyResult<TornMesh> {
         let numbers = document.texture(document.corner(h / 3, h % 3).texture? as usize);
         Some([0, 1].map(|axis| numbers.get(axis).copied().unwrap_or(0.0)))
     };
-    let uv: Option<Vec<[f64; 2]>> = (0..3 * faces).map(numbers).collect();
+    let uv: Option<Vec<[f64; 2]>> = py.detach(|| (0..3 * faces).map(numbers).collect());
     let uv = uv.map(|uv| array(py, uv.into_flattened(), &[faces, 3, 2]));
     let log = (Log::new(&mesh, Cursor::START), Edits::new());
     let (points, uv) = (document.positions(), uv.transpose()?);
@@ -66,8 +68,21 @@ pub(crate) fn write_obj(
     roots: Option<&Array<'_>>,
     uv: Option<&Array<'_>>,
 ) -> PyResult<()> {
+    let py = points.py();
     let (mesh, positions) = parts_of(points, faces, roots)?;
     let uv = uv.map(|uv| per_corner(uv, &mesh)).transpose()?;
+    let bytes = py.detach(|| bytes_of(&mesh, &positions, uv.as_deref()))?;
+    let to = path.clone();
+    let written = heard(py, move || replace(&to, &bytes))?;
+    written.map_err(|error| os_error(&error, &path))
+}
+
+/// The text of a mesh as an OBJ file, with the record of what is torn.
+fn bytes_of(mesh: &Mesh, positions: &Positions, uv: Option<&[f64]>) -> PyResult<Vec<u8>> {
+    if let Some(number) = uv.into_iter().flatten().find(|number| !number.is_finite()) {
+        let why = format!("uv contains {number}, which no file can have");
+        return Err(value_error(why));
+    }
     let mut text = String::new();
     let mut line = |line: String| text.extend([&line, "\n"]);
     for p in positions.as_slice() {
@@ -91,10 +106,8 @@ pub(crate) fn write_obj(
     let document = Document::read(text.as_bytes()).map_err(value_error)?;
     let (document, mesh) = document.torn_from(&mesh.roots()).map_err(value_error)?;
     let mut bytes = Vec::new();
-    TornDocument::new(&document).write(&mesh, &positions, &mut bytes)?;
-    let to = path.clone();
-    let written = heard(points.py(), move || replace(&to, &bytes))?;
-    written.map_err(|error| os_error(&error, &path))
+    TornDocument::new(&document).write(&mesh, positions, &mut bytes)?;
+    Ok(bytes)
 }
 
 /// Texture coordinates by corner, from those of vertices or of corners.

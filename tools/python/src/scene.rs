@@ -11,7 +11,7 @@ use tearmesh_cloth::scene::{Frame, Opening, rest_from_texture};
 use tearmesh_core::{Mesh, Positions};
 use tearmesh_obj::Document;
 
-use crate::arrays::{os_error, value_error};
+use crate::errors::{os_error, value_error};
 
 /// How the scene of a file begins on a mesh. `uv` has the texture coordinates of corners.
 pub(crate) fn opening(

@@ -13,7 +13,9 @@ use tearmesh_cloth::{
 use tearmesh_core::{Mesh, Plane, Positions, Ray, Vector, VertexId};
 
 use crate::arguments::{Triple, parts_of, scissor_of};
-use crate::arrays::{self, Array, Made, array, floats, indices, rows, value_error};
+use crate::arrays::{self, Array, Made, array, floats, indices, rows};
+use crate::errors::{nothing_tears, value_error};
+use crate::numbers;
 use crate::scene;
 use crate::torn::{Log, pieces_of};
 use crate::waiting::{Listener, heard};
@@ -25,7 +27,7 @@ use crate::waiting::{Listener, heard};
 /// in s, with verlet only. method: "verlet", "implicit", "xpbd", "pbd" or "provot". stretch: an edge tears at this
 /// multiple of its rest length; None for never. toughness: instead, the energy per metre of tear, in J/m. weakening:
 /// the strength of the tips of a tear, as a part of that of whole cloth. strengths: (n,) floats, the strength of
-/// each vertex as a multiple of the threshold. gravity: in m/s², by default (0, -9.81, 0). drag: in 1/s. colliders: a
+/// each vertex as a multiple of the threshold; both are refused where nothing tears. gravity: in m/s², by default (0, -9.81, 0). drag: in 1/s. colliders: a
 /// list of planes (point, normal) and balls (centre, radius). friction: Coulomb's coefficient of them all. step: its
 /// length in s, by default one that suits.
 ///
@@ -35,7 +37,7 @@ use crate::waiting::{Listener, heard};
 /// The attributes points, velocities (n, 3), faces (m, 3), roots (n,) and pieces (m,) are new arrays each time: the cloth
 /// moves on, and they do not. time and step_length are in s; open_pairs is the number of pairs that still heal.
 ///
-/// `step`, `advance` and `cut` release the GIL. A simulation that another thread is in raises RuntimeError.
+/// Whatever takes long releases the GIL. A simulation that another thread changes meanwhile raises RuntimeError.
 #[pyclass(module = "tearmesh")]
 pub(crate) struct Simulation {
     sim: tearmesh_cloth::Simulation,
@@ -62,16 +64,20 @@ impl Simulation {
         })
     }
 
+    fn advanced(&mut self, py: Python<'_>, seconds: f64, steps_max: u64) -> PyResult<u64> {
+        self.begin();
+        let (sim, mut listener) = (&mut self.sim, Listener::new());
+        let reached = py.detach(|| sim.advance_while(seconds, steps_max, || listener.goes_on()));
+        if let Some(raised) = listener.raised {
+            return Err(raised);
+        }
+        let failed = |error: StepError| PyRuntimeError::new_err(error.to_string());
+        Ok(reached.map_err(failed)?.steps)
+    }
+
     /// From here on, changes are mapped.
     fn begin(&mut self) {
         self.before = Log::new(self.sim.mesh(), self.sim.edits().cursor());
-    }
-
-    fn hand_of(&self, hand: usize) -> PyResult<HandId> {
-        self.hands
-            .get(hand)
-            .copied()
-            .ok_or_else(|| value_error("there never was such a hand"))
     }
 
     fn event<'py>(&self, py: Python<'py>, event: Event) -> PyResult<Bound<'py, PyTuple>> {
@@ -110,6 +116,28 @@ fn collider((place, second): (Triple, Array<'_>), friction: f64) -> PyResult<Col
     Ok(Collider::plane(plane.map_err(value_error)?).with_friction(friction))
 }
 
+/// The rule for tearing, if anything tears.
+fn tearing(
+    stretch: Option<f64>,
+    toughness: Option<f64>,
+    weakening: Option<f64>,
+) -> PyResult<Option<Tearing>> {
+    // A toughness stands instead of a stretch, which has to be a number nevertheless.
+    if let Some(stretch) = stretch {
+        numbers::not_negative("stretch", "a number", stretch)?;
+    }
+    let stretch = stretch.map(Threshold::Stretch);
+    let threshold = toughness.map(Threshold::Toughness).or(stretch);
+    if threshold.is_none() && weakening.is_some() {
+        return Err(nothing_tears("weakening"));
+    }
+    let tearing = |threshold| Tearing {
+        weakening,
+        ..Tearing::new(threshold)
+    };
+    Ok(threshold.map(tearing))
+}
+
 #[pymethods]
 impl Simulation {
     #[new]
@@ -136,12 +164,11 @@ impl Simulation {
         let (mesh, positions) = parts_of(points, faces, roots)?;
         let named = Method::named(method);
         let unknown = || format!("method is one of {:?}, not {method:?}", Method::NAMES);
-        let stretch = stretch.map(Threshold::Stretch);
-        let threshold = toughness.map(Threshold::Toughness).or(stretch);
-        let tearing = |threshold| Tearing {
-            weakening,
-            ..Tearing::new(threshold)
-        };
+        let tearing = tearing(stretch, toughness, weakening)?;
+        if tearing.is_none() && strengths.is_some() {
+            return Err(nothing_tears("strengths"));
+        }
+        numbers::not_negative("friction", "a number", friction)?;
         let strengths = strengths.map(|given| floats("strengths", given, &[arrays::ANY]));
         let colliders = colliders
             .into_iter()
@@ -154,7 +181,7 @@ impl Simulation {
                 ..Fabric::new(modulus)
             },
             method: named.ok_or_else(|| value_error(unknown()))?,
-            tearing: threshold.map(tearing),
+            tearing,
             strengths: strengths.transpose()?.unwrap_or_default(),
             loads: Loads {
                 gravity_m_per_s2: Some(gravity.unwrap_or([0.0, -9.81, 0.0]).into()),
@@ -171,7 +198,8 @@ impl Simulation {
     /// Returns a cloth in motion that begins as a scene file (TOML) of the command `tearmesh tear` says: with its fabric,
     /// method, wind, colliders, seams and rule for tearing, and with what it holds and cuts at 0 s.
     ///
-    /// points, faces, roots, uv: as for `cut`; uv is for a scene whose fabric has vt_m. path: of the file. Bodies are read
+    /// points, faces, roots, uv: as for `cut`; uv is per corner, and is the shape at rest in a scene whose fabric has vt_m: no
+    /// face may be flipped there, or without area. path: of the file. Bodies are read
     /// from files beside it, and its vertices count from 1. What leads, begins or ends later is left to you; if nothing is
     /// held still at 0 s, the first that is led is held. Raises OSError, or ValueError with all that is wrong.
     #[staticmethod]
@@ -185,16 +213,20 @@ impl Simulation {
     ) -> PyResult<Simulation> {
         let (mesh, positions) = parts_of(points, faces, roots)?;
         let uv = uv.map(|uv| floats("uv", uv, &[mesh.face_count(), 3, 2]));
-        let opening = scene::opening(&path, &mesh, &positions, uv.transpose()?.as_deref())?;
-        let mut made = Simulation::of(points.py(), mesh, positions, opening.def)?;
-        if let Some(wind) = opening.wind.filter(|wind| wind.from_s > 0.0) {
-            made.sim.set_wind(Some(wind.at(0.0))).map_err(value_error)?;
-        }
-        made.sim.hold(opening.held).map_err(value_error)?;
-        for scissor in &opening.cuts {
-            made.cuts.push(made.sim.cut(scissor).map_err(value_error)?);
-        }
-        Ok(made)
+        let (py, uv) = (points.py(), uv.transpose()?);
+        let opening = py.detach(|| scene::opening(&path, &mesh, &positions, uv.as_deref()))?;
+        let mut made = Simulation::of(py, mesh, positions, opening.def)?;
+        py.detach(|| {
+            if let Some(wind) = opening.wind.filter(|wind| wind.from_s > 0.0) {
+                made.sim.set_wind(Some(wind.at(0.0)))?;
+            }
+            made.sim.hold(opening.held)?;
+            for scissor in &opening.cuts {
+                made.cuts.push(made.sim.cut(scissor)?);
+            }
+            Ok(made)
+        })
+        .map_err(|error: InputError| value_error(error))
     }
 
     /// Lets this many seconds pass, in whole steps and at most steps_max of them, and returns the number of steps.
@@ -202,44 +234,48 @@ impl Simulation {
     /// What is less than half a step is made up for by the next call. Raises RuntimeError if a step fails, as when the
     /// cloth blows up; the cloth is then as it was after the last good step. Ctrl-C is heard between steps.
     #[pyo3(signature = (seconds, steps_max=None))]
-    fn advance(&mut self, py: Python<'_>, seconds: f64, steps_max: Option<u64>) -> PyResult<u64> {
-        self.begin();
-        let (steps_max, mut listener) = (steps_max.unwrap_or(u64::MAX), Listener::new());
-        let sim = &mut self.sim;
-        let reached = py.detach(|| sim.advance_while(seconds, steps_max, || listener.goes_on()));
-        if let Some(raised) = listener.raised {
-            return Err(raised);
-        }
-        let reached = reached.map_err(|error| match error {
-            StepError::Step { .. } => value_error(error),
-            failed => PyRuntimeError::new_err(failed.to_string()),
-        });
-        Ok(reached?.steps)
+    fn advance(
+        &mut self,
+        py: Python<'_>,
+        seconds: f64,
+        steps_max: Option<&Array<'_>>,
+    ) -> PyResult<u64> {
+        let steps_max = steps_max.map(numbers::steps_max).transpose()?;
+        numbers::not_negative("seconds", "a time", seconds)?;
+        self.advanced(py, seconds, steps_max.unwrap_or(u64::MAX))
     }
 
     /// Takes count steps, and returns their number. Raises RuntimeError as `advance` does.
     #[pyo3(signature = (count=1))]
-    fn step(&mut self, py: Python<'_>, count: u32) -> PyResult<u64> {
-        let steps = Some(count.into());
-        self.advance(py, f64::from(count) * self.sim.step_s(), steps)
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = numbers::count)] count: u64,
+    ) -> PyResult<u64> {
+        self.advanced(py, count as f64 * self.sim.step_s(), count)
     }
 
     /// Holds vertices (integers) where they are, until they are freed. Raises ValueError if one is in a hand or is no vertex.
     fn hold(&mut self, vertices: &Array<'_>) -> PyResult<()> {
-        let vertices = arrays::vertices("vertices", vertices)?;
-        self.sim.hold(vertices).map_err(value_error)
+        let (py, vertices) = (vertices.py(), arrays::vertices("vertices", vertices)?);
+        py.detach(|| self.sim.hold(vertices)).map_err(value_error)
     }
 
     /// Lets held vertices (integers) go.
     fn free(&mut self, vertices: &Array<'_>) -> PyResult<()> {
-        let vertices = arrays::vertices("vertices", vertices)?;
-        self.sim.free(vertices).map_err(value_error)
+        let (py, vertices) = (vertices.py(), arrays::vertices("vertices", vertices)?);
+        py.detach(|| self.sim.free(vertices)).map_err(value_error)
     }
 
     /// Returns what a ray meets first: the nearest vertex, the face, and the three weights of its corners; or None.
-    fn pick(&self, origin: Triple, direction: Triple) -> PyResult<Option<(usize, usize, Triple)>> {
-        let ray = Ray::new(origin.into(), direction.into());
-        let picked = self.sim.pick(&ray.map_err(value_error)?);
+    fn pick(
+        &self,
+        py: Python<'_>,
+        origin: Triple,
+        direction: Triple,
+    ) -> PyResult<Option<(usize, usize, Triple)>> {
+        let ray = Ray::new(origin.into(), direction.into()).map_err(value_error)?;
+        let picked = py.detach(|| self.sim.pick(&ray));
         let parts = |p: Picked| (p.vertex.index(), p.hit.face.index(), p.hit.weights);
         Ok(picked.map(parts))
     }
@@ -247,23 +283,23 @@ impl Simulation {
     /// Grabs a vertex, and returns the number of the hand. Within radius (in m, at rest) the cloth around is stronger, so
     /// that the hand tears out more than the vertex; 0 for no such grip.
     #[pyo3(signature = (vertex, radius=0.12))]
-    fn grab(&mut self, vertex: u32, radius: f64) -> PyResult<usize> {
-        let vertex = arrays::vertex("vertex", vertex)?;
-        self.hands
-            .push(self.sim.grab(vertex, radius).map_err(value_error)?);
+    fn grab(&mut self, vertex: &Array<'_>, radius: f64) -> PyResult<usize> {
+        let (py, vertex) = (vertex.py(), numbers::vertex(vertex)?);
+        let hand = py.detach(|| self.sim.grab(vertex, radius));
+        self.hands.push(hand.map_err(value_error)?);
         Ok(self.hands.len() - 1)
     }
 
     /// Leads a hand straight to a point (x, y, z): within 1/60 s, or at 3 m/s if that is too far.
-    fn lead(&mut self, hand: usize, to: Triple) -> PyResult<()> {
-        let hand = self.hand_of(hand)?;
+    fn lead(&mut self, hand: &Array<'_>, to: Triple) -> PyResult<()> {
+        let hand = numbers::numbered("hand", hand, &self.hands)?;
         self.sim.lead(hand, to.into()).map_err(value_error)
     }
 
     /// Lets go of what a hand holds.
-    fn release(&mut self, hand: usize) -> PyResult<()> {
-        let hand = self.hand_of(hand)?;
-        self.sim.release(hand).map_err(value_error)
+    fn release(&mut self, hand: &Array<'_>) -> PyResult<()> {
+        let (py, hand) = (hand.py(), numbers::numbered("hand", hand, &self.hands)?);
+        py.detach(|| self.sim.release(hand)).map_err(value_error)
     }
 
     /// Cuts the cloth where it is now, and returns the number of the cut. Arguments as for the function `cut`.
@@ -286,22 +322,27 @@ impl Simulation {
     /// Begins to heal a cut, or with None everything that is torn, and returns the number of pairs of vertices that are
     /// drawn together from now on.
     #[pyo3(signature = (cut=None))]
-    fn heal(&mut self, cut: Option<usize>) -> PyResult<usize> {
-        let wounds = cut.map(|cut| self.cuts.get(cut).copied().map(Wounds::Cut));
-        let wounds = wounds.unwrap_or(Some(Wounds::All));
-        let wounds = wounds.ok_or_else(|| value_error("there was no such cut"))?;
-        self.sim.heal(wounds).map_err(value_error)
+    fn heal(&mut self, py: Python<'_>, cut: Option<&Array<'_>>) -> PyResult<usize> {
+        let cut = cut.map(|cut| numbers::numbered("cut", cut, &self.cuts));
+        let wounds = cut.transpose()?.map_or(Wounds::All, Wounds::Cut);
+        py.detach(|| self.sim.heal(wounds)).map_err(value_error)
     }
 
     /// Has a wind of this velocity (in m/s) blow from now on, or with None no wind. coefficient: of its force on faces, in
     /// kg/(m² s).
     #[pyo3(signature = (velocity, coefficient=1.0))]
-    fn set_wind(&mut self, velocity: Option<Triple>, coefficient: f64) -> PyResult<()> {
+    fn set_wind(
+        &mut self,
+        py: Python<'_>,
+        velocity: Option<Triple>,
+        coefficient: f64,
+    ) -> PyResult<()> {
         let wind = velocity.map(|velocity| Wind {
             velocity_m_per_s: velocity.into(),
             coefficient,
         });
-        self.sim.set_wind(wind).map_err(value_error)
+        numbers::not_negative("coefficient", "a number", coefficient)?;
+        py.detach(|| self.sim.set_wind(wind)).map_err(value_error)
     }
 
     /// Returns what happened since the previous call, in order: ("tore", time, vertex, face, force or None), ("cut", time,
@@ -315,16 +356,17 @@ impl Simulation {
     /// Returns the force (3,) in N that it takes to hold or lead these vertices together, each of which counts once. Raises
     /// ValueError for no vertex.
     fn reaction<'py>(&self, vertices: &Array<'py>) -> Made<'py> {
-        let (py, mut sum) = (vertices.py(), Vector::zeros());
-        let vertices: BTreeSet<VertexId> = arrays::vertices("vertices", vertices)?
-            .into_iter()
-            .collect();
-        for v in vertices {
-            if v.index() >= self.sim.mesh().vertex_count() {
-                return Err(value_error(InputError::NoVertex(v)));
-            }
-            sum += force::reaction_n(self.sim.cloth().system(), v.index());
-        }
+        let (py, vertices) = (vertices.py(), arrays::vertices("vertices", vertices)?);
+        let sum = py.detach(|| {
+            let once: BTreeSet<VertexId> = vertices.into_iter().collect();
+            let (count, system) = (self.sim.mesh().vertex_count(), self.sim.cloth().system());
+            let force = |v: &VertexId| match v.index() < count {
+                true => Ok(force::reaction_n(system, v.index())),
+                false => Err(InputError::NoVertex(*v)),
+            };
+            once.iter().map(force).sum::<Result<Vector, InputError>>()
+        });
+        let sum = sum.map_err(value_error)?;
         array(py, sum.as_slice().to_vec(), &[3])
     }
 
@@ -360,14 +402,13 @@ impl Simulation {
 
     #[getter]
     fn roots<'py>(&self, py: Python<'py>) -> Made<'py> {
-        let roots = self.sim.mesh().roots();
+        let roots = py.detach(|| self.sim.mesh().roots());
         indices(py, &roots, &[roots.len()])
     }
 
     #[getter]
     fn pieces<'py>(&self, py: Python<'py>) -> Made<'py> {
-        let mesh = self.sim.mesh();
-        pieces_of(py, mesh, &mesh.components())
+        pieces_of(py, self.sim.mesh())
     }
 
     #[getter]

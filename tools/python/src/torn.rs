@@ -6,7 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use tearmesh_core::{Blend as _, Components, Cursor, Cut, Edits, Mesh, Mix, Point, SeamLine, Side};
 
-use crate::arrays::{Array, Made, any, array, floats, indices, rows, value_error};
+use crate::arrays::{Array, Made, any, array, floats, indices, rows};
+use crate::errors::value_error;
 
 /// Where edits begin, and the size of the mesh before them.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +42,7 @@ impl Log {
             None => is_float,
             Some("mix") => true,
             Some("source") => false,
-            Some(_) => return Err(value_error("how is mix or source")),
+            Some(_) => return Err(value_error("how must be 'mix' or 'source'")),
         };
         if mixes && !is_float {
             values = as_floats(&values)?;
@@ -52,7 +53,7 @@ impl Log {
             "vertex" => &[self.vertices][..],
             "corner" => &corners[..],
             "face" => &corners[..1],
-            _ => return Err(value_error("per is vertex, corner or face")),
+            _ => return Err(value_error("per must be 'vertex', 'corner' or 'face'")),
         };
         let Some(tail) = shape.strip_prefix(head) else {
             let why = format!("values per {per} begin with the shape {head:?}, not {shape:?}");
@@ -74,24 +75,9 @@ impl Log {
             )?,
             false => (0..count).map(|row| row as f64).collect(),
         };
-        let column = |at: usize| {
-            let mut column: Vec<f64> = given.iter().skip(at).step_by(width).copied().collect();
-            let mix = |mix: Mix<&f64>| match mixes {
-                true => f64::blend(mix),
-                false => *mix.nearest(),
-            };
-            let seen = &mut self.since.clone();
-            match per {
-                "vertex" => edits.replay_vertices(seen, &mut column, mix),
-                "corner" => edits.replay_corners(seen, &mut column, mix),
-                _ => edits.replay_faces(seen, &mut column),
-            }
-            column
-        };
-        let columns: Vec<Vec<f64>> = (0..width).map(column).collect();
-        let rows = columns.first().map_or(count, Vec::len);
-        let cells = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
-        let mapped = array(py, cells.collect(), &[rows, width])?;
+        let cells = py.detach(|| self.replayed(edits, per, &given, width, mixes));
+        let rows = cells.len() / width;
+        let mapped = array(py, cells, &[rows, width])?;
         let mapped = match mixes {
             true => mapped.call_method1("astype", (values.dtype(),))?,
             false => {
@@ -101,6 +87,35 @@ impl Log {
         };
         let inner = [&head[1..], tail].concat();
         reshaped(&mapped, rows / head[1..].iter().product::<usize>(), &inner)
+    }
+
+    /// What the edits make of rows of so many numbers, which are mixed or come from the nearest.
+    fn replayed(
+        &self,
+        edits: &Edits,
+        per: &str,
+        given: &[f64],
+        width: usize,
+        mixes: bool,
+    ) -> Vec<f64> {
+        let mix = |mix: Mix<&f64>| match mixes {
+            true => f64::blend(mix),
+            false => *mix.nearest(),
+        };
+        let column = |at: usize| {
+            let mut column: Vec<f64> = given.iter().skip(at).step_by(width).copied().collect();
+            let seen = &mut self.since.clone();
+            match per {
+                "vertex" => edits.replay_vertices(seen, &mut column, mix),
+                "corner" => edits.replay_corners(seen, &mut column, mix),
+                _ => edits.replay_faces(seen, &mut column),
+            }
+            column
+        };
+        let columns: Vec<Vec<f64>> = (0..width).map(column).collect();
+        let rows = 0..columns[0].len();
+        rows.flat_map(|row| columns.iter().map(move |column| column[row]))
+            .collect()
     }
 
     /// What the edits make of texture coordinates, which have three dimensions if they are per corner.
@@ -132,9 +147,13 @@ fn as_floats<'py>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyU
 }
 
 /// The piece of each face.
-pub(crate) fn pieces_of<'py>(py: Python<'py>, mesh: &Mesh, of: &Components) -> Made<'py> {
-    let pieces = mesh.faces().map(|f| of.of(f) as i64);
-    array(py, pieces.collect(), &[mesh.face_count()])
+pub(crate) fn pieces_of<'py>(py: Python<'py>, mesh: &Mesh) -> Made<'py> {
+    let pieces = py.detach(|| numbers_of(mesh, &mesh.components()));
+    array(py, pieces, &[mesh.face_count()])
+}
+
+fn numbers_of(mesh: &Mesh, pieces: &Components) -> Vec<i64> {
+    mesh.faces().map(|f| pieces.of(f) as i64).collect()
 }
 
 /// A mesh that may be torn: what a cut made, what was mended, or what a file has.
@@ -182,32 +201,44 @@ impl TornMesh {
         log: (Log, Edits),
     ) -> PyResult<TornMesh> {
         let faces = mesh.face_count();
-        let pieces = cut.pieces(mesh);
-        let side = |f| match cut.side(f).or(pieces.sides[pieces.components.of(f)]) {
-            Some(Side::Front) => 1,
-            Some(Side::Back) => -1,
-            None => 0_i8,
-        };
-        let line = |line: &SeamLine| {
-            let lips = line.lips.iter();
-            let starts = lips.map(|&[front, back]| [mesh.origin(front), mesh.target(back)]);
-            let end = line.lips.last();
-            let end = end.map(|&[front, back]| [mesh.target(front), mesh.origin(back)]);
-            let ids: Vec<u32> = starts.chain(end).flatten().map(u32::from).collect();
-            Ok(indices(py, &ids, &[ids.len() / 2, 2])?.unbind())
-        };
+        let (pieces, sides, seam, roots) = py.detach(|| {
+            let pieces = cut.pieces(mesh);
+            let side = |f| match cut.side(f).or(pieces.sides[pieces.components.of(f)]) {
+                Some(Side::Front) => 1,
+                Some(Side::Back) => -1,
+                None => 0_i8,
+            };
+            let sides: Vec<i8> = mesh.faces().map(side).collect();
+            let seam: Vec<Vec<u32>> = cut.seam().map(|line| ends_of(mesh, line)).collect();
+            (
+                numbers_of(mesh, &pieces.components),
+                sides,
+                seam,
+                mesh.roots(),
+            )
+        });
+        let line = |ids: &Vec<u32>| Ok(indices(py, ids, &[ids.len() / 2, 2])?.unbind());
         Ok(TornMesh {
             points: rows(py, points.iter().map(|&p| p.into()))?.unbind(),
             faces: indices(py, mesh.indices(), &[faces, 3])?.unbind(),
-            roots: indices(py, &mesh.roots(), &[mesh.vertex_count()])?.unbind(),
-            pieces: pieces_of(py, mesh, &pieces.components)?.unbind(),
+            roots: indices(py, &roots, &[roots.len()])?.unbind(),
+            pieces: array(py, pieces, &[faces])?.unbind(),
             uv: uv.map(Bound::unbind),
-            sides: array(py, mesh.faces().map(side).collect(), &[faces])?.unbind(),
-            seam: cut.seam().map(line).collect::<PyResult<_>>()?,
+            sides: array(py, sides, &[faces])?.unbind(),
+            seam: seam.iter().map(line).collect::<PyResult<_>>()?,
             missed: log.1.is_empty(),
             log: Some(log),
         })
     }
+}
+
+/// The vertices along a line of a seam, on the front and on the back.
+fn ends_of(mesh: &Mesh, line: &SeamLine) -> Vec<u32> {
+    let lips = line.lips.iter();
+    let starts = lips.map(|&[front, back]| [mesh.origin(front), mesh.target(back)]);
+    let end = line.lips.last();
+    let end = end.map(|&[front, back]| [mesh.target(front), mesh.origin(back)]);
+    starts.chain(end).flatten().map(u32::from).collect()
 }
 
 #[pymethods]

@@ -35,7 +35,7 @@ def test_how_an_array_follows_can_be_said():
     floats = np.array(heat, dtype=np.float32)
     assert set(cut.map(floats, how="source")) == {20, 80} and cut.map(floats, how="source").dtype == np.float32
     assert cut.map([True, True, False, False], how="mix").min() == 0
-    for values, how, said in [(heat, "nearest", "mix or source"), (["a"] * 4, "mix", "only numbers can be mixed")]:
+    for values, how, said in [(heat, "nearest", "how must be 'mix' or 'source'"), (["a"] * 4, "mix", "only numbers can be mixed")]:
         with pytest.raises(ValueError, match=said):
             cut.map(values, how=how)
     assert cut.map(np.zeros((4, 0))).shape == (len(cut.points), 0)
@@ -98,7 +98,7 @@ def test_vertices_parted_for_texture_coordinates_have_two_ways_out():
 
 
 def test_numbers_of_vertices_are_said_as_they_are():
-    with pytest.raises(ValueError, match="faces has 9223372036854775813, which is no vertex"):
+    with pytest.raises(ValueError, match="faces contains 9223372036854775813, which is not a vertex index"):
         tearmesh.check(np.array([[0, 1, 2**63 + 5]], dtype=np.uint64), 3)
     with pytest.raises(ValueError, match="n must be a number of vertices, not -1"):
         tearmesh.check(FACES, -1)

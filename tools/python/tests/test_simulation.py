@@ -99,7 +99,7 @@ def test_bad_input_is_refused_and_changes_nothing(sim, sheet):
     hand = sim.grab(40)
     for call, text in [
         (lambda: sim.hold([10**6]), "the mesh has no vertex v1000000"),
-        (lambda: sim.hold([-1]), "vertices has -1, which is no vertex"),
+        (lambda: sim.hold([-1]), "vertices contains -1, which is not a vertex index"),
         (lambda: sim.hold([40]), "v40 is in hand 0"),
         (lambda: sim.hold([[1]]), "shape"),
         (lambda: sim.free([0.5]), "integers"),
