@@ -17,8 +17,8 @@ use crate::harness::{Folder, files_in, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0x8708_94c6_1bd7_f1dc),
-    ("tear.txt", 0xdcbb_20b0_cec3_a9de),
+    ("README.md", 0xa2ae_bae8_f7c3_b1b0),
+    ("tear.txt", 0x640e_55a8_cdbc_4d3a),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use tearmesh_cloth::scene::{Run, TearLog};
-use tearmesh_cloth::{Collider, ColliderShape};
+use tearmesh_cloth::{Collider, ColliderShape, EnergyBalance};
 
 use crate::report;
 use crate::say::{count, pieces, short, three_digits};
@@ -43,16 +43,33 @@ pub(super) fn balance(run: &Run) -> String {
         );
     }
     let made_j = balance.made_j();
-    let how = match made_j > 0.0 {
-        true => "made by the method",
-        false => "of numerical dissipation",
+    let made = match made_j > 0.0 {
+        true => format!("{} J made by the method", three_digits(made_j)),
+        false => format!("{} J of numerical dissipation", three_digits(-made_j)),
     };
     let put_in = three_digits(balance.put_in_j());
-    let [drag, damping, made] =
-        [-balance.drag_j, -balance.damping_j, made_j.abs()].map(three_digits);
-    format!(
-        "energy: {put_in} J put in, {stored} J stored, {drag} J lost to drag, {damping} J to damping, {made} J {how}"
-    )
+    let lost = lost(&balance);
+    format!("energy: {put_in} J put in, {stored} J stored, {lost}, {made}")
+}
+
+/// What was taken out of a cloth, by what took it.
+fn lost(balance: &EnergyBalance) -> String {
+    let takers = [
+        ("damping", balance.damping_j),
+        ("gravity", balance.gravity_j),
+        ("hands", balance.held_j),
+        ("wind", balance.wind_j),
+        ("colliders", balance.colliders_j),
+        ("edits", balance.edits_j),
+    ];
+    let drag = format!("{} J lost to drag", three_digits(-balance.drag_j));
+    let took = takers.map(|(taker, work_j)| (taker, three_digits((-work_j).max(0.0))));
+    let shown = took
+        .into_iter()
+        .filter(|(taker, joules)| *taker == "damping" || joules != "0");
+    shown.fold(drag, |all, (taker, joules)| {
+        format!("{all}, {joules} J to {taker}")
+    })
 }
 
 pub(super) fn energy(run: &Run) -> report::Energy {
