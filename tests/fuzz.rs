@@ -22,7 +22,7 @@ fn seeds_of_the_target_are_these_scripts() {
     for (name, text) in seeds {
         let script: Script = text.parse().expect(name);
         lockstep::check(&script);
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/seeds/script");
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus/script");
         let bytes = std::fs::read(path.join(name)).expect("a seed");
         assert_eq!(Script::from_bytes(&bytes), script, "{name}");
     }

@@ -22,7 +22,7 @@ const SEEDS: [(Exit, &str); 5] = [
 
 #[test]
 fn seeds_end_as_they_should() {
-    let seeds = root().join("fuzz/seeds/cut_cli");
+    let seeds = root().join("fuzz/corpus/cut_cli");
     let mut listed = 0;
     for (exit, names) in SEEDS {
         for name in names.split(' ') {
@@ -31,8 +31,11 @@ fn seeds_end_as_they_should() {
             listed += 1;
         }
     }
-    let files = fs::read_dir(seeds).expect("a folder of seeds");
-    assert_eq!(files.count(), listed, "every seed is listed");
+    assert_eq!(
+        inputs("corpus", "cut_cli").len(),
+        listed,
+        "every seed is listed"
+    );
 }
 
 #[test]
