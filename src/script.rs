@@ -108,11 +108,11 @@
 //! }
 //! ```
 //!
-//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`. With the
-//! feature `proptest`, a property test may take `any::<Script>()`. If it fails, [`Script::shrink`] reduces the script to the few lines that matter. The message ends
-//! with the script as text, which a regression test can parse with `text.parse::<Script>()`. The
-//! folder `fuzz` of this library's repository runs its targets on the stable toolchain
-//! (`fuzz/run`), and can be copied.
+//! The fuzz target is `fuzz_target!(|bytes: &[u8]| check_valences(bytes));` of `libfuzzer-sys`, in a
+//! [copied fuzz folder](#copy-the-fuzz-folder). With the feature `proptest`, a property test may take
+//! `any::<Script>()`. If it fails, [`Script::shrink`] reduces the script to the few lines that matter.
+//! The message ends with the script as text, which a regression test can parse with
+//! `text.parse::<Script>()`.
 //!
 //! # Drive a mesh kernel of your own
 //!
@@ -165,6 +165,23 @@
 //!     check_splits(&Script::from_bytes(&bytes));
 //! }
 //! ```
+//!
+//! # Copy the fuzz folder
+//!
+//! With a clone of this library's repository beside yours, this sets up fuzzing in yours:
+//!
+//! ```console
+//! $ cp -r ../tearmesh/fuzz/template fuzz
+//! $ cp ../tearmesh/fuzz/run ../tearmesh/fuzz/.gitignore fuzz
+//! $ mkdir fuzz/corpus
+//! $ cp -r ../tearmesh/fuzz/corpus/script fuzz/corpus/kernel
+//! $ cp -r ../tearmesh/fuzz/clusterfuzzlite .clusterfuzzlite
+//! ```
+//!
+//! Put the name of your package into `fuzz/Cargo.toml`, and the calls of your kernel into
+//! `fuzz/fuzz_targets/kernel.rs`. Then `fuzz/run kernel 60` fuzzes for a minute on the stable toolchain,
+//! and `cargo fuzz run kernel` does so until you stop it, on a nightly one. With `.clusterfuzzlite`,
+//! ClusterFuzzLite can fuzz each change of your repository.
 
 mod bytes;
 mod grammar;
