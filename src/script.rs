@@ -118,7 +118,8 @@
 //!
 //! A script needs no follower: each [`Step`] reports the request and its outcome, so another kernel
 //! can be given the same requests and be compared. Leave out the operations that your kernel does
-//! not support.
+//! not support. Some splits name wrong faces on purpose: if your kernel does not refuse those, set the
+//! `fault` of each split to [`Fault::None`].
 //!
 //! ```
 //! use tearmesh::script::{Operation, Script, Step};

@@ -2,7 +2,7 @@
 //!
 //! The walkers are among what is judged here, so nothing is computed with them: truth comes from
 //! loops over all corners, from sorting, and from union-find. Where `well_formed.rs` says yes, which
-//! takes about as long as two builds, none of this runs; it finds the names of what is broken, in
+//! takes one to two times as long as a build, none of this runs; it finds the names of what is broken, in
 //! four times as long. Tests and fuzz targets call [`Mesh::check`] after every operation; a program may
 //! call it after a cut, as the command does.
 //!
