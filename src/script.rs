@@ -182,7 +182,7 @@
 //! Put the name of your package into `fuzz/Cargo.toml`, and the calls of your kernel into
 //! `fuzz/fuzz_targets/kernel.rs`. Then `fuzz/run kernel 60` fuzzes for a minute on the stable toolchain,
 //! and `cargo fuzz run kernel` does so until you stop it, on a nightly one. With `.clusterfuzzlite`,
-//! ClusterFuzzLite can fuzz each change of your repository.
+//! `ClusterFuzzLite` can fuzz each change of your repository.
 
 mod bytes;
 mod grammar;
