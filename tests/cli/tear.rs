@@ -1,8 +1,9 @@
 //! Simulations: the table of forces, and the energy that is printed.
 
 use std::collections::BTreeSet;
+use std::fs;
 
-use crate::harness::Folder;
+use crate::harness::{Folder, root};
 
 /// A cloth that the wind lifts off a floor.
 const LIFTED: &str = r#"
@@ -40,7 +41,19 @@ fn the_table_of_forces_ends_with_the_weight() {
     assert_eq!(table.lines().count(), 1 + 300);
 }
 
-/// Scenes that stand ready, and those of the data, by the default and the other methods in turn. What is printed has
+/// The scene files that the guide shows whole.
+fn scenes_of_the_guide() -> Vec<String> {
+    let page = root().join("tools/cli/src/guide/scenes.md");
+    let page = fs::read_to_string(page).expect("a page");
+    let blocks = page.split("```toml\n").skip(1);
+    let scenes: Vec<_> = blocks
+        .filter_map(|block| block.split("```").next().map(str::to_owned))
+        .collect();
+    assert!(scenes.len() >= 3);
+    scenes
+}
+
+/// Scenes that stand ready, those of the data and of the guide, by the default and the other methods in turn. What is printed has
 /// three digits.
 #[test]
 fn the_energy_that_is_printed_adds_up() {
@@ -59,6 +72,12 @@ fn the_energy_that_is_printed_adds_up() {
     ];
     let folder = Folder::new();
     folder.write("lifted.toml", LIFTED);
+    let mut scenes: Vec<_> = scenes.map(|(mesh, scene)| (mesh, scene.to_owned())).into();
+    for (number, scene) in scenes_of_the_guide().into_iter().enumerate() {
+        let name = format!("guide-{number}.toml");
+        folder.write(&name, scene);
+        scenes.push(("sheet.obj", name));
+    }
     let mut takers = BTreeSet::new();
     for (number, (mesh, scene)) in scenes.into_iter().enumerate() {
         for solver in ["verlet", ["implicit", "xpbd", "pbd"][number % 3]] {

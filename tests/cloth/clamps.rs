@@ -127,11 +127,17 @@ fn some_hold(random: &mut Random) -> (HeldVertices, Expected) {
     let way = [some(), some(), some()];
     let times = [0, 5, 20].map(|later| (begins + later) as f64 * STEP_S);
     let moves: Vec<_> = times.into_iter().zip(way).collect();
+    let turn = [some(), some(), some()].map(|axis| axis * 10.0);
+    let turns: Vec<_> = times.into_iter().zip(turn).collect();
+    let about = Point::from(some());
+    let named = Region::Vertices(vertices.iter().copied().collect());
     let hold = HeldVertices {
-        region: Region::Vertices(vertices.iter().copied().collect()),
         from_s: begins as f64 * STEP_S,
         until_s: (!is_for_ever).then_some(ends as f64 * STEP_S),
         moves: moves[..3 * random.below(2)].to_vec(),
+        turns: turns[..3 * (random.below(3) / 2)].to_vec(),
+        about,
+        ..HeldVertices::still(named)
     };
     let expected = Expected {
         steps: begins..if is_for_ever { u64::MAX } else { ends },

@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use tearmesh::{CutMethod, Point, Vector, VertexId};
+use tearmesh::nalgebra::Rotation3;
+use tearmesh::{CutMethod, FaceId, Point, Vector, VertexId};
 use tearmesh_cloth::scene::{Axis, Frame, HeldVertices, Region, Run, Scene, SwayingWind, TimedCut};
 use tearmesh_cloth::{
     Collider, Constraint, Limiter, Method, Path, Quality, StepError, Wind, energy,
@@ -117,10 +118,10 @@ fn a_cut_is_told_of_though_its_step_fails() {
 fn what_is_held_is_taken_led_and_let_go_in_time() {
     let by = Vector::new(0.1, 0.2, 0.3);
     let hold = HeldVertices {
-        region: Region::Vertices(vec![v(40)]),
         from_s: 0.2,
         until_s: Some(0.6),
         moves: vec![(0.2, Vector::zeros()), (0.4, by)],
+        ..HeldVertices::still(Region::Vertices(vec![v(40)]))
     };
     let mut run = staged(8, |frame| Scene {
         gravity_m_per_s2: Vector::zeros(),
@@ -142,6 +143,100 @@ fn what_is_held_is_taken_led_and_let_go_in_time() {
         }
     }
     assert_ne!(run.cloth().positions()[40], begun + by, "it is free");
+}
+
+/// An edge goes round an axis through a point beside it, a turn and a half, and along; by every method.
+#[test]
+fn a_hold_turns_its_vertices_about_an_axis() {
+    let about = Point::new(0.3, 0.7, 0.2);
+    let axis = Vector::new(0.48, 0.6, 0.64);
+    let angle = 3.0 * std::f64::consts::PI;
+    let along = Vector::new(0.1, -0.2, 0.3);
+    for (name, method) in methods() {
+        let mut run = staged(8, |frame| Scene {
+            duration_s: 0.5,
+            solver: method.clone(),
+            holds: vec![HeldVertices {
+                moves: vec![(0.0, Vector::zeros()), (0.5, along)],
+                turns: vec![(0.1, Vector::zeros()), (0.4, axis * angle)],
+                about,
+                ..HeldVertices::still(top())
+            }],
+            tearing: None,
+            ..Scene::fall(frame.up)
+        });
+        let began = run.cloth().positions().to_vec();
+        while !run.is_over() {
+            run.step().expect("a step");
+            let now = run.elapsed_s();
+            let turned = angle * ((now - 0.1) / 0.3).clamp(0.0, 1.0);
+            let turn = Rotation3::from_scaled_axis(axis * turned);
+            for &v in run.held(0) {
+                let wanted = about + turn * (began[v.index()] - about) + along * (now / 0.5);
+                let off = (run.cloth().positions()[v.index()] - wanted).norm();
+                assert!(off < 1e-9, "{name}: {off} at {now} s");
+            }
+        }
+    }
+}
+
+/// What turns all of a cloth as a rigid body does no work but that of lifting it.
+#[test]
+fn a_hold_that_turns_works_as_much_as_it_lifts() {
+    for (name, method) in methods() {
+        let run = play(staged(6, |frame| Scene {
+            duration_s: 0.5,
+            solver: method.clone(),
+            holds: vec![HeldVertices {
+                turns: vec![(0.0, Vector::zeros()), (0.5, Vector::z() * 2.0)],
+                ..HeldVertices::still(Region::Patch {
+                    across: [0.0, 1.0],
+                    along: [0.0, 1.0],
+                })
+            }],
+            tearing: None,
+            ..Scene::fall(frame.up)
+        }));
+        let balance = run.energy_balance();
+        let given = balance.gravity_j + balance.held_j;
+        assert!(balance.gravity_j.abs() > 0.1, "{name}: {balance:?}");
+        assert!(
+            given.abs() < 0.01 * balance.gravity_j.abs(),
+            "{name}: {balance:?}"
+        );
+    }
+}
+
+/// Two hands rip a curtain. By default they tear out the little that they hold, and where they grip half of the curtain
+/// comes along.
+#[test]
+fn a_hold_that_grips_does_not_tear_out_what_it_holds() {
+    let in_hand = |grip_m: Option<f64>| {
+        let hand = |at: [f64; 2], x: f64| HeldVertices {
+            moves: vec![(0.0, Vector::zeros()), (1.0, Vector::new(x, -0.3, 1.2))],
+            grip_m,
+            ..HeldVertices::still(Region::Near { at, radius: 0.0 })
+        };
+        let run = play(staged(12, |frame| Scene {
+            duration_s: 1.0,
+            holds: vec![
+                HeldVertices::still(top()),
+                hand([0.3, 0.3], -0.4),
+                hand([0.7, 0.3], 0.4),
+            ],
+            ..Scene::fall(frame.up)
+        }));
+        [1, 2].map(|hand| {
+            let mesh = run.mesh();
+            let components = mesh.components();
+            let own = mesh.faces_of(run.held(hand)[0]).next().expect("a face");
+            let is_same = |f: &FaceId| components.of(*f) == components.of(own);
+            mesh.faces().filter(is_same).count()
+        })
+    };
+    let [torn_out, gripped] = [None, Some(0.2)].map(in_hand);
+    assert!(torn_out.iter().all(|&faces| faces < 60), "{torn_out:?}");
+    assert!(gripped.iter().all(|&faces| faces > 120), "{gripped:?}");
 }
 
 /// Two holds on one edge: while both hold, the one that took last leads, and when it ends the other

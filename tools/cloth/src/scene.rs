@@ -191,6 +191,16 @@ pub struct HeldVertices {
     /// the scene and an offset in metres from where a vertex was taken. Motion is straight between
     /// them. Times must ascend. Empty for vertices that are only held.
     pub moves: Vec<(f64, Vector)>,
+    /// How the vertices turn [about](HeldVertices::about) a point on their way: pairs of a time and a vector along the
+    /// axis that is as long as the angle in radians, anticlockwise as seen from its tip. Times must ascend. Empty for
+    /// vertices that do not turn.
+    pub turns: Vec<(f64, Vector)>,
+    /// The point about which the vertices turn, in metres, before the offset of their path.
+    pub about: Point,
+    /// The distance at rest, in metres, up to which the cloth around the vertices is stronger throughout the scene:
+    /// eight times there, and more the nearer it is, as in a hand. `None` for a cloth that is not gripped, of which a
+    /// hold that is small tears out what it holds.
+    pub grip_m: Option<f64>,
 }
 
 impl HeldVertices {
@@ -202,7 +212,16 @@ impl HeldVertices {
             from_s: 0.0,
             until_s: None,
             moves: Vec::new(),
+            turns: Vec::new(),
+            about: Point::origin(),
+            grip_m: None,
         }
+    }
+
+    /// Returns whether the vertices are led, and not only held.
+    #[must_use]
+    pub fn leads(&self) -> bool {
+        !self.moves.is_empty() || !self.turns.is_empty()
     }
 }
 

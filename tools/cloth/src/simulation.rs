@@ -11,7 +11,7 @@
 mod buffers;
 pub(crate) mod definition;
 pub(crate) mod error;
-mod hand;
+pub(crate) mod hand;
 mod heal;
 mod log;
 mod report;

@@ -459,7 +459,7 @@ impl System {
         });
         match (are_held, are_led) {
             (false, _) => {}
-            (true, true) => self.grab(particle, Path::mixed(mix, &paths)),
+            (true, true) => self.grab(particle, Path::between(mix, paths)),
             (true, false) => {
                 self.release(particle); // Of its path.
                 self.hold(particle);

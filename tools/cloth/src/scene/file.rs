@@ -92,7 +92,7 @@ pub struct SceneFile {
 impl SceneFile {
     /// The version of scene files, and of [`PackedScene`]. It is raised whenever a key is added, renamed or removed,
     /// or means something else, so that a program can refuse to hand a scene to another one that would misread it.
-    pub const FORMAT: u32 = 3;
+    pub const FORMAT: u32 = 4;
 }
 
 /// The table `[fabric]`.
@@ -180,6 +180,9 @@ pub struct HoldTable {
     pub from_s: Option<NotNegative>,
     pub until_s: Option<Positive>,
     pub moves: Option<Rows>,
+    pub turns: Option<Rows>,
+    pub about: Option<Finite<3>>,
+    pub grip_m: Option<NotNegative>,
 }
 
 /// A table `[[seam]]`.

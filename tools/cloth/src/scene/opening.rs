@@ -54,7 +54,7 @@ impl Scene {
         self.check()?;
         let holds = self.holds.iter().enumerate();
         let first = || holds.clone().filter(|(_, hold)| hold.from_s == 0.0);
-        let mut still: Vec<_> = first().filter(|(_, hold)| hold.moves.is_empty()).collect();
+        let mut still: Vec<_> = first().filter(|(_, hold)| !hold.leads()).collect();
         if still.is_empty() {
             still.extend(first().next());
         }

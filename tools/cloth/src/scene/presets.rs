@@ -116,10 +116,9 @@ impl Scene {
             along: [0.97, 1.0],
         };
         let grab = HeldVertices {
-            region: grip(0.0),
             from_s: 0.5,
-            until_s: None,
             moves: vec![(0.5, Vector::zeros()), (2.5, down * 1.5)],
+            ..HeldVertices::still(grip(0.0))
         };
         let rings = [1.0, 2.0, 4.0, 8.0, 16.0];
         Scene {
@@ -140,16 +139,14 @@ impl Scene {
         let height = frame.extents_m[1];
         let depth = frame.depth.vector();
         let leg = |across: [f64; 2], side: f64| HeldVertices {
-            region: Region::Patch {
-                across,
-                along: [0.0, 0.05],
-            },
-            from_s: 0.0,
-            until_s: None,
             moves: vec![
                 (0.0, Vector::zeros()),
                 (TROUSER_S, depth * (side * 1.05 * height)),
             ],
+            ..HeldVertices::still(Region::Patch {
+                across,
+                along: [0.0, 0.05],
+            })
         };
         Scene {
             duration_s: TROUSER_S,

@@ -11,12 +11,12 @@ pub(super) mod held;
 
 use std::num::NonZero;
 
-use tearmesh::geometry::{Point, Vector, dot, length};
+use tearmesh::geometry::{Point, Vector, check_point, dot, length};
 use tearmesh::{Cursor, CutReport, Edits, Mesh, PositionError, Positions, VertexId};
 
 use self::error::RunError;
 use self::gain::{EnergyGain, Watch};
-use self::held::Held;
+use self::held::{Held, path_of};
 use super::frame::Frame;
 use super::{Scene, SwayingWind};
 use crate::cloth::Cloth;
@@ -25,12 +25,12 @@ use crate::method::solver::{Quality, Solver, StepError};
 use crate::simulation::Simulation;
 use crate::simulation::definition::SimulationDef;
 use crate::simulation::error::{InputError, SimulationError};
+use crate::simulation::hand::grip;
 use crate::system::Unstable;
 use crate::system::balance::{Balance, EnergyBalance};
 use crate::system::blow_up::BlowUpSite;
 use crate::system::energy::{elastic_j, kinetic_j, potential_j};
 use crate::system::error::SettingError;
-use crate::system::path::Path;
 
 /// A scene in progress, with its mesh and its cloth.
 ///
@@ -513,9 +513,8 @@ impl Run {
     }
 }
 
-/// Refuses cuts that cannot be made, or whose times do not ascend.
 impl Scene {
-    /// Returns the strength of each vertex by the regions of the scene; nothing for 1 everywhere.
+    /// Returns the strength of each vertex by the regions and the grips of the scene; nothing for 1 everywhere.
     ///
     /// # Errors
     ///
@@ -526,7 +525,10 @@ impl Scene {
         points: &[Point],
         frame: &Frame,
     ) -> Result<Vec<f64>, RunError> {
-        if self.tearing.is_none() || self.strengths.is_empty() {
+        let holds = self.holds.iter().enumerate();
+        let grips = holds.filter_map(|(number, hold)| Some((number, &hold.region, hold.grip_m?)));
+        let mut grips = grips.peekable();
+        if self.tearing.is_none() || (self.strengths.is_empty() && grips.peek().is_none()) {
             return Ok(Vec::new());
         }
         let mut strengths = vec![1.0; mesh.vertex_count()];
@@ -534,6 +536,14 @@ impl Scene {
             let name = ("strength", number);
             for v in held::vertices_in(region, name, mesh, points, frame)? {
                 strengths[v.index()] = *strength;
+            }
+        }
+        for (number, region, radius_m) in grips {
+            let held = held::vertices_in(region, ("hold", number), mesh, points, frame)?;
+            for (strength, &at) in strengths.iter_mut().zip(points) {
+                let distances = held.iter().map(|v| length(at - points[v.index()]));
+                let nearest_m = distances.fold(f64::INFINITY, f64::min);
+                *strength = grip(nearest_m, radius_m).map_or(*strength, |grip| grip.max(*strength));
             }
         }
         Ok(strengths)
@@ -546,9 +556,10 @@ impl Scene {
         for (number, hold) in self.holds.iter().enumerate() {
             let later = |until_s: f64| until_s > hold.from_s;
             let finite = hold.from_s >= 0.0 && hold.from_s.is_finite();
-            let way = hold.moves.iter().map(|&(s, d)| (s, Point::from(d)));
-            let leads = hold.moves.is_empty() || Path::new(way).is_some();
-            if !finite || !hold.until_s.is_none_or(later) || !leads {
+            let ways = [&hold.moves, &hold.turns];
+            let leads = |way: &&Vec<_>| way.is_empty() || path_of(way).is_some();
+            let turns = check_point(hold.about).is_ok() && ways.iter().all(leads);
+            if !finite || !hold.until_s.is_none_or(later) || !turns {
                 return Err(RunError::Moves { number });
             }
         }

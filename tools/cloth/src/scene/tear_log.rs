@@ -108,14 +108,13 @@ impl TearLog {
     #[must_use]
     pub fn new(run: &Run) -> TearLog {
         let holds = &run.scene().holds;
-        let is_led = |hold: &HeldVertices| !hold.moves.is_empty();
-        let has_led = holds.iter().any(is_led);
+        let has_led = holds.iter().any(HeldVertices::leads);
         TearLog {
             events: Vec::new(),
             first_n: (!matches!(run.scene().solver, Method::Provot(_))).then_some(0.0),
             peak_n: 0.0,
             frames: Vec::new(),
-            counts: holds.iter().map(|hold| !has_led || is_led(hold)).collect(),
+            counts: holds.iter().map(|hold| !has_led || hold.leads()).collect(),
             recent: VecDeque::new(),
             sum: vec![Vector::zeros(); holds.len()],
             sum_s: 0.0,

@@ -273,7 +273,7 @@ fn rigid(run: &Run, wording: &Wording<'_>) -> Warning {
 /// In a scene that tears, a hold pins single vertices, whose strain grows as the mesh gets finer.
 fn pinned(run: &Run) -> impl Iterator<Item = Warning> {
     let scene = run.scene();
-    let still = (0..scene.holds.len()).filter(|&hold| scene.holds[hold].moves.is_empty());
+    let still = (0..scene.holds.len()).filter(|&hold| !scene.holds[hold].leads());
     let pins = still.filter(|_| scene.tearing.is_some());
     let pins = pins.map(|hold| (hold + 1, run.held[hold].pins(run.mesh())));
     pins.filter(|&(_, pins)| pins > 0).map(|(number, pins)| {

@@ -76,12 +76,9 @@ impl Hands {
 
     /// How many times as strong as by itself the cloth is at a place at rest.
     pub(super) fn grip(&self, at: Point) -> f64 {
-        let grip = |hand: &Hand| {
-            let (distance, radius_m) = (length(at - hand.centre), hand.radius_m);
-            let is_gripped = distance <= radius_m && radius_m > 0.0;
-            is_gripped.then(|| GRIP_STRENGTH * (radius_m / distance.max(radius_m * GRIP_CORE)))
-        };
-        self.hands.iter().filter_map(grip).fold(1.0, f64::max)
+        let grips = self.hands.iter();
+        let grips = grips.filter_map(|hand| grip(length(at - hand.centre), hand.radius_m));
+        grips.fold(1.0, f64::max)
     }
 
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
@@ -90,12 +87,15 @@ impl Hands {
     }
 }
 
+/// How many times as strong a grip of this radius makes the cloth at a distance at rest; `None` beyond its radius.
+pub(crate) fn grip(distance_m: f64, radius_m: f64) -> Option<f64> {
+    let is_gripped = distance_m <= radius_m && radius_m > 0.0;
+    is_gripped.then(|| GRIP_STRENGTH * (radius_m / distance_m.max(radius_m * GRIP_CORE)))
+}
+
 /// The path of a hand to a point that was given now: it takes the time of a frame, as a pointer is
 /// read once a frame, or longer where the hand would be too fast.
 pub(super) fn path(from: Point, to: Point, now_s: f64) -> Path {
     let took_s = (length(to - from) / SPEED_MAX_M_PER_S).max(FRAME_S);
-    let points = vec![(now_s, from), (now_s + took_s, to)];
-    Path {
-        points: points.into(),
-    }
+    Path::through(vec![(now_s, from), (now_s + took_s, to)])
 }

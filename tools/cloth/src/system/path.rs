@@ -12,8 +12,18 @@ use crate::system::bend::sinc_of_root;
 /// after the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// When to be where; at least one, ascending. Shared by all particles that the path leads.
-    pub(crate) points: Arc<[(f64, Point)]>,
+    /// Shared by all particles that the path leads.
+    way: Arc<Way>,
+}
+
+#[derive(Debug, PartialEq)]
+enum Way {
+    /// When to be where; at least one, ascending.
+    Points(Vec<(f64, Point)>),
+    /// The way of what a motion carries away from a place.
+    Carried(Point, Arc<RigidMotion>),
+    /// The way of what stays between others, by their numbers in the list.
+    Between(Mix<usize>, Vec<Path>),
 }
 
 impl Path {
@@ -23,49 +33,65 @@ impl Path {
     /// everything that [`Path::at`] returns is finite.
     #[must_use]
     pub fn new(points: impl IntoIterator<Item = (f64, Point)>) -> Option<Path> {
-        let points: Arc<[_]> = points.into_iter().collect();
+        let points: Vec<_> = points.into_iter().collect();
         let usable = |&(s, p): &(f64, Point)| s.is_finite() && check_point(p).is_ok();
         let between = |pair: &[(f64, Point)]| pair[1].0 - pair[0].0;
         let mut between = points.windows(2).map(between);
         let ascending = between.all(|took_s| took_s > 0.0 && took_s.is_finite());
-        (!points.is_empty() && ascending && points.iter().all(usable)).then_some(Path { points })
+        let is_usable = !points.is_empty() && ascending && points.iter().all(usable);
+        is_usable.then(|| Path::through(points))
     }
 
     /// Returns the point of the path at `elapsed_s` seconds. It is the first point before the path
     /// begins, and the last one after it ends.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Point {
-        let after = self.points.partition_point(|&(s, _)| s <= elapsed_s);
-        if after == 0 || after == self.points.len() {
-            return self.points[after.saturating_sub(1)].1;
+        match &*self.way {
+            Way::Points(points) => point_at(points, elapsed_s),
+            Way::Carried(from, motion) => motion.at(elapsed_s).to_world(*from),
+            Way::Between(mix, paths) => {
+                let place = |end: usize| paths.get(end).map(|path| path.at(elapsed_s));
+                let places = [0, 1, 2].map(|end| place(end).unwrap_or_default());
+                Point::blend(mix.map(|end| &places[end]))
+            }
         }
-        let ((s, p), (t, q)) = (self.points[after - 1], self.points[after]);
-        p + (q - p) * ((elapsed_s - s) / (t - s))
+    }
+
+    /// The path through points that are known to be usable.
+    pub(crate) fn through(points: Vec<(f64, Point)>) -> Path {
+        let way = Arc::new(Way::Points(points));
+        Path { way }
     }
 
     /// The path of what stays at one place forever.
     pub(crate) fn still(at: Point) -> Path {
-        let points = Arc::new([(0.0, at)]);
-        Path { points }
+        Path::through(vec![(0.0, at)])
     }
 
-    /// The path of what stays between others, which go along these paths.
-    pub(crate) fn mixed(mix: Mix<usize>, paths: &[Path]) -> Path {
-        let times = paths.iter().flat_map(|path| path.points.iter());
-        let mut times: Vec<f64> = times.map(|&(s, _)| s).collect();
-        times.sort_unstable_by(f64::total_cmp);
-        times.dedup();
-        let points = times.into_iter().map(|s| {
-            let places: Vec<Point> = paths.iter().map(|path| path.at(s)).collect();
-            (s, Point::blend(mix.map(|end| &places[end])))
-        });
-        Path {
-            points: points.collect(),
-        }
+    /// The path of what a motion carries along, which was at a place as that was made.
+    pub(crate) fn carried(from: Point, motion: Arc<RigidMotion>) -> Path {
+        let way = Arc::new(Way::Carried(from, motion));
+        Path { way }
+    }
+
+    /// The path of what stays between others, which go along these paths, at most three.
+    pub(crate) fn between(mix: Mix<usize>, paths: Vec<Path>) -> Path {
+        let way = Arc::new(Way::Between(mix, paths));
+        Path { way }
     }
 }
 
-/// How a body moves: from where it was made along a path, while it turns about a point.
+/// The point of a polyline at a time.
+fn point_at(points: &[(f64, Point)], elapsed_s: f64) -> Point {
+    let after = points.partition_point(|&(s, _)| s <= elapsed_s);
+    if after == 0 || after == points.len() {
+        return points[after.saturating_sub(1)].1;
+    }
+    let ((s, p), (t, q)) = (points[after - 1], points[after]);
+    p + (q - p) * ((elapsed_s - s) / (t - s))
+}
+
+/// How a body or a hold moves: from where it was made along a path, while it turns about a point.
 ///
 /// ```
 /// use tearmesh::Point;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use tearmesh::Scissor;
-use tearmesh::geometry::{Plane, Point};
+use tearmesh::geometry::{Plane, Point, Vector};
 
 use super::number::{Finite, Gravity, Rows, Vertices, Whole};
 use super::{
@@ -395,9 +395,9 @@ impl ColliderTable {
             let fault = place.fault("thickness_m", "E-SCENE-BODY", message);
             return Err(fault.help("a larger thickness, or a smaller `cell_m`"));
         }
-        let path = |rows: &Option<Rows>, unit: f64| {
-            let rows = rows.as_ref().map_or_else(Vec::new, Rows::paths).into_iter();
-            Path::new(rows.map(|(time_s, way)| (time_s, Point::from(way * unit))))
+        let path = |given: &Option<Rows>, unit: f64| {
+            let rows = rows(given, unit).into_iter();
+            Path::new(rows.map(|(time_s, way)| (time_s, Point::from(way))))
         };
         Ok(Collider {
             shape: ColliderShape::Body {
@@ -406,12 +406,25 @@ impl ColliderTable {
                 motion: RigidMotion {
                     moves: path(&self.moves, 1.0),
                     turns: path(&self.turns, 1_f64.to_radians()),
-                    about: self.about.as_ref().map_or(Point::origin(), Finite::point),
+                    about: point(&self.about),
                 },
             },
             friction: 0.0,
         })
     }
+}
+
+/// Rows of a time and a vector in this unit; none if the key is not there.
+fn rows(given: &Option<Rows>, unit: f64) -> Vec<(f64, Vector)> {
+    let rows = given.as_ref().map_or_else(Vec::new, Rows::paths);
+    rows.into_iter()
+        .map(|(time_s, way)| (time_s, way * unit))
+        .collect()
+}
+
+/// A point; the origin if the key is not there.
+fn point(given: &Option<Finite<3>>) -> Point {
+    given.as_ref().map_or(Point::origin(), Finite::point)
 }
 
 impl HoldTable {
@@ -427,7 +440,10 @@ impl HoldTable {
             region: self.region_keys().region(place, "a hold")?,
             from_s,
             until_s,
-            moves: self.moves.as_ref().map_or_else(Vec::new, Rows::paths),
+            moves: rows(&self.moves, 1.0),
+            turns: rows(&self.turns, 1_f64.to_radians()),
+            about: point(&self.about),
+            grip_m: self.grip_m.as_deref().copied(),
         })
     }
 }

@@ -4,7 +4,9 @@
 //! those that took it at one time. When that ends, the one before it holds on to the vertex. What a cut
 //! inserts between vertices of a hold stays between them, whichever hold leads these.
 
-use tearmesh::geometry::Point;
+use std::sync::Arc;
+
+use tearmesh::geometry::{Point, Vector};
 use tearmesh::{Edit, Mesh, VertexId};
 
 use super::error::RunError;
@@ -13,13 +15,15 @@ use crate::scene::frame::Frame;
 use crate::scene::{HeldVertices, Region};
 use crate::system::System;
 use crate::system::balance::Balance;
-use crate::system::path::Path;
+use crate::system::path::{Path, RigidMotion};
 
 /// A hold, and its vertices.
 #[derive(Clone, Debug)]
 pub(in crate::scene) struct Held {
     hold: HeldVertices,
     set: HeldSet,
+    /// How it moves, if it turns.
+    turning: Option<Arc<RigidMotion>>,
     /// The step at whose beginning it took its vertices; `None` before that, and after it let go.
     since: Option<u64>,
 }
@@ -107,6 +111,20 @@ pub(super) fn bind(all: &[Held], system: &mut System, balance: &mut Balance) {
     }
 }
 
+/// The path of vectors, from rows of a time and a vector.
+pub(in crate::scene) fn path_of(rows: &[(f64, Vector)]) -> Option<Path> {
+    Path::new(rows.iter().map(|&(s, d)| (s, Point::from(d))))
+}
+
+/// The motion of a hold that turns.
+fn turning(hold: &HeldVertices) -> Option<RigidMotion> {
+    Some(RigidMotion {
+        turns: Some(path_of(&hold.turns)?),
+        moves: path_of(&hold.moves),
+        about: hold.about,
+    })
+}
+
 impl Held {
     pub(super) fn new(
         number: usize,
@@ -119,6 +137,7 @@ impl Held {
         Ok(Held {
             hold: hold.clone(),
             set: HeldSet::new(vertices_in(&hold.region, name, mesh, points, frame)?),
+            turning: turning(hold).map(Arc::new),
             since: None,
         })
     }
@@ -136,19 +155,24 @@ impl Held {
 
     /// Takes a vertex back that another hold has led: it goes on from where it is.
     fn take_back(&self, v: VertexId, system: &mut System, balance: &mut Balance) {
-        let at = system.positions()[v.index()];
-        let gone = self.path(at).map(|path| path.at(system.elapsed_s()) - at);
-        self.take(v, gone.map_or(at, |gone| at - gone), system, balance);
+        let (at, now_s) = (system.positions()[v.index()], system.elapsed_s());
+        let began = match (&self.turning, self.path(at)) {
+            (Some(motion), _) => motion.at(now_s).to_body(at),
+            (None, Some(path)) => at - (path.at(now_s) - at),
+            (None, None) => at,
+        };
+        self.take(v, began, system, balance);
     }
 
     /// The way of a vertex that is taken at a place; `None` of one that stays there.
     fn path(&self, from: Point) -> Option<Path> {
+        if let Some(motion) = &self.turning {
+            return Some(Path::carried(from, motion.clone()));
+        }
         // The way itself was looked at when the scene was set; from the edge of what is usable it
         // leads a little beyond, and not to nowhere.
         let points = self.hold.moves.iter().map(|&(s, d)| (s, from + d));
-        (!self.hold.moves.is_empty()).then(|| Path {
-            points: points.collect(),
-        })
+        (!self.hold.moves.is_empty()).then(|| Path::through(points.collect()))
     }
 
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
