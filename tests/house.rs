@@ -20,6 +20,7 @@ const CRATES: &[(&str, &str, usize)] = &[
     ("tools/python/src", "lib.rs", 4),
     ("tools/cli/src", "lib.rs", 25),
     ("tools/bench/src", "main.rs", 20),
+    ("tools/engine/src", "main.rs", 2),
     ("tests", "main.rs", 30),
     ("tests/cloth", "main.rs", 30),
     ("tests/obj", "main.rs", 12),

@@ -1,5 +1,6 @@
 //! A cloth drawn by wgpu while it is cut and swings, far from the origin of its coordinates. The GPU gets each frame
-//! only what changed. `cargo run --release cloth.png` writes the last frame to a picture; no window is needed.
+//! only what changed. `cargo run --release cloth.png` writes the last frame, as in the picture beside the manifest; no window is
+//! needed.
 
 mod screen;
 

@@ -13,16 +13,16 @@ use crate::system::bend::sinc_of_root;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// Shared by all particles that the path leads.
-    way: Arc<Way>,
+    curve: Arc<Curve>,
 }
 
 #[derive(Debug, PartialEq)]
-enum Way {
+enum Curve {
     /// When to be where; at least one, ascending.
     Points(Vec<(f64, Point)>),
-    /// The way of what a motion carries away from a place.
+    /// The path of what a motion carries away from a place.
     Carried(Point, Arc<RigidMotion>),
-    /// The way of what stays between others, by their numbers in the list.
+    /// The path of what stays between others, by their numbers in the list.
     Between(Mix<usize>, Vec<Path>),
 }
 
@@ -46,10 +46,10 @@ impl Path {
     /// begins, and the last one after it ends.
     #[must_use]
     pub fn at(&self, elapsed_s: f64) -> Point {
-        match &*self.way {
-            Way::Points(points) => point_at(points, elapsed_s),
-            Way::Carried(from, motion) => motion.at(elapsed_s).to_world(*from),
-            Way::Between(mix, paths) => {
+        match &*self.curve {
+            Curve::Points(points) => point_at(points, elapsed_s),
+            Curve::Carried(from, motion) => motion.at(elapsed_s).to_world(*from),
+            Curve::Between(mix, paths) => {
                 let place = |end: usize| paths.get(end).map(|path| path.at(elapsed_s));
                 let places = [0, 1, 2].map(|end| place(end).unwrap_or_default());
                 Point::blend(mix.map(|end| &places[end]))
@@ -59,8 +59,8 @@ impl Path {
 
     /// The path through points that are known to be usable.
     pub(crate) fn through(points: Vec<(f64, Point)>) -> Path {
-        let way = Arc::new(Way::Points(points));
-        Path { way }
+        let curve = Arc::new(Curve::Points(points));
+        Path { curve }
     }
 
     /// The path of what stays at one place forever.
@@ -70,14 +70,14 @@ impl Path {
 
     /// The path of what a motion carries along, which was at a place as that was made.
     pub(crate) fn carried(from: Point, motion: Arc<RigidMotion>) -> Path {
-        let way = Arc::new(Way::Carried(from, motion));
-        Path { way }
+        let curve = Arc::new(Curve::Carried(from, motion));
+        Path { curve }
     }
 
     /// The path of what stays between others, which go along these paths, at most three.
     pub(crate) fn between(mix: Mix<usize>, paths: Vec<Path>) -> Path {
-        let way = Arc::new(Way::Between(mix, paths));
-        Path { way }
+        let curve = Arc::new(Curve::Between(mix, paths));
+        Path { curve }
     }
 }
 
