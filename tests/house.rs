@@ -27,6 +27,7 @@ const CRATES: &[(&str, &str, usize)] = &[
     ("tests/view", "main.rs", 3),
     ("tests/cli", "main.rs", 8),
     ("tests/browser", "main.rs", 5),
+    ("tests/combinations", "main.rs", 3),
 ];
 
 /// The files of a crate, read from its folder, and what is planted at the end of one of them.
