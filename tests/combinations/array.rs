@@ -11,7 +11,7 @@
 use crate::random::Random;
 
 /// How many candidates a row is chosen from.
-const CANDIDATES: usize = 12;
+const CANDIDATES: usize = 3;
 
 /// What can be chosen: its name, and the names of its levels.
 pub(crate) type Factor = (&'static str, &'static [&'static str]);
@@ -169,34 +169,36 @@ impl Table {
         vec![None; self.factors.len()]
     }
 
-    /// Whether none of the exclusions forbids what is chosen so far, even if all else is free.
-    fn is_allowed(&self, chosen: &[Option<usize>], exclusions: &[bool]) -> bool {
-        let forbids = |rule: &Rule| {
-            rule.levels
-                .iter()
-                .all(|(factor, meant)| chosen[*factor].is_some_and(|level| meant[level]))
-        };
-        let mut rules = self.exclusions.iter().zip(exclusions);
-        !rules.any(|(rule, &counts)| counts && forbids(rule))
+    /// Whether none of the exclusions that count forbids what is chosen so far, even if all else is free.
+    fn is_allowed(&self, chosen: &[Option<usize>], counts: &[bool]) -> bool {
+        for (rule, &counts) in self.exclusions.iter().zip(counts) {
+            let mut levels = rule.levels.iter();
+            let is_met = |(factor, meant): &(usize, Vec<bool>)| {
+                chosen[*factor].is_some_and(|level| meant[level])
+            };
+            if counts && levels.all(is_met) {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether the other factors have levels that go with those chosen: a complete search.
-    fn is_possible(&self, chosen: &mut Vec<Option<usize>>, exclusions: &[bool]) -> bool {
-        if !self.is_allowed(chosen, exclusions) {
+    fn is_possible(&self, chosen: &mut Vec<Option<usize>>, counts: &[bool]) -> bool {
+        if !self.is_allowed(chosen, counts) {
             return false;
         }
         // What no exclusion names is free.
-        let is_named = |factor: usize| {
-            let mut rules = self.exclusions.iter().zip(exclusions);
-            rules.any(|(rule, &counts)| counts && rule.levels.iter().any(|(f, _)| *f == factor))
-        };
-        let next = (0..chosen.len()).find(|&f| chosen[f].is_none() && is_named(f));
-        let Some(factor) = next else {
+        let rules = self.exclusions.iter().zip(counts);
+        let mut named = rules
+            .filter(|&(_, &counts)| counts)
+            .flat_map(|(rule, _)| &rule.levels);
+        let Some(&(factor, _)) = named.find(|(factor, _)| chosen[*factor].is_none()) else {
             return true;
         };
         for level in 0..self.factors[factor].1.len() {
             chosen[factor] = Some(level);
-            if self.is_possible(chosen, exclusions) {
+            if self.is_possible(chosen, counts) {
                 chosen[factor] = None;
                 return true;
             }
@@ -231,6 +233,8 @@ struct Search<'t> {
     sets_of: Vec<Vec<usize>>,
     /// For each set its first place in `open`.
     places: Vec<usize>,
+    /// For each factor of each set, how far a level is from the next in `open`.
+    strides: Vec<Vec<usize>>,
     open: Vec<bool>,
 }
 
@@ -239,11 +243,16 @@ impl<'t> Search<'t> {
         let count = table.factors.len();
         assert!((1..=count).contains(&strength), "no set of {strength}");
         let sets = subsets(count, strength);
-        let (mut places, mut end) = (Vec::new(), 0);
+        let (mut places, mut strides, mut end) = (Vec::new(), Vec::new(), 0);
         for set in &sets {
             places.push(end);
-            let levels = set.iter().map(|&factor| table.factors[factor].1.len());
-            end += levels.product::<usize>();
+            let mut size = 1;
+            let of_set = set.iter().map(|&factor| {
+                size *= table.factors[factor].1.len();
+                size / table.factors[factor].1.len()
+            });
+            strides.push(of_set.collect());
+            end += size;
         }
         let with = |factor: usize| {
             let numbers = 0..sets.len();
@@ -253,6 +262,7 @@ impl<'t> Search<'t> {
             table,
             sets_of: (0..count).map(with).collect(),
             places,
+            strides,
             open: vec![true; end],
             sets,
         }
@@ -278,10 +288,11 @@ impl<'t> Search<'t> {
 
     /// The place of a combination in `open`: that of a set, and of a level of each of its factors.
     fn place(&self, set: usize, level: impl Fn(usize) -> usize) -> usize {
-        let within = self.sets[set].iter().fold(0, |place, &factor| {
-            place * self.table.factors[factor].1.len() + level(factor)
-        });
-        self.places[set] + within
+        let mut place = self.places[set];
+        for (&factor, &stride) in self.sets[set].iter().zip(&self.strides[set]) {
+            place += stride * level(factor);
+        }
+        place
     }
 
     fn place_of(&self, combination: &[(usize, usize)]) -> usize {
@@ -358,14 +369,18 @@ impl<'t> Search<'t> {
     /// For each level of a factor, how many new combinations it makes with what is chosen.
     fn gains(&self, chosen: &[Option<usize>], factor: usize) -> Vec<usize> {
         let mut gains = vec![0; self.table.factors[factor].1.len()];
-        for &set in &self.sets_of[factor] {
-            let mut others = self.sets[set].iter().filter(|&&other| other != factor);
-            if !others.all(|&other| chosen[other].is_some()) {
-                continue;
+        'sets: for &set in &self.sets_of[factor] {
+            let (mut place, mut step) = (self.places[set], 0);
+            for (&other, &stride) in self.sets[set].iter().zip(&self.strides[set]) {
+                match chosen[other] {
+                    Some(level) => place += stride * level,
+                    None if other == factor => step = stride,
+                    None => continue 'sets,
+                }
             }
-            for (level, gain) in gains.iter_mut().enumerate() {
-                let place = self.place(set, |other| chosen[other].unwrap_or(level));
+            for gain in &mut gains {
                 *gain += usize::from(self.open[place]);
+                place += step;
             }
         }
         gains
