@@ -34,6 +34,24 @@ fn merged_copies_keep_the_colours_of_the_one_kept() {
 const SEAM: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 -1 0\nvt 0 0\nvt 1 0\nvt 0.75 0.5\nvt 0 1\n\
     f 1/1 2/3 3/4\nf 2/2 1/1 4/4\n";
 
+/// Four faces round a vertex, each with texture coordinates of its own that are alike where faces meet.
+const ALIKE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\n\
+    vt 0 0\nvt 1 0\nvt 0 1\nvt 0 0\nvt 0 1\nvt -1 0\nvt 0 0\nvt -1 0\nvt 0 -1\nvt 0 0\nvt 0 -1\nvt 1 0\n\
+    f 1/1 2/2 3/3\nf 1/4 3/5 4/6\nf 1/7 4/8 5/9\nf 1/10 5/11 2/12\n";
+
+/// As values at corners do that are no file's. (Found by combinations of `--weld`, `--snap-move` and `vt`.)
+#[test]
+fn regression_corners_with_alike_values_slide_together() {
+    let document = read(ALIKE.as_bytes());
+    let mut work = Work::on(&document);
+    work.deeds("slide 0 1 .25");
+    let written = read(&work.written());
+    for triangle in 0..4 {
+        let index = written.corner(triangle, 0).texture.expect("it has one");
+        assert_eq!(written.texture(index as usize), [0.25, 0.0]);
+    }
+}
+
 /// Slides, with what is done before and after; and whether nothing can be taken out while a split holds the
 /// vertex: what was put beside it where it slid to holds it there, and what was put beside it before is
 /// held by the slide, but nothing counts as edited.
@@ -58,6 +76,8 @@ fn a_slide_is_undone_to_the_bit() {
         (FLAG, "slide 1 3 .5, next, insert 1, split 8 0", true),
         // The vertex takes other indices on either side of the seam; the parts of a face have both.
         (SEAM, "insert 5, next, slide 0 1 .25", false),
+        (ALIKE, "slide 0 1 .25", false),
+        (ALIKE, "slide 0 1 .25, next, slide 0 2 .5, split 0 1", false),
         (SEAM, "insert 5, next, slide 0 1 .25, split 0 0", true),
     ] {
         let document = read(file.as_bytes());

@@ -44,7 +44,7 @@ use crate::record::{Apart, Inserted, Record, Slid, SplitOff, is_same_point};
 /// * The new vertex of a split has the extra numbers of the old vertex. A merged vertex has the extra
 ///   numbers of the vertex that is kept.
 /// * If a vertex slides along an edge, the texture coordinates and normals of its corners at that edge
-///   are interpolated, as are those of its other corners with the same index. The old values are
+///   are interpolated, as are those of its other corners with the same values. The old values are
 ///   recorded as long as only the log moves the vertex.
 ///
 /// ```

@@ -135,10 +135,12 @@ impl<'d> Corners<'d> {
     }
 
     /// Follows a vertex that slides: the corners in the faces of the edge get an index between
-    /// those at its ends, and corners that had the same index as these get it with them. Gives
-    /// what was exchanged.
+    /// those at its ends, and corners that had the same index as these get it with them. A corner with
+    /// another index of the same value, as in a file that gives each face indices of its own, gets one of
+    /// its own with the same new value, so that it can be exchanged back. Gives what was exchanged.
     pub(super) fn slide(&mut self, slide: &Slide<'_>) -> Vec<Exchange> {
         let mut exchanges = Vec::new();
+        let weights = [1.0 - slide.t, slide.t, 0.0];
         for which in 0..2 {
             let mut changes: Vec<(HalfEdgeId, [u32; 2], u32)> = Vec::new();
             for [corner, toward] in slide.along.into_iter().flatten() {
@@ -147,35 +149,50 @@ impl<'d> Corners<'d> {
                     continue;
                 }
                 let made = changes.iter().find(|(_, of, _)| *of == ends);
-                let (between, weights) = ([from, to, to], [1.0 - slide.t, slide.t, 0.0]);
                 let index = match made {
                     Some(&(.., index)) => index,
                     // Whoever gets it had the one at the start, and perhaps never that at the end.
                     None => {
-                        let new = self.new_between(which, &[from], between, weights);
-                        exchanges.push(Exchange {
-                            which,
-                            new,
-                            old: from,
-                            value: self.value(which, new).to_vec(),
-                        });
+                        let new = self.new_between(which, &[from], [from, to, to], weights);
+                        exchanges.push(self.exchange(which, new, from));
                         new
                     }
                 };
                 changes.push((corner, ends, index));
             }
             for &h in slide.corners {
-                let Some(index) = self.corners[which].get_mut(h.index()) else {
+                let Some(&index) = self.corners[which].get(h.index()) else {
                     break;
                 };
                 let own = changes.iter().find(|(corner, ..)| *corner == h);
-                let same = || changes.iter().find(|(_, [from, _], _)| from == index);
-                if let Some(&(.., after)) = own.or_else(same) {
-                    *index = after;
+                let same = || changes.iter().find(|(_, [from, _], _)| *from == index);
+                let alike = || {
+                    let value = (index != NONE).then(|| self.value(which, index))?;
+                    let mut changes = changes.iter();
+                    changes.find(|(_, [from, _], _)| self.value(which, *from) == value)
+                };
+                let change = own.or_else(same).or_else(alike).copied();
+                let Some((_, [from, to], mut after)) = change else {
+                    continue;
+                };
+                if from != index {
+                    after = self.new_between(which, &[index], [from, to, to], weights);
+                    changes.push((h, [index, to], after));
+                    exchanges.push(self.exchange(which, after, index));
                 }
+                self.corners[which][h.index()] = after;
             }
         }
         exchanges
+    }
+
+    fn exchange(&self, which: usize, new: u32, old: u32) -> Exchange {
+        Exchange {
+            which,
+            new,
+            old,
+            value: self.value(which, new).to_vec(),
+        }
     }
 
     /// The index of a texture coordinate (0) or normal (1) at a place in a face whose corners
