@@ -155,3 +155,78 @@ pub(crate) fn doubled(sheet: &Surface) -> Surface {
     );
     both
 }
+
+/// Gives some corners vertices of their own, so that seams come apart.
+pub(crate) fn unsewn(whole: &Surface, part: f64, random: &mut Random) -> Surface {
+    // Faces of one patch share vertices.
+    let patches = 1 + random.below(6);
+    let mut patch: Vec<usize> = whole.faces.iter().map(|_| random.below(patches)).collect();
+    if random.next() < 0.7 {
+        // Patches that hang together: by the place of the first corner.
+        let cell = |f: &[u32; 3]| {
+            let p = whole.points[f[0] as usize];
+            (p[0] * 2.3).floor() as i64 + 3 * (p[1] * 1.7).floor() as i64
+        };
+        patch = whole
+            .faces
+            .iter()
+            .map(|f| cell(f).rem_euclid(97) as usize)
+            .collect();
+    }
+    if random.next() < part {
+        patch = (0..whole.faces.len()).collect(); // A soup.
+    }
+    let mut known = BTreeMap::new();
+    let mut parts = Surface::default();
+    for (face, patch) in whole.faces.iter().zip(patch) {
+        parts.faces.push(face.map(|v| {
+            *known.entry((v, patch)).or_insert_with(|| {
+                let mut p = whole.points[v as usize];
+                for x in &mut p {
+                    if *x == 0.0 && random.next() < 0.5 {
+                        *x = -*x;
+                    }
+                }
+                parts.points.push(p);
+                parts.points.len() as u32 - 1
+            })
+        }));
+    }
+    separate_fans(&mut parts);
+    parts
+}
+
+/// Gives each fan of a vertex a vertex of its own, so that the kernel accepts the surface.
+fn separate_fans(surface: &mut Surface) {
+    let mut edges: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    for (f, &[a, b, c]) in surface.faces.iter().enumerate() {
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            edges.entry([a.min(b), a.max(b)]).or_default().push(f);
+        }
+    }
+    let mut corners: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (f, face) in surface.faces.iter().enumerate() {
+        face.iter()
+            .for_each(|&v| corners.entry(v).or_default().push(f));
+    }
+    for (v, faces) in corners {
+        let mut joined = Vec::new();
+        for (edge, of_edge) in edges.iter().filter(|(edge, _)| edge.contains(&v)) {
+            let at = |f: &usize| faces.iter().position(|g| g == f);
+            let ends: Vec<usize> = of_edge.iter().filter_map(at).collect();
+            joined.extend(ends.windows(2).map(|two| [two[0], two[1]]));
+            let _ = edge;
+        }
+        let fans = joined_sets(faces.len(), &joined);
+        let mut vertices = BTreeMap::from([(fans[0], v)]);
+        for (&f, fan) in faces.iter().zip(&fans) {
+            let vertex = *vertices.entry(*fan).or_insert_with(|| {
+                let p = surface.points[v as usize];
+                surface.points.push(p);
+                surface.points.len() as u32 - 1
+            });
+            let corner = surface.faces[f].iter_mut().find(|corner| **corner == v);
+            *corner.expect("a face of the vertex") = vertex;
+        }
+    }
+}

@@ -13,93 +13,14 @@ use tearmesh::{
 };
 
 use crate::cases::cases;
+use crate::oracle::by_place::{by_place, has_layers, lies_on, open_edges, place};
 use crate::oracle::joined_sets;
-use crate::oracle::straight::{Surface, cross, dot, length, minus};
+use crate::oracle::straight::{Surface, length, minus};
 use crate::random::Random;
-use crate::surfaces::{built, delaunay, doubled, jittered, sphere, surface};
+use crate::surfaces::{built, delaunay, doubled, jittered, sphere, surface, unsewn};
 use crate::work::ray;
 
 type Point = [f64; 3];
-
-/// A place as numbers: −0 is 0.
-fn place(p: Point) -> [u64; 3] {
-    p.map(|x| (x + 0.0).to_bits())
-}
-
-/// Gives some corners vertices of their own, so that seams come apart.
-fn unsewn(whole: &Surface, part: f64, random: &mut Random) -> Surface {
-    // Faces of one patch share vertices.
-    let patches = 1 + random.below(6);
-    let mut patch: Vec<usize> = whole.faces.iter().map(|_| random.below(patches)).collect();
-    if random.next() < 0.7 {
-        // Patches that hang together: by the place of the first corner.
-        let cell = |f: &[u32; 3]| {
-            let p = whole.points[f[0] as usize];
-            (p[0] * 2.3).floor() as i64 + 3 * (p[1] * 1.7).floor() as i64
-        };
-        patch = whole
-            .faces
-            .iter()
-            .map(|f| cell(f).rem_euclid(97) as usize)
-            .collect();
-    }
-    if random.next() < part {
-        patch = (0..whole.faces.len()).collect(); // A soup.
-    }
-    let mut known = BTreeMap::new();
-    let mut parts = Surface::default();
-    for (face, patch) in whole.faces.iter().zip(patch) {
-        parts.faces.push(face.map(|v| {
-            *known.entry((v, patch)).or_insert_with(|| {
-                let mut p = whole.points[v as usize];
-                for x in &mut p {
-                    if *x == 0.0 && random.next() < 0.5 {
-                        *x = -*x;
-                    }
-                }
-                parts.points.push(p);
-                parts.points.len() as u32 - 1
-            })
-        }));
-    }
-    separate_fans(&mut parts);
-    parts
-}
-
-/// Gives each fan of a vertex a vertex of its own, so that the kernel accepts the surface.
-fn separate_fans(surface: &mut Surface) {
-    let mut edges: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
-    for (f, &[a, b, c]) in surface.faces.iter().enumerate() {
-        for [a, b] in [[a, b], [b, c], [c, a]] {
-            edges.entry([a.min(b), a.max(b)]).or_default().push(f);
-        }
-    }
-    let mut corners: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for (f, face) in surface.faces.iter().enumerate() {
-        face.iter()
-            .for_each(|&v| corners.entry(v).or_default().push(f));
-    }
-    for (v, faces) in corners {
-        let mut joined = Vec::new();
-        for (edge, of_edge) in edges.iter().filter(|(edge, _)| edge.contains(&v)) {
-            let at = |f: &usize| faces.iter().position(|g| g == f);
-            let ends: Vec<usize> = of_edge.iter().filter_map(at).collect();
-            joined.extend(ends.windows(2).map(|two| [two[0], two[1]]));
-            let _ = edge;
-        }
-        let fans = joined_sets(faces.len(), &joined);
-        let mut vertices = BTreeMap::from([(fans[0], v)]);
-        for (&f, fan) in faces.iter().zip(&fans) {
-            let vertex = *vertices.entry(*fan).or_insert_with(|| {
-                let p = surface.points[v as usize];
-                surface.points.push(p);
-                surface.points.len() as u32 - 1
-            });
-            let corner = surface.faces[f].iter_mut().find(|corner| **corner == v);
-            *corner.expect("a face of the vertex") = vertex;
-        }
-    }
-}
 
 /// The boundary edges of a surface that are each other's only partner, by all pairs of edges.
 fn partners(surface: &Surface) -> BTreeSet<[[u32; 2]; 2]> {
@@ -355,61 +276,6 @@ fn scissor(of: &Surface, random: &mut Random) -> Scissor {
         ],
     };
     Scissor::by_plane(Plane::new(p.into(), Vector::from(normal)).expect("a normal"))
-}
-
-/// The triangles of a surface by place, each from its lowest corner on.
-fn by_place(surface: &Surface) -> Vec<[[u64; 3]; 3]> {
-    let turned = |face: &[u32; 3]| {
-        let mut corners = face.map(|v| place(surface.points[v as usize]));
-        let lowest = (0..3).min_by_key(|&i| corners[i]).expect("three");
-        corners.rotate_left(lowest);
-        corners
-    };
-    let mut faces: Vec<_> = surface.faces.iter().map(turned).collect();
-    faces.sort_unstable();
-    faces
-}
-
-/// The directed edges, by place, that have no opposite there.
-fn open_edges(surface: &Surface) -> Vec<[Point; 2]> {
-    let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
-    for &[a, b, c] in &surface.faces {
-        for ends in [[a, b], [b, c], [c, a]] {
-            let [p, q] = ends.map(|v| place(surface.points[v as usize]));
-            *edges.entry([p.min(q), p.max(q)]).or_default() += if p < q { 1 } else { -1 };
-        }
-    }
-    let open = edges.into_iter().filter(|&(_, count)| count != 0);
-    open.map(|(ends, _)| ends.map(|p| p.map(f64::from_bits)))
-        .collect()
-}
-
-/// Whether a segment lies on another, but for rounding.
-fn lies_on([p, q]: [Point; 2], [from, to]: [Point; 2]) -> bool {
-    let way = minus(to, from);
-    let is_on = |p: Point| {
-        let off = minus(p, from);
-        let along = dot(off, way) / dot(way, way);
-        length(cross(off, way)) <= 1e-9 * dot(way, way) && (-1e-9..=1.0 + 1e-9).contains(&along)
-    };
-    is_on(p) && is_on(q)
-}
-
-/// Whether two faces have the same places.
-fn has_layers(surface: &Surface) -> bool {
-    let places = |face: &[u32; 3]| {
-        let mut places = face.map(|v| place(surface.points[v as usize]));
-        places.sort_unstable();
-        places
-    };
-    let edge = |face: [[u64; 3]; 3]| [[face[0], face[1]], [face[1], face[2]], [face[0], face[2]]];
-    let mut edges: BTreeMap<_, usize> = BTreeMap::new();
-    for face in &surface.faces {
-        edge(places(face))
-            .into_iter()
-            .for_each(|edge| *edges.entry(edge).or_default() += 1);
-    }
-    edges.into_values().any(|count| count > 2)
 }
 
 /// Cuts a mesh whose seams are closed meanwhile. What is torn then is what the cut tore and what was

@@ -99,7 +99,7 @@ impl Work {
         self.follow();
         self.is_sound();
         assert_eq!(report.pieces, self.mesh.components().count());
-        let seam = cut.seam().map(|line| 2 * line.lips.len()).sum();
+        let seam: usize = cut.seam().map(|line| 2 * line.lips.len()).sum();
         assert_eq!(report.ghost_pairs, seam);
         Ok((cut, report))
     }

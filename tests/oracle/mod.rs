@@ -6,6 +6,8 @@
 //! and the class of each vertex: two vertices are of one class if they were once the same.
 //! Masses are integers.
 
+pub(crate) mod aim;
+pub(crate) mod by_place;
 mod insert;
 pub(crate) mod naive_cut;
 pub(crate) mod rational;

@@ -127,7 +127,7 @@ impl Surface {
         lengths.fold(0.0, f64::max)
     }
 
-    pub(super) fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         let area = |face: &[u32; 3]| length(twice_area(self.corners(face))) / 2.0;
         self.faces.iter().map(area).sum()
     }
@@ -162,7 +162,7 @@ impl Surface {
     }
 
     /// For each vertex the number of fans that its faces form, joined over shared edges.
-    pub(super) fn fans(&self) -> Vec<usize> {
+    pub(crate) fn fans(&self) -> Vec<usize> {
         let mut rims = vec![Vec::new(); self.points.len()];
         for &[a, b, c] in &self.faces {
             for [v, from, to] in [[a, b, c], [b, c, a], [c, a, b]] {
