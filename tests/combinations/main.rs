@@ -1,12 +1,134 @@
 //! Combinations of features, by a table of factors: every three levels of different factors meet in some
 //! sequence of verbs, which is judged whole.
+//!
+//! `TEARMESH_SEED` is another seed of the table, to repeat a run.
 
 #![expect(clippy::print_stdout, reason = "tests say how much they did")]
 
+mod aims;
 mod array;
+mod counts;
+#[path = "../cli/in_process.rs"]
+#[allow(dead_code, reason = "the tests of the command use the rest")]
+mod in_process;
+mod judge;
+mod library;
+mod meshes;
 mod naive_array;
+mod options;
+#[path = "../oracle/mod.rs"]
+#[allow(
+    dead_code,
+    unused_imports,
+    reason = "the tests of the kernel use the rest"
+)]
+mod oracle;
+mod sequence;
 #[path = "../support/mod.rs"]
 #[allow(dead_code, reason = "each has its users in some of the crates")]
 mod support;
+#[path = "../surfaces.rs"]
+#[allow(dead_code, reason = "the tests of the kernel use the rest")]
+mod surfaces;
+mod table;
+mod verb;
+#[path = "../work.rs"]
+#[allow(dead_code, reason = "the tests of the kernel use the rest")]
+mod work;
 
-use support::random;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use counts::Counts;
+use random::Random;
+use sequence::Sequence;
+use support::cases::cases;
+use support::{delaunay, plain, random};
+use table::Levels;
+use verb::{Verb, script};
+
+/// An oracle that was applied in fewer sequences counts as absent.
+const LEAST: usize = 50;
+
+/// So many sequences that fail end a run.
+const FAILED_MAX: usize = 5;
+
+/// Runs all rows of the table by a seed.
+fn run(seed: u64) {
+    let table = table::table();
+    let cover = table.rows(3, &mut Random(seed));
+    let (mut counts, mut untorn, mut verbs) = (Counts::default(), 0, 0);
+    let mut failed = Vec::new();
+    for (i, row) in cover.rows.iter().enumerate() {
+        let levels = Levels::new(&table, row);
+        let mut sequence = Sequence::new(levels, 1_000_003 * seed + i as u64);
+        let ran = catch_unwind(AssertUnwindSafe(|| sequence.run(&mut counts)));
+        if let Err(panic) = ran {
+            println!("row {i}: {}: {}", sequence.levels.words(), message(&*panic));
+            failed.push(i);
+            if failed.len() == FAILED_MAX {
+                break;
+            }
+            if failed.len() == 1 {
+                println!("{}", told(i, &sequence));
+            }
+        }
+        untorn += usize::from(!sequence.has_torn);
+        verbs += sequence.verbs.len();
+    }
+    let (rows, visited) = (cover.rows.len(), cover.visited);
+    println!(
+        "seed {seed}: {visited} triples in {rows} sequences of {verbs} verbs; {untorn} tore nothing"
+    );
+    let (lines, absent) = counts.lines(LEAST);
+    lines.iter().for_each(|line| println!("  {line}"));
+    assert!(
+        failed.is_empty(),
+        "{} sequences failed: {failed:?}",
+        failed.len()
+    );
+    assert!(
+        absent.is_empty(),
+        "applied in fewer than {LEAST}: {absent:?}"
+    );
+    assert!(20 * untorn < rows, "{untorn} tore nothing");
+}
+
+/// What a panic says.
+fn message(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied())
+        .unwrap_or_default()
+}
+
+/// What failed, and how to repeat it: with as few verbs as fail.
+fn told(row: usize, sequence: &Sequence) -> String {
+    let mut verbs: Vec<Verb> = sequence.verbs.clone();
+    let fails = |verbs: &[Verb]| {
+        let again = || sequence.run_again(verbs);
+        catch_unwind(AssertUnwindSafe(again)).is_err()
+    };
+    let mut i = 0;
+    while fails(&verbs) && i < verbs.len() {
+        let mut fewer = verbs.clone();
+        fewer.remove(i);
+        match fails(&fewer) {
+            true => verbs = fewer,
+            false => i += 1,
+        }
+    }
+    let levels = sequence.levels.words();
+    format!(
+        "row {row}: {levels}\n{}",
+        script(&sequence.start.file, &verbs)
+    )
+}
+
+#[test]
+fn every_three_levels_of_a_cut_meet_and_are_judged_whole() {
+    let seed = std::env::var("TEARMESH_SEED").ok();
+    match seed {
+        Some(seed) => run(seed.parse().expect("a number")),
+        None => (1..=if cases() > 1_500 { 10 } else { 1 }).for_each(run),
+    }
+}
