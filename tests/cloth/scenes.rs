@@ -442,3 +442,26 @@ fn a_wind_that_begins_later_is_none_before() {
         assert_eq!(after(&method, Some(0.125), 456), early, "{name}");
     }
 }
+
+/// The time at which a wind begins is rounded to a step, though that step may begin a rounding error earlier.
+#[test]
+fn regression_a_wind_begins_with_the_step_of_its_time() {
+    // Of steps of 1/600 s the 60th ends at 0.099 999 999 999 999 99 s.
+    let (step_s, from_s) = (1.0 / 60.0 / 10.0, 0.1);
+    assert!(60.0 * step_s < from_s);
+    let moves_after = |steps: f64| {
+        let run = play(staged(4, |frame| Scene {
+            duration_s: steps * step_s,
+            step_s: Some(step_s),
+            wind: Some(SwayingWind {
+                from_s,
+                ..swaying(2.0, 0.0, 1.0)
+            }),
+            gravity_m_per_s2: Vector::zeros(),
+            ..Scene::hang(frame)
+        }));
+        let mut velocities = run.cloth().system().velocities().iter();
+        velocities.any(|v| *v != Vector::zeros())
+    };
+    assert!(!moves_after(60.0) && moves_after(61.0));
+}

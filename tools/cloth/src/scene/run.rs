@@ -343,7 +343,12 @@ impl Run {
         let Some(wind) = self.scene.wind.filter(|wind| !wind.is_constant()) else {
             return;
         };
-        let wind = wind.at(now as f64 * self.step_s());
+        // It begins with the step that its time is rounded to, though that may begin a rounding error earlier.
+        let mut time_s = now as f64 * self.step_s();
+        if held::step_at(wind.from_s, self.step_s()) <= now {
+            time_s = time_s.max(wind.from_s);
+        }
+        let wind = wind.at(time_s);
         let set = self.sim.set_wind(Some(wind));
         set.expect("wind between two usable winds is usable");
     }
