@@ -8,6 +8,8 @@ mod balance;
 mod bending;
 mod bodies;
 mod clamps;
+#[cfg(feature = "serde")]
+mod combinations;
 mod damping;
 mod defaults;
 mod failures;
