@@ -38,6 +38,23 @@
 //! # Ok::<(), tearmesh::script::ScriptError>(())
 //! ```
 //!
+//! Cuts may go along a polyline, by any [method](crate::CutMethod), and across seams whose two sides
+//! coincide:
+//!
+//! ```
+//! use tearmesh::script::Script;
+//!
+//! let script: Script = "
+//!     unsewn 0b110101 grid 3 2 0b10                   # some faces have vertices of their own
+//!     cut exact seams eye 0 0 100 -30 -20 0 30 -20 0  # from an eye through two points
+//!     cut exact seams continued 0 0 100 0 40 0        # go on to the ray through a third one
+//!     cut exact seams closed                          # and back to where the polyline began
+//!     cut plane 0 0 0 1 1 0                           # by the method `partition`
+//! ".parse()?;
+//! script.run(|world, _| assert_eq!(world.mesh.check(), []));
+//! # Ok::<(), tearmesh::script::ScriptError>(())
+//! ```
+//!
 //! # Fuzz a follower of your own
 //!
 //! Write the property as a function of bytes. A follower that replays after every step must always
@@ -185,17 +202,18 @@
 //! `ClusterFuzzLite` can fuzz each change of your repository.
 
 mod bytes;
+mod cut;
+mod encode;
 mod grammar;
 mod shape;
 mod shrink;
 mod text;
 mod world;
 
+pub use cut::{CutPath, CutSettings};
 pub use shape::Shape;
 pub use text::ScriptError;
 pub use world::{Step, World};
-
-use crate::scissor::CutTips;
 
 /// An initial mesh and the operations to apply to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -214,6 +232,7 @@ impl Script {
 /// An operation on a [`World`]. Numbers of vertices, faces and so on are taken modulo their counts,
 /// so every operation is valid for every mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Operation {
     /// Split a vertex by a set of its faces.
     Split {
@@ -233,15 +252,24 @@ pub enum Operation {
         /// The normal of the plane. If it is zero, nothing is done.
         normal: [i8; 3],
     },
-    /// Cut between two rays by the method `partition`. If they span no plane, or cross within the mesh,
-    /// nothing is done.
+    /// Cut the mesh. If the path has no plane, as between two rays that are one line, if the rays cross within
+    /// the mesh, or if there is no cut to go on from, nothing is done.
+    ///
+    /// In text, words that are left out have their default, and the method is then `partition`:
+    ///
+    /// ```text
+    /// cut [exact | uniform | alternating] [through] [midpoint] [first] [snap NUMBER] [move] [seams] [far NUMBER] PATH
+    /// ```
+    ///
+    /// [`CutPath`] shows the text of each path.
     Cut {
-        /// Whether the cut continues beyond the rays.
-        through: bool,
-        /// The rule for where the cut ends, unless it continues beyond the rays.
-        tips: CutTips,
-        /// The origin, in units of 1/32, and the direction of each ray.
-        rays: [[[i8; 3]; 2]; 2],
+        /// Where the cut goes.
+        path: CutPath,
+        /// The power of two, from 0 to 40, by which the coordinates of origins are multiplied. Rays from far
+        /// away are nearly parallel.
+        far: u8,
+        /// How the cut is made.
+        settings: CutSettings,
     },
     /// Insert vertices, all at once.
     Insert {

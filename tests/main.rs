@@ -34,6 +34,7 @@ mod rational;
 mod rays;
 mod same_bytes;
 mod scissor;
+mod script_cuts;
 mod scripts;
 mod sheet;
 mod shrink;

@@ -72,13 +72,15 @@ fn every_step_agrees_with_the_oracle() {
     let least = cases as usize / 10;
     assert!(done.splits > 10 * least && done.insertions > 10 * least && done.merges > 10 * least);
     assert!(done.slides > 10 * least && done.refused > 10 * least);
+    assert!(done.cuts.iter().all(|&cuts| cuts > least), "{done:?}");
 }
 
 #[test]
-fn a_script_survives_its_text() {
+fn a_script_survives_its_text_and_its_bytes() {
     for_all(&any::<Script>(), |script| {
         assert!(script.operations.len() <= Script::OPERATIONS_MAX);
-        assert_eq!(script.to_string().parse(), Ok(script));
+        assert_eq!(script.to_string().parse().as_ref(), Ok(&script));
+        assert_eq!(Script::from_bytes(&script.to_bytes()), script);
     });
 }
 

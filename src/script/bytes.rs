@@ -12,13 +12,33 @@ const SHAPES: &str = "grid fan saddle tube torus tetrahedron octahedron grown gl
 /// ends what can happen, so it is rare.
 const OPERATIONS: &str = "split/split/split/split/split/split/split/split repeated/split foreign/plane/\
     plane/plane/plane/cut/tear/clear/insert/merge/sew/slide";
-const FURTHER: &str = "split/split/split/split/slide/plane/plane/plane/cut/insert/insert/insert/merge/\
-    merge/sew";
+const FURTHER: &str = "split/split/split/split/slide/plane/plane/cut by/cut by/insert/insert/insert/\
+    merge/merge/sew";
 const SELDOM: &str = "split repeated/split foreign/clear/sew";
+
+/// The codes below this are those of shapes, again and again; those from here on say that one is taken apart.
+const UNSEWN: u8 = 225;
+
+/// The code of a shape, with which its bytes begin.
+pub(super) fn shape_code(name: &str) -> Option<u8> {
+    match SHAPES.split(' ').position(|shape| shape == name) {
+        Some(code) => Some(code as u8),
+        None => (name == "unsewn").then_some(UNSEWN),
+    }
+}
+
+/// The code of an operation, with which its bytes begin.
+pub(super) fn operation_code(name: &str) -> Option<u8> {
+    let position = |names: &str| names.split('/').position(|known| known == name);
+    match position(OPERATIONS) {
+        Some(code) => Some(code as u8),
+        None => position(FURTHER).map(|code| 32 + code as u8),
+    }
+}
 
 impl Script {
     /// Decodes bytes as a script of at most [`Script::OPERATIONS_MAX`] operations on a mesh of at
-    /// most a few hundred faces. Missing bytes count as zero.
+    /// most a few hundred faces. Missing bytes count as zero. [`Script::to_bytes`] encodes a script.
     #[must_use]
     pub fn from_bytes(bytes: &[u8]) -> Script {
         let mut bytes = Bytes(bytes);
@@ -42,7 +62,7 @@ impl proptest::arbitrary::Arbitrary for Script {
         use proptest::prelude::{Strategy as _, any, prop};
         let shape = prop::collection::vec(any::<u8>(), 0..=100);
         let shape = shape.prop_map(|bytes| Bytes(&bytes).shape());
-        let operation = prop::array::uniform16(any::<u8>());
+        let operation = prop::array::uniform24(any::<u8>());
         let operation = operation.prop_map(|bytes| Bytes(&bytes).operation());
         let operations = prop::collection::vec(operation, 0..=Script::OPERATIONS_MAX);
         let script = |(shape, operations)| Script { shape, operations };
@@ -61,9 +81,11 @@ impl Bytes<'_> {
     }
 
     fn shape(&mut self) -> Shape {
-        let name = SHAPES.split(' ').nth(usize::from(self.byte() % 9));
-        let shape = name.and_then(|name| Shape::read(name, self));
-        shape.expect("every shape has a name")
+        if self.0.first().is_none_or(|&code| code < UNSEWN) {
+            return self.inner_shape();
+        }
+        self.byte();
+        Shape::read("unsewn", self).expect("a shape has this name")
     }
 
     fn operation(&mut self) -> Operation {
@@ -111,5 +133,11 @@ impl Source for Bytes<'_> {
 
     fn filler(&mut self) {
         self.byte();
+    }
+
+    fn inner_shape(&mut self) -> Shape {
+        let name = SHAPES.split(' ').nth(usize::from(self.byte() % 9));
+        let shape = name.and_then(|name| Shape::read(name, self));
+        shape.expect("every shape has a name")
     }
 }

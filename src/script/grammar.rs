@@ -3,9 +3,10 @@
 
 use std::ops::RangeInclusive;
 
+use super::cut::{CutPath, CutSettings, FAR_MAX};
 use super::shape::{GROWN_MAX, Shape};
 use super::{Fault, Operation, SPOTS_MAX, Spot};
-use crate::scissor::CutTips;
+use crate::scissor::{CutLayers, CutMethod, CutTips};
 
 /// What the parts of a script are read from. Bytes are a script whatever they are; words that are
 /// none are noted, and stand for the least number.
@@ -26,6 +27,9 @@ pub(super) trait Source {
     /// A byte that says nothing more.
     fn filler(&mut self) {}
 
+    /// A shape within another one.
+    fn inner_shape(&mut self) -> Shape;
+
     fn u8(&mut self, limits: RangeInclusive<u8>) -> u8 {
         let (least, most) = limits.into_inner();
         self.number(least.into()..=most.into(), 1) as u8
@@ -37,6 +41,15 @@ pub(super) trait Source {
 
     fn i8(&mut self) -> i8 {
         self.number(i8::MIN.into()..=i8::MAX.into(), 1) as i8
+    }
+
+    fn point(&mut self) -> [i8; 3] {
+        [(); 3].map(|()| self.i8())
+    }
+
+    /// Two points, or an origin and a direction.
+    fn points(&mut self) -> [[i8; 3]; 2] {
+        [(); 2].map(|()| self.point())
     }
 }
 
@@ -59,6 +72,9 @@ const OFFSETS: RangeInclusive<u8> = 0..=11;
 
 /// Sixty-fourths.
 const PARTS: RangeInclusive<u8> = 0..=64;
+
+/// Sixty-fourths of an edge, below the largest snap of a scissor.
+const SNAPS: RangeInclusive<u8> = 0..=31;
 
 impl Shape {
     /// Reads the shape of this name; `None` if there is none.
@@ -95,13 +111,18 @@ impl Shape {
                     .list(GROWN_MAX, "", |from| [(); 2].map(|()| from.u8(ANY)))
                     .0,
             },
+            "unsewn" => Shape::Unsewn {
+                faces: from.bits(8),
+                shape: Box::new(from.inner_shape()),
+            },
             _ => return None,
         })
     }
 }
 
 impl Operation {
-    /// Reads the operation of this name; `None` if there is none. Bytes name a fault with the split.
+    /// Reads the operation of this name; `None` if there is none. Bytes name a fault with the split, and call
+    /// a cut that is not one by the method `partition` between two rays `cut by`.
     pub(super) fn read(name: &str, from: &mut impl Source) -> Option<Operation> {
         const WORDS: [&str; 2] = ["", "any"];
         Some(match name {
@@ -112,15 +133,18 @@ impl Operation {
             },
             "plane" => Operation::Plane {
                 vertex: from.u16(),
-                normal: [(); 3].map(|()| from.i8()),
+                normal: from.point(),
             },
-            "cut" => {
-                let words = ["", "through", "midpoint", "through midpoint"];
-                let ends = from.choice(&words, &Odds::Even, 0);
+            "cut" | "cut by" => {
+                let settings = CutSettings::read(name, from);
+                let far = match from.choice(&["", "far"], &rare(name), 0) {
+                    0 => 0,
+                    _ => from.u8(0..=FAR_MAX),
+                };
                 Operation::Cut {
-                    through: ends % 2 == 1,
-                    tips: [CutTips::Vertex, CutTips::Midpoint][ends / 2],
-                    rays: [(); 2].map(|()| [(); 2].map(|()| [(); 3].map(|()| from.i8()))),
+                    path: CutPath::read(name, from),
+                    far,
+                    settings,
                 }
             }
             "insert" => {
@@ -162,6 +186,88 @@ impl Fault {
             1 => Fault::Repeated(from.u8(ANY)),
             2 => Fault::Foreign(from.u16()),
             _ => Fault::None,
+        }
+    }
+}
+
+/// The odds of what only cuts with a long name have: even ones, and less than even ones.
+fn even(name: &str) -> Odds {
+    if name == "cut" {
+        Odds::Named
+    } else {
+        Odds::Even
+    }
+}
+
+fn rare(name: &str) -> Odds {
+    if name == "cut" {
+        Odds::Named
+    } else {
+        Odds::Seldom
+    }
+}
+
+impl CutSettings {
+    fn read(name: &str, from: &mut impl Source) -> CutSettings {
+        let methods = ["", "exact", "uniform", "alternating"];
+        let method = from.choice(&methods, &even(name), 0);
+        let words = ["", "through", "midpoint", "through midpoint"];
+        let ends = from.choice(&words, &Odds::Even, 0);
+        let layers = from.choice(&["", "first"], &even(name), 0);
+        let snap = match from.choice(&["", "snap"], &even(name), 0) {
+            0 => None,
+            _ => Some(from.u8(SNAPS)),
+        };
+        CutSettings {
+            method: [
+                CutMethod::Partition,
+                CutMethod::Exact,
+                CutMethod::Uniform,
+                CutMethod::Alternating,
+            ][method],
+            through: ends % 2 == 1,
+            tips: [CutTips::Vertex, CutTips::Midpoint][ends / 2],
+            layers: [CutLayers::All, CutLayers::First][layers],
+            snap,
+            snap_move: from.choice(&["", "move"], &even(name), 0) == 1,
+            seams: from.choice(&["", "seams"], &even(name), 0) == 1,
+        }
+    }
+}
+
+impl CutPath {
+    fn read(name: &str, from: &mut impl Source) -> CutPath {
+        let words = [
+            "",
+            "skew",
+            "parallel",
+            "eye",
+            "converging",
+            "plane",
+            "continued",
+            "closed",
+        ];
+        match from.choice(&words, &even(name), 0) {
+            0 => CutPath::Rays([(); 2].map(|()| from.points())),
+            1 => CutPath::Skew([(); 2].map(|()| from.points())),
+            2 => CutPath::Parallel {
+                direction: from.point(),
+                targets: from.points(),
+            },
+            3 => CutPath::Eye {
+                eye: from.point(),
+                targets: from.points(),
+            },
+            4 => CutPath::Converging {
+                origins: from.points(),
+                target: from.point(),
+            },
+            5 => CutPath::Plane {
+                point: from.point(),
+                normal: from.point(),
+            },
+            6 => CutPath::Continued(from.points()),
+            _ => CutPath::Closed,
         }
     }
 }

@@ -1,15 +1,18 @@
 //! The meshes that scripts start with.
 
-use crate::id::HalfEdgeId;
+use crate::edit::Edits;
+use crate::id::{FaceId, HalfEdgeId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
 use crate::shapes;
+use crate::split;
 
 /// A small mesh with positions, defined by a few numbers.
 ///
 /// Scripts from bytes and text respect the limits on the numbers. [`Shape::make`] does not enforce
 /// the upper limits.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Shape {
     /// A grid of cells, with one bit for the direction of each diagonal: see
     /// [`shapes::grid_with_diagonals`].
@@ -71,6 +74,15 @@ pub enum Shape {
         /// The pairs of sides, up to 48, each number modulo three times `faces`.
         sides: Vec<[u8; 2]>,
     },
+    /// A shape that is taken apart along seams whose two sides coincide, as exporters write meshes: the
+    /// vertices of both sides are at equal places, but the mesh does not know that they belong together.
+    /// Text: `unsewn FACES SHAPE`, as in `unsewn 0b0110 grid 2 2 0b0`.
+    Unsewn {
+        /// The faces on one side of the seams: bit `i % 64` is set if face `i` is.
+        faces: u64,
+        /// The shape, which is sewn.
+        shape: Box<Shape>,
+    },
 }
 
 /// The largest number of moves of a grown mesh, and of gluings of a glued one.
@@ -103,8 +115,40 @@ impl Shape {
             Shape::Octahedron { subdivisions } => subdivided(shapes::octahedron(), subdivisions),
             Shape::Grown(ref moves) => on_a_lattice(grown(moves)),
             Shape::Glued { faces, ref sides } => on_a_lattice(glued(faces, sides)),
+            Shape::Unsewn { faces, ref shape } => unsewn(shape.make(), faces),
         }
     }
+}
+
+/// Tears a mesh between the faces that are chosen and the others, and forgets that it was whole.
+fn unsewn((mut mesh, mut positions): (Mesh, Positions), faces: u64) -> (Mesh, Positions) {
+    let mut edits = Edits::new();
+    let mut take = |mesh: &mut Mesh, v, faces: &[FaceId]| {
+        // It is refused where all faces are taken, or none.
+        _ = split::vertex(mesh, v, faces, &mut edits);
+    };
+    for v in mesh.vertices() {
+        let chosen = mesh
+            .faces_of(v)
+            .filter(|f| faces >> (f.index() % 64) & 1 == 1);
+        let chosen: Vec<FaceId> = chosen.collect();
+        take(&mut mesh, v, &chosen);
+    }
+    // What touches at a point alone is apart as well.
+    for v in mesh.vertices() {
+        let fans: Vec<HalfEdgeId> = mesh.fans(v).skip(1).collect();
+        for h in fans {
+            let fan: Vec<FaceId> = mesh.fan(h).map(HalfEdgeId::face).collect();
+            take(&mut mesh, v, &fan);
+        }
+    }
+    edits.replay(&mut positions);
+    let mesh = Mesh::build(mesh.vertex_count(), mesh.indices().as_chunks().0);
+    let positions = Positions::new(positions.as_slice().iter().copied());
+    (
+        mesh.expect("each vertex has one fan"),
+        positions.expect("they were usable"),
+    )
 }
 
 /// Divides each face into four, `times` times, by new vertices at the middles of the edges.

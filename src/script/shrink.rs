@@ -11,7 +11,7 @@ impl Script {
     /// example. A script that does not fail is returned unchanged.
     ///
     /// Calls `fails` some thousand times: about n log n times for n operations, and up to 64 times
-    /// for each number that remains.
+    /// for each number that remains, or 256 times for a coordinate.
     ///
     /// ```
     /// use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -106,12 +106,12 @@ fn simplify_line(least: &mut Script, line: usize, fails: &mut impl FnMut(&Script
     }
 }
 
-/// What may be a simpler line: without a few words, with a number from the least on, or with one bit
-/// less. Numbers are taken modulo what there is, so that beyond 64 a small mesh has nothing else.
+/// What may be a simpler line: without a few words, with a number nearer to zero, or with one bit less.
+/// Numbers beyond 128 are taken modulo what there is, and beyond 64 a small mesh has nothing else.
 fn simpler(line: &str) -> Vec<String> {
     let words: Vec<&str> = line.split_whitespace().collect();
     let mut simpler = Vec::new();
-    for at in 1..words.len() {
+    for at in 0..words.len() {
         let mut with = |word: &str, end: usize| {
             let line = [&words[..at], &[word], &words[end..]].concat();
             simpler.push(line.join(" "));
@@ -121,11 +121,21 @@ fn simpler(line: &str) -> Vec<String> {
             for (bit, _) in bits.match_indices('1') {
                 with(&format!("0b{}0{}", &bits[..bit], &bits[bit + 1..]), at + 1);
             }
-        } else if let Ok(number) = words[at].parse::<u64>() {
-            (0..number.min(64)).for_each(|less| with(&less.to_string(), at + 1));
+        } else if let Ok(number) = words[at].parse::<i64>() {
+            let numbers = nearer_to_zero(number);
+            numbers.for_each(|less| with(&less.to_string(), at + 1));
         }
     }
     simpler
+}
+
+/// The numbers that are simpler than a number, from zero on. Of two that are as far from zero, that below
+/// zero is less simple.
+fn nearer_to_zero(number: i64) -> impl Iterator<Item = i64> {
+    let far = number.unsigned_abs() as i64;
+    let most = if far <= 128 { far } else { 64 };
+    let both = (0..most).flat_map(move |less| [Some(less), (number < 0).then_some(-less)]);
+    both.flatten().chain((number < 0).then_some(far))
 }
 
 /// The most words of a part that may be missing: those of a spot in a face.

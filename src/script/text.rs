@@ -3,11 +3,11 @@
 //! ```text
 //! grid COLUMNS ROWS RISING | fan FACES | open-fan FACES | saddle | tube AROUND ALONG
 //! torus AROUND ACROSS | tetrahedron SUBDIVISIONS | octahedron SUBDIVISIONS
-//! grown MOVE … | glued FACES SIDE SIDE …
+//! grown MOVE … | glued FACES SIDE SIDE … | unsewn FACES SHAPE
 //!
 //! split VERTEX MASK [repeated NUMBER | foreign FACE]
 //! plane VERTEX X Y Z
-//! cut [through] [midpoint] ORIGIN DIRECTION ORIGIN DIRECTION      (three numbers each)
+//! cut [METHOD] [through] [midpoint] [first] [snap NUMBER] [move] [seams] [far NUMBER] PATH
 //! insert HALF-EDGE [SPOT …] [chord END END]
 //! merge VERTEX COPY WEIGHT WEIGHT
 //! merge any VERTEX VERTEX WEIGHT WEIGHT
@@ -18,6 +18,12 @@
 //! clear
 //!
 //! SPOT: edge OFFSET PART | face OFFSET WEIGHT WEIGHT WEIGHT
+//! METHOD: exact | uniform | alternating                           (otherwise partition)
+//! PATH: ORIGIN DIRECTION ORIGIN DIRECTION                         (three numbers each, in units of 1/32)
+//!     | skew ORIGIN TARGET ORIGIN TARGET                          (in units of the box around the mesh)
+//!     | parallel DIRECTION TARGET TARGET | eye ORIGIN TARGET TARGET
+//!     | converging ORIGIN ORIGIN TARGET | plane POINT NORMAL
+//!     | continued ORIGIN TARGET | closed
 //! ```
 //!
 //! Whole numbers may be decimal, `0x…` or `0b…`. What follows a `#` is a comment.
@@ -26,9 +32,10 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::{FromStr, SplitWhitespace};
 
+use super::cut::{CutPath, CutSettings};
 use super::grammar::{Odds, Source};
 use super::{Fault, Operation, Script, Shape, Spot};
-use crate::scissor::CutTips;
+use crate::scissor::{CutLayers, CutMethod, CutTips};
 
 impl fmt::Display for Script {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -60,6 +67,7 @@ impl fmt::Display for Shape {
             Shape::Glued { faces, sides } => {
                 numbers(f, &format!("glued {faces}"), sides.as_flattened())
             }
+            Shape::Unsewn { faces, shape } => write!(f, "unsewn {faces:#b} {shape}"),
         }
     }
 }
@@ -82,16 +90,15 @@ impl fmt::Display for Operation {
             }
             Operation::Plane { vertex, normal } => numbers(f, &format!("plane {vertex}"), normal),
             Operation::Cut {
-                through,
-                tips,
-                rays,
+                path,
+                far,
+                settings,
             } => {
-                f.write_str(if *through { "cut through" } else { "cut" })?;
-                let tips = match tips {
-                    CutTips::Vertex => "",
-                    CutTips::Midpoint => " midpoint",
-                };
-                numbers(f, tips, rays.as_flattened().as_flattened())
+                write!(f, "cut{settings}")?;
+                if *far > 0 {
+                    write!(f, " far {far}")?;
+                }
+                path.fmt(f)
             }
             Operation::Insert {
                 half_edge,
@@ -128,6 +135,58 @@ impl fmt::Display for Operation {
             Operation::Sew { mask } => write!(f, "sew {mask:#b}"),
             Operation::Tear => f.write_str("tear"),
             Operation::Clear => f.write_str("clear"),
+        }
+    }
+}
+
+/// Each word has a space before it.
+impl fmt::Display for CutSettings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self.method {
+            CutMethod::Partition => "",
+            CutMethod::Exact => " exact",
+            CutMethod::Uniform => " uniform",
+            CutMethod::Alternating => " alternating",
+        })?;
+        let is_first = self.layers == CutLayers::First;
+        for (is_set, word) in [
+            (self.through, " through"),
+            (self.tips == CutTips::Midpoint, " midpoint"),
+            (is_first, " first"),
+        ] {
+            f.write_str(if is_set { word } else { "" })?;
+        }
+        if let Some(snap) = self.snap {
+            write!(f, " snap {snap}")?;
+        }
+        f.write_str(if self.snap_move { " move" } else { "" })?;
+        f.write_str(if self.seams { " seams" } else { "" })
+    }
+}
+
+/// Each word and number has a space before it.
+impl fmt::Display for CutPath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            CutPath::Rays(ref rays) => numbers(f, "", rays.as_flattened().as_flattened()),
+            CutPath::Skew(ref rays) => numbers(f, " skew", rays.as_flattened().as_flattened()),
+            CutPath::Parallel {
+                direction: first,
+                targets: [second, third],
+            } => numbers(f, " parallel", [first, second, third].as_flattened()),
+            CutPath::Eye {
+                eye: first,
+                targets: [second, third],
+            } => numbers(f, " eye", [first, second, third].as_flattened()),
+            CutPath::Converging {
+                origins: [first, second],
+                target: third,
+            } => numbers(f, " converging", [first, second, third].as_flattened()),
+            CutPath::Plane { point, normal } => {
+                numbers(f, " plane", [point, normal].as_flattened())
+            }
+            CutPath::Continued(ref ray) => numbers(f, " continued", ray.as_flattened()),
+            CutPath::Closed => f.write_str(" closed"),
         }
     }
 }
@@ -174,8 +233,7 @@ impl FromStr for Script {
         let mut end = 0;
         for line in text.lines() {
             end += 1;
-            let words = line.split('#').next().unwrap_or("").split_whitespace();
-            let mut line = Line { words, error: None };
+            let mut line = Line::new(line.split('#').next().unwrap_or(""));
             let Some(first) = line.words.next() else {
                 continue;
             };
@@ -205,25 +263,36 @@ impl FromStr for Script {
 }
 
 /// A line that is read: the words that are left, and the first word that was wrong, with what was expected.
-struct Line<'t> {
-    words: SplitWhitespace<'t>,
+pub(super) struct Line<'t> {
+    pub(super) words: SplitWhitespace<'t>,
     error: Option<(String, String)>,
 }
 
-impl Line<'_> {
+impl<'t> Line<'t> {
+    pub(super) fn new(text: &'t str) -> Line<'t> {
+        let words = text.split_whitespace();
+        Line { words, error: None }
+    }
+
     fn refuse(&mut self, word: &str, expected: &str) {
         let error = (word.to_owned(), expected.to_owned());
         self.error.get_or_insert(error);
     }
 
     /// Takes the next words if they are these.
-    fn takes(&mut self, words: &str) -> bool {
+    pub(super) fn takes(&mut self, words: &str) -> bool {
         let mut ahead = self.words.clone();
         let found = words.split(' ').all(|word| ahead.next() == Some(word));
         if found {
             self.words = ahead;
         }
         found
+    }
+
+    /// Whether an item of a list is next, and neither the word after the list nor the end.
+    pub(super) fn has_item(&self, end: &str) -> bool {
+        let next = self.words.clone().next();
+        next.is_some_and(|next| next != end)
     }
 }
 
@@ -265,13 +334,18 @@ impl Source for Line<'_> {
 
     fn list<T>(&mut self, most: usize, end: &str, item: fn(&mut Self) -> T) -> (Vec<T>, bool) {
         let mut items = Vec::new();
-        while items.len() < most {
-            let next = self.words.clone().next();
-            if next.is_none_or(|next| next == end) {
-                break;
-            }
+        while items.len() < most && self.has_item(end) {
             items.push(item(self));
         }
         (items, self.takes(end))
+    }
+
+    fn inner_shape(&mut self) -> Shape {
+        let word = self.words.next().unwrap_or("");
+        let sewn = (word != "unsewn").then(|| Shape::read(word, self));
+        sewn.flatten().unwrap_or_else(|| {
+            self.refuse(word, "a shape that is sewn");
+            Shape::Saddle
+        })
     }
 }

@@ -1,18 +1,20 @@
 //! Running a script.
 
+use super::cut::CutSettings;
 use super::{Fault, Operation, Script, Spot};
 use crate::attribute::PerCorner;
-use crate::edit::{Cursor, Edits};
-use crate::geometry::{Plane, Point, Ray};
+use crate::edit::{Cursor, Edit, Edits};
+use crate::geometry::Plane;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::insert::{self, ChordEnd, Plan, PointId};
 use crate::mass::Masses;
 use crate::mend::{self, Stitch};
 use crate::mesh::Mesh;
 use crate::place::Positions;
-use crate::scissor::{CutError, CutMethod, CutReport, Scissor};
+use crate::scissor::{CutEnd, CutError, CutReport, Scissor};
 use crate::slide;
 use crate::split::{self, SplitRefusal};
+use crate::unsewn::UnsewnSeams;
 
 /// A mesh together with one follower of each kind.
 #[derive(Clone, Debug)]
@@ -32,6 +34,9 @@ pub struct World {
     /// corner's vertex up to rounding, until copies that slid apart are merged. The merged vertex
     /// then lies between them, and its corner values do not change.
     pub corners: PerCorner<[f64; 3]>,
+    /// The beginning and the end of the last polyline of cuts between rays, which have seen every edit. A cut
+    /// that continues moves the end. `None` before the first cut, and after a cut by a plane.
+    pub polyline: Option<[CutEnd; 2]>,
 }
 
 /// A step of a [`World`]: an attempted operation with its outcome. An edit is identified by the place
@@ -59,10 +64,14 @@ pub enum Step<'s> {
         /// The edit, or `None` if all faces were on one side of the plane.
         outcome: Option<Cursor>,
     },
-    /// A cut was carried out by the method `partition`.
+    /// A cut was carried out.
     Cut {
         /// The place in the log before the first edit of the cut. All later edits belong to the cut.
         first: Cursor,
+        /// The scissor, with its settings.
+        scissor: &'s Scissor,
+        /// The method, and whether seams were closed while the mesh was cut.
+        settings: CutSettings,
         /// The measurements of the cut.
         report: &'s CutReport,
     },
@@ -106,7 +115,8 @@ pub enum Step<'s> {
     },
     /// All followers replayed the log, and the log was cleared.
     Cleared,
-    /// Nothing was done, because the normal was zero or the rays spanned no plane.
+    /// Nothing was done: the normal was zero, the rays spanned no plane, there was no cut to go on from, or a
+    /// cut was refused.
     Nothing,
 }
 
@@ -143,6 +153,7 @@ impl World {
         let mut world = World {
             area: Masses::area(&mesh, &positions, 1.0).expect(masses),
             half: Some(Masses::half(&mesh, &positions, 1.0).expect(masses)),
+            polyline: None,
             corners: PerCorner::new(mesh.half_edges().map(place).collect()),
             edits: Edits::new(),
             mesh,
@@ -173,13 +184,19 @@ impl World {
                 self.split_by_plane(self.vertex(vertex), normal.map(f64::from), observe);
             }
             Operation::Cut {
-                through,
-                tips,
-                rays,
-            } => match scissor(rays) {
-                Some(scissor) => self.cut(&scissor.with_through(through).with_tips(tips), observe),
-                None => observe(self, &Step::Nothing),
-            },
+                ref path,
+                far,
+                settings,
+            } => {
+                let polyline = self.polyline.as_ref();
+                match path.scissor(far, &self.mesh, &self.positions, polyline) {
+                    Some(scissor) => {
+                        let scissor = settings.of(scissor);
+                        self.cut(&scissor, settings, path.continues(), observe);
+                    }
+                    None => observe(self, &Step::Nothing),
+                }
+            }
             Operation::Insert {
                 half_edge,
                 ref spots,
@@ -335,18 +352,51 @@ impl World {
         }
     }
 
-    fn cut(&mut self, scissor: &Scissor, observe: &mut Observe<'_>) {
+    fn cut(
+        &mut self,
+        scissor: &Scissor,
+        settings: CutSettings,
+        continues: bool,
+        observe: &mut Observe<'_>,
+    ) {
         let first = self.edits.cursor();
         let (mesh, positions) = (&mut self.mesh, &mut self.positions);
-        let cut = scissor.cut_measured(CutMethod::Partition, mesh, positions, &mut self.edits);
-        match cut {
-            Ok((_, report)) => {
-                let report = &report;
-                self.end(&Step::Cut { first, report }, observe);
-            }
-            Err(CutError::RaysCross { .. }) => observe(self, &Step::Nothing),
-            Err(error) => panic!("positions are in step: {error}"),
+        let seams = settings.seams.then(|| {
+            UnsewnSeams::find(mesh, positions)
+                .close(mesh)
+                .starting_at(first)
+        });
+        let cut = scissor.cut_measured(settings.method, mesh, positions, &mut self.edits);
+        if let Some(mut closed) = seams {
+            self.edits.replay(&mut closed);
+            closed.reopen(mesh);
         }
+        let (cut, report) = match cut {
+            Ok(made) => made,
+            Err(CutError::RaysCross { .. } | CutError::TooShort { .. }) => {
+                return observe(self, &Step::Nothing);
+            }
+            Err(error) => panic!("all that follows is in step: {error}"),
+        };
+        let begins = self.polyline.take().filter(|_| continues);
+        self.polyline = cut.ends().cloned().map(|[begin, end]| {
+            let begin = begins.map_or(begin, |[begin, _]| begin);
+            [begin, end]
+        });
+        if self
+            .edits
+            .since(first)
+            .any(|edit| matches!(edit, Edit::Insert(_)))
+        {
+            self.half = None;
+        }
+        let step = Step::Cut {
+            first,
+            scissor,
+            settings,
+            report: &report,
+        };
+        self.end(&step, observe);
     }
 
     /// Inserts vertices, and calls `observe` after this step.
@@ -413,15 +463,9 @@ impl World {
         }
         let beside = (&mut self.positions, &mut self.area, &mut self.corners);
         self.edits.replay(&mut { beside });
+        for end in self.polyline.iter_mut().flatten() {
+            self.edits.replay(end);
+        }
         observe(self, step);
     }
-}
-
-/// The scissor of two rays, each an origin in 32nds and a direction, if they span a plane.
-fn scissor(rays: [[[i8; 3]; 2]; 2]) -> Option<Scissor> {
-    let [a, b] = rays.map(|[origin, direction]| {
-        let origin = origin.map(|x| f64::from(x) / 32.0);
-        Ray::new(Point::from(origin), direction.map(f64::from).into()).ok()
-    });
-    Scissor::new(a?, b?).ok()
 }

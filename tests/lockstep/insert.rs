@@ -1,7 +1,7 @@
 //! The oracle of insertions: what one must do, and what it must leave as it was.
 
 use tearmesh::insert::{Chord, ChordEnd, InsertRefusal, Plan, Point};
-use tearmesh::{Cursor, Edit, HalfEdgeId, Insert, Mesh, Mix};
+use tearmesh::{ChildFace, Cursor, Edit, HalfEdgeId, Insert, InsertedPoint, Mesh, Mix};
 
 use super::beside::weights_in_parent;
 use super::mesh::euler;
@@ -23,7 +23,7 @@ impl Request {
             Point::Edge { h, t, forward } => {
                 assert!(forward && h.index() < mesh.half_edge_count());
                 let side = place_of(h);
-                Spot::Side { side, t }
+                Spot::Side { side, t, forward }
             }
             Point::Face { f, weights } => Spot::Inside {
                 face: f.index(),
@@ -73,41 +73,43 @@ impl Request {
         let Edit::Insert(insert) = edit else {
             panic!("not an insertion: {edit:?}");
         };
-        let children: Vec<Child> = insert
-            .children
-            .iter()
-            .map(|child| Child {
-                parent: child.parent.index(),
-                face: child.face.index(),
-                vertices: child.vertices.map(u32::from),
-                share: child.share,
-                weights: child
-                    .sources
-                    .map(|source| weights_in_parent(child, &source)),
-            })
-            .collect();
+        let (told, children) = plain(insert);
         let places = soup.insert(&self.spots, self.chord, &children);
-        let told: Vec<(u32, Place)> = insert
-            .points
-            .iter()
-            .map(|point| {
-                let place = match point.at {
-                    Mix::Copy(v) => panic!("{v} was inserted nowhere"),
-                    Mix::Between { ends, t } => Place::Edge {
-                        ends: ends.map(u32::from),
-                        t,
-                    },
-                    Mix::Weighted { of, weights } => Place::Face {
-                        vertices: of.map(u32::from),
-                        weights,
-                    },
-                    _ => unreachable!("there is no other mix"),
-                };
-                (point.vertex.into(), place)
-            })
-            .collect();
         assert_eq!(told, places, "the new vertices");
     }
+}
+
+/// A vertex and where it was put, in the words of the oracle.
+type Told = (u32, Place);
+
+/// The new vertices and the children of a record, in the words of the oracle.
+pub(super) fn plain(insert: &Insert<'_>) -> (Vec<Told>, Vec<Child>) {
+    let child = |child: &ChildFace| Child {
+        parent: child.parent.index(),
+        face: child.face.index(),
+        vertices: child.vertices.map(u32::from),
+        share: child.share,
+        weights: child
+            .sources
+            .map(|source| weights_in_parent(child, &source)),
+    };
+    let told = |point: &InsertedPoint| {
+        let place = match point.at {
+            Mix::Copy(v) => panic!("{v} was inserted nowhere"),
+            Mix::Between { ends, t } => Place::Edge {
+                ends: ends.map(u32::from),
+                t,
+            },
+            Mix::Weighted { of, weights } => Place::Face {
+                vertices: of.map(u32::from),
+                weights,
+            },
+            _ => unreachable!("there is no other mix"),
+        };
+        (point.vertex.into(), place)
+    };
+    let children = insert.children.iter().map(child).collect();
+    (insert.points.iter().map(told).collect(), children)
 }
 
 /// I16, I17: old vertices and faces keep their ids; the Euler characteristic, the number

@@ -4,6 +4,7 @@
 //! Numbers like I16 are those of `src/mesh/invariants.md`.
 
 pub(crate) mod beside;
+mod cut;
 mod history;
 mod insert;
 mod merge;
@@ -12,8 +13,7 @@ mod slide;
 mod split;
 
 use tearmesh::script::{Script, Step, World};
-use tearmesh::split as split_op;
-use tearmesh::{Cursor, Edit, Edits, FaceId, Mesh, Positions, Split, VertexId};
+use tearmesh::{Cursor, Edit, Edits, FaceId, Mesh, Positions, VertexId};
 
 use crate::oracle::{Soup, is_strict, lump};
 
@@ -24,6 +24,8 @@ pub(crate) struct Done {
     pub(crate) insertions: usize,
     pub(crate) merges: usize,
     pub(crate) slides: usize,
+    /// Cuts, by their method.
+    pub(crate) cuts: [usize; 4],
     /// Refused, or nothing to do.
     pub(crate) refused: usize,
 }
@@ -34,6 +36,9 @@ impl Done {
         self.insertions += more.insertions;
         self.merges += more.merges;
         self.slides += more.slides;
+        for (sum, more) in self.cuts.iter_mut().zip(more.cuts) {
+            *sum += more;
+        }
         self.refused += more.refused;
     }
 }
@@ -49,13 +54,6 @@ pub(crate) fn check(script: &Script) -> Done {
     model.undoing_everything_gives_the_input_back();
     running_again_gives_the_same_bytes(script, &world);
     model.done
-}
-
-pub(crate) fn split_of(edit: Edit<'_>) -> Split<'_> {
-    match edit {
-        Edit::Split(split) => split,
-        other => panic!("a cut only splits, and this is {other:?}"),
-    }
 }
 
 /// The soup beside a [`World`], and the world as it was before the last step.
@@ -171,14 +169,22 @@ impl Model {
                 merge::copies_are_sewn(&self.before.mesh, &world.mesh, stitches);
                 self.done.merges += merges;
             }
-            Step::Cut { first, report } => {
+            Step::Cut {
+                first,
+                scissor,
+                settings,
+                report,
+            } => {
                 assert_eq!(first, place, "the edits of this step");
-                assert_eq!(report.pieces_before, self.before.mesh.components().count());
-                self.a_cut_is_made_of_splits(world, first);
-                let splits = world.edits.since(first).len();
-                assert_eq!(report.splits, splits, "splits of the cut");
-                let pieces = self.soup.piece_count();
-                assert_eq!(report.pieces, pieces, "pieces after the cut");
+                let made =
+                    cut::is_carried_out(&mut self.soup, &self.before, world, first, settings);
+                self.done.splits += made.splits;
+                self.done.insertions += made.insertions;
+                self.done.slides += made.slides;
+                cut::is_reported(&self.soup, &self.before, world, first, report);
+                let has_rays = scissor.sides().is_some();
+                assert_eq!(world.polyline.is_some(), has_rays, "a polyline has rays");
+                self.done.cuts[cut::number(settings.method)] += 1;
             }
             Step::Cleared => {
                 assert!(world.edits.is_empty(), "the log was cleared");
@@ -240,24 +246,6 @@ impl Model {
         }
     }
 
-    /// Replaying the splits of a cut one by one makes the same mesh.
-    fn a_cut_is_made_of_splits(&mut self, world: &World, first: Cursor) {
-        let mut mesh = self.before.mesh.clone();
-        for edit in world.edits.since(first) {
-            let split = split_of(edit);
-            let faces: Vec<FaceId> = split.corners.iter().map(|h| h.face()).collect();
-            let expected = self.soup.split(split.old.index(), &indices(&faces));
-            assert_eq!(expected, Ok(()), "a cut makes no split that is refused");
-            let before = mesh.clone();
-            let mut edits = Edits::starting_at(edit.before());
-            let again = split_op::vertex(&mut mesh, split.old, &faces, &mut edits);
-            assert_eq!(again, Ok(split), "a split of a cut is a split");
-            split::changes_nothing_else(&before, &mesh, &split);
-            self.done.splits += 1;
-        }
-        assert_eq!(mesh, world.mesh, "a cut is nothing but splits");
-    }
-
     fn everything_agrees(&self, world: &World) {
         let soup = &self.soup;
         mesh::agrees(&world.mesh, soup);
@@ -267,6 +255,8 @@ impl Model {
         if let Some(half) = &world.half {
             beside::halves_add_up(half, soup, self.unit);
         }
+        let ends = world.polyline.iter().flatten();
+        ends.for_each(|end| cut::an_end_has_vertices(end, &world.mesh));
     }
 
     /// I21: with all edits undone in reverse order, the triangles build the input again.

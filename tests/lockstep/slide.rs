@@ -2,7 +2,7 @@
 
 use tearmesh::script::World;
 use tearmesh::slide::SlideRefusal;
-use tearmesh::{HalfEdgeId, Slide, VertexId};
+use tearmesh::{HalfEdgeId, Mesh, Slide, VertexId};
 
 use crate::oracle::Unslid;
 
@@ -15,16 +15,8 @@ pub(super) fn plain(refusal: SlideRefusal) -> Unslid {
     }
 }
 
-/// I16, I20: a slide changes no mesh and no mass, and its record names all corners of the vertex, and
-/// those of each face of the edge.
+/// I16, I20: a slide changes no mesh and no mass.
 pub(super) fn changes_nothing_else(before: &World, after: &World, slide: &Slide<'_>) {
-    let Slide {
-        vertex,
-        toward,
-        along,
-        corners,
-        ..
-    } = *slide;
     let mesh = &before.mesh;
     assert_eq!(after.mesh, *mesh, "the mesh");
     for v in mesh.vertices() {
@@ -32,6 +24,18 @@ pub(super) fn changes_nothing_else(before: &World, after: &World, slide: &Slide<
         let halves = [before, after].map(|world| world.half.as_ref().map(|half| half.at(v)));
         assert_eq!(halves[0], halves[1], "the mass of {v}");
     }
+    names_all_corners(mesh, slide);
+}
+
+/// The record names all corners of the vertex, and those of each face of the edge.
+pub(super) fn names_all_corners(mesh: &Mesh, slide: &Slide<'_>) {
+    let Slide {
+        vertex,
+        toward,
+        along,
+        corners,
+        ..
+    } = *slide;
     let walk = mesh.corners_of(vertex);
     assert!(walk.eq(corners.iter().copied()), "the corners of {vertex}");
     let corner = |f, v: VertexId| {

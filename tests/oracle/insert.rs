@@ -13,8 +13,13 @@ use super::{Soup, between, joined_sets, links_of, reversed, side};
 /// Where a vertex is to be inserted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Spot {
-    /// On a side of a face, at the part `t` of the way from its first corner.
-    Side { side: (usize, usize), t: f64 },
+    /// On a side of a face, at the part `t` of the way from its first corner, or if not `forward`, from its
+    /// second one.
+    Side {
+        side: (usize, usize),
+        t: f64,
+        forward: bool,
+    },
     /// In a face.
     Inside { face: usize, weights: [f64; 3] },
 }
@@ -72,28 +77,33 @@ struct Node {
 
 /// A face that is divided: what is on its outline, in order, and inside.
 #[derive(Clone, Debug, Default)]
-struct Divided {
+pub(super) struct Divided {
     ring: Vec<Node>,
     inside: Vec<Node>,
 }
 
-impl Soup {
-    fn opposite(&self, side: (usize, usize)) -> Option<(usize, usize)> {
-        let link = self.links.iter().find(|link| link.contains(&side))?;
-        Some(if link[0] == side { link[1] } else { link[0] })
-    }
+/// Where the new vertices are, those of each spot, and the families of children with what they divide.
+pub(super) type Divisions<'c> = (
+    Vec<(u32, Place)>,
+    Vec<[u32; 2]>,
+    Vec<(&'c [Child], Divided)>,
+);
 
-    /// All that is wrong with an insertion. The parameters must be such that 1 - t is exact.
+impl Soup {
+    /// All that is wrong with an insertion of which each spot is forward. The parameters must be such that
+    /// 1 - t is exact.
     pub(crate) fn unfit(&self, spots: &[Spot], chord: Option<(usize, [End; 2])>) -> Vec<Unfit> {
         let mut unfit = Vec::new();
         for (i, &spot) in spots.iter().enumerate() {
             match spot {
-                Spot::Side { side, t } => {
+                Spot::Side { side, t, .. } => {
                     if !(0.0 < t && t < 1.0) {
                         unfit.push(Unfit::Parameter);
                     }
                     let here = |&other: &Spot| match other {
-                        Spot::Side { side: at, t: there } => {
+                        Spot::Side {
+                            side: at, t: there, ..
+                        } => {
                             at == side && there == t
                                 || self.opposite(at) == Some(side) && 1.0 - there == t
                         }
@@ -158,15 +168,8 @@ impl Soup {
         children: &[Child],
     ) -> Vec<(u32, Place)> {
         let before = self.clone();
-        let (places, vertices) = self.place(spots);
-        let divided = self.divided(spots, &vertices);
-        let families = children.chunk_by(|one, next| one.parent == next.parent);
-        let families: Vec<&[Child]> = families.collect();
-        let parents = families.iter().map(|family| family[0].parent);
-        let is_right = parents.eq(divided.keys().copied());
-        assert!(is_right, "each face with a point is divided, in order");
-        for (family, face) in families.iter().zip(divided.values()) {
-            self.check_family(family, face);
+        let (places, vertices, families) = self.divide(spots, children);
+        for (family, face) in families {
             let chord = chord.filter(|&(f, _)| f == family[0].parent);
             let chord = chord.map(|(f, ends)| {
                 ends.map(|end| match end {
@@ -178,9 +181,26 @@ impl Soup {
                     }
                 })
             });
-            check_shape(family, face, chord);
+            check_shape(family, &face, chord);
         }
-        for family in families {
+        places
+    }
+
+    /// Divides faces as told, and checks what must hold of any insertion. Returns where the new vertices are,
+    /// those of each spot, and the families with what was divided.
+    pub(super) fn divide<'c>(&mut self, spots: &[Spot], children: &'c [Child]) -> Divisions<'c> {
+        let before = self.clone();
+        let (places, vertices) = self.place(spots);
+        let divided = self.divided(spots, &vertices);
+        let families = children.chunk_by(|one, next| one.parent == next.parent);
+        let families: Vec<&[Child]> = families.collect();
+        let parents = families.iter().map(|family| family[0].parent);
+        let is_right = parents.eq(divided.keys().copied());
+        assert!(is_right, "each face with a point is divided, in order");
+        for (family, face) in families.iter().zip(divided.values()) {
+            self.check_family(family, face);
+        }
+        for &family in &families {
             self.share_mass(family);
             for child in family {
                 let classes = child.vertices.map(|v| self.class[v as usize]);
@@ -197,7 +217,8 @@ impl Soup {
         self.links = links_of(&self.whole);
         self.check_links(&before, children, spots);
         self.halved = None;
-        places
+        let families = families.into_iter().zip(divided.into_values()).collect();
+        (places, vertices, families)
     }
 
     /// Adds the new vertices: of each spot that on the side that was named, and that on
@@ -211,6 +232,9 @@ impl Soup {
             let mut add = |soup: &mut Soup, place: Place| {
                 let v = soup.class.len() as u32;
                 soup.class.push(class);
+                if let Some(open) = &mut soup.open_class {
+                    open.push(class);
+                }
                 soup.points.push(match place {
                     Place::Edge { ends: [a, b], t } => between(old[a as usize], old[b as usize], t),
                     Place::Face { vertices, weights } => {
@@ -222,20 +246,27 @@ impl Soup {
                 v
             };
             vertices.push(match spot {
-                Spot::Side { side: (f, i), t } => {
-                    let ends = side(self.faces[f], i);
+                Spot::Side {
+                    side: (f, i),
+                    t,
+                    forward,
+                } => {
+                    let turned = |ends| if forward { ends } else { reversed(ends) };
+                    let ends = turned(side(self.faces[f], i));
                     let one = add(self, Place::Edge { ends, t });
-                    let other = match self.opposite((f, i)) {
-                        Some((g, j)) if side(self.faces[g], j) != reversed(ends) => {
-                            let ends = reversed(side(self.faces[g], j));
-                            add(self, Place::Edge { ends, t })
+                    let across = self.opposite((f, i)).map(|(g, j)| side(self.faces[g], j));
+                    let other = match across.map(|across| turned(reversed(across))) {
+                        Some(across) if across != ends => {
+                            let other = add(self, Place::Edge { ends: across, t });
+                            self.open_twin(other, [ends, across]);
+                            other
                         }
                         _ => one,
                     };
                     [one, other]
                 }
                 Spot::Inside { face, weights } => {
-                    let sum = weights[0] + weights[1] + weights[2];
+                    let sum = whole(weights);
                     let place = Place::Face {
                         vertices: self.faces[face],
                         weights: weights.map(|w| w / sum),
@@ -254,14 +285,19 @@ impl Soup {
         let mut divided = BTreeMap::<usize, Divided>::new();
         for (&spot, &[one, other]) in spots.iter().zip(vertices) {
             match spot {
-                Spot::Side { side: (f, i), t } => {
+                Spot::Side {
+                    side: (f, i),
+                    t,
+                    forward,
+                } => {
+                    let t = if forward { t } else { 1.0 - t };
                     on.entry(f).or_default()[i].push((t, one));
                     if let Some((g, j)) = self.opposite((f, i)) {
                         on.entry(g).or_default()[j].push((1.0 - t, other));
                     }
                 }
                 Spot::Inside { face, weights } => {
-                    let sum = weights[0] + weights[1] + weights[2];
+                    let sum = whole(weights);
                     on.entry(face).or_default();
                     divided.entry(face).or_default().inside.push(Node {
                         vertex: one,
@@ -397,6 +433,16 @@ impl Soup {
             }
         }
         assert_eq!(given, shared, "children weigh what their parent did");
+    }
+}
+
+/// What weights are parts of. Those of a record are parts of one, up to rounding, and stay as they are.
+fn whole([a, b, c]: [f64; 3]) -> f64 {
+    let sum = a + b + c;
+    if (sum - 1.0).abs() < ROUNDING {
+        1.0
+    } else {
+        sum
     }
 }
 

@@ -8,6 +8,7 @@
 
 pub(crate) mod aim;
 pub(crate) mod by_place;
+mod cut;
 mod insert;
 pub(crate) mod naive_cut;
 pub(crate) mod rational;
@@ -27,6 +28,8 @@ pub(crate) struct Soup {
     pub(crate) whole: Vec<[u32; 3]>,
     /// For each vertex its class.
     pub(crate) class: Vec<u32>,
+    /// While seams are closed, the class that each vertex has once they are open again.
+    open_class: Option<Vec<u32>>,
     /// The number of classes that there ever were.
     classes: u32,
     /// For each vertex its position.
@@ -76,6 +79,7 @@ impl Soup {
             faces: faces.to_vec(),
             whole: faces.to_vec(),
             class: (0..points.len() as u32).collect(),
+            open_class: None,
             classes: points.len() as u32,
             points: points.to_vec(),
             corner_mass: corner_mass.to_vec(),
@@ -156,6 +160,9 @@ impl Soup {
             }
         }
         self.class.push(self.class[v]);
+        if let Some(open) = &mut self.open_class {
+            open.push(open[v]);
+        }
         self.points.push(self.points[v]);
         if let Some(halved) = &mut self.halved {
             assert!(halved[v].1 % 2 == 0, "the oracle halves no further");
@@ -231,6 +238,12 @@ impl Soup {
             sum < 0.0
         });
         behind
+    }
+
+    /// The side on the other end of the link of a side.
+    fn opposite(&self, side: (usize, usize)) -> Option<(usize, usize)> {
+        let link = self.links.iter().find(|link| link.contains(&side))?;
+        Some(if link[0] == side { link[1] } else { link[0] })
     }
 
     /// Whether the two ends of a link no longer agree.
