@@ -12,20 +12,34 @@ use crate::lockstep;
 use crate::random::Random;
 use crate::rays::{Case, Outcome};
 
+/// Where the seeds of the target `script` are, in bytes.
+const SEEDS: &str = "fuzz/corpus/script";
+
+/// Where scripts are written that differ from their bytes: as seeds, after a change of `fuzz.txt` or of how
+/// scripts are coded. (`TEARMESH_WRITE_SEEDS=1 cargo test --test main -- seeds_of_the_target`)
+const WRITE: &str = "TEARMESH_WRITE_SEEDS";
+
+/// And what is found in bytes is found in the text again.
 #[test]
 fn seeds_of_the_target_are_these_scripts() {
     let sections = include_str!("fuzz.txt").split("\n[").skip(1);
-    let seeds: Vec<_> = sections
-        .map(|section| section.split_once("]\n").expect("a name"))
-        .collect();
-    assert_eq!(seeds.len(), 15);
-    for (name, text) in seeds {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(SEEDS);
+    let mut names = Vec::new();
+    for section in sections {
+        let (name, text) = section.split_once("]\n").expect("a name");
         let script: Script = text.parse().expect(name);
         lockstep::check(&script);
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus/script");
-        let bytes = std::fs::read(path.join(name)).expect("a seed");
+        let (path, bytes) = (folder.join(name), script.to_bytes());
         assert_eq!(Script::from_bytes(&bytes), script, "{name}");
+        if std::env::var_os(WRITE).is_some() {
+            std::fs::write(&path, &bytes).expect("a folder");
+        }
+        let is = std::fs::read(path).expect("a seed");
+        assert_eq!(is, bytes, "{name}: {WRITE} is not set");
+        names.push(name);
     }
+    let seeds = inputs("corpus", "script").len();
+    assert_eq!(seeds, names.len(), "a seed for each section");
 }
 
 #[test]
