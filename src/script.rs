@@ -265,8 +265,8 @@ pub enum Operation {
     Cut {
         /// Where the cut goes.
         path: CutPath,
-        /// The power of two, from 0 to 40, by which the coordinates of origins are multiplied. Rays from far
-        /// away are nearly parallel.
+        /// The power of two, from 0 to 40, by which the coordinates of origins are multiplied, and the
+        /// direction of parallel rays. Rays from far away are nearly parallel.
         far: u8,
         /// How the cut is made.
         settings: CutSettings,

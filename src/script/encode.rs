@@ -34,10 +34,9 @@ impl Script {
         for operation in &self.operations {
             let text = operation.to_string();
             let name = name_of(operation, &text);
-            let code = operation_code(name).expect("every operation has a code");
             let mut writer = Writer {
                 line: Line::new(&text),
-                bytes: vec![code],
+                bytes: operation_code(name).into_iter().collect(),
             };
             writer.line.words.next();
             Operation::read(name, &mut writer);
