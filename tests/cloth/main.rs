@@ -4,6 +4,10 @@
 
 mod air;
 mod allocation;
+#[cfg(feature = "serde")]
+#[path = "../combinations/array.rs"]
+#[allow(dead_code, reason = "the other tables print rows by their words")]
+mod array;
 mod balance;
 mod bending;
 mod bodies;

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use super::array::{Exclusion, Factor};
+use crate::array::{Exclusion, Factor};
 
 pub(super) const FACTORS: &[Factor] = &[
     ("seams", &["none", "sewn"]),

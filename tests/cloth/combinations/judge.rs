@@ -205,6 +205,7 @@ impl<'c> Judge<'c> {
             let share = match piece.vertices.len() {
                 _ if piece.is_held && is_implicit => 2.0 * HELD,
                 _ if piece.is_held => HELD,
+                3 if is_unsteady && is_implicit => 6.0 * MOMENTUM,
                 3 => 3.5 * MOMENTUM,
                 _ if is_unsteady && is_implicit => 4.0 * MOMENTUM,
                 _ if is_unsteady => 2.0 * MOMENTUM,
