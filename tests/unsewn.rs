@@ -3,7 +3,7 @@
 //! The oracle compares all pairs of boundary edges of plain triangles, and judges what is closed by
 //! building the mesh anew from triangles and roots.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use tearmesh::unsewn::UnsewnSeams;

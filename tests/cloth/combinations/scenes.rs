@@ -1,8 +1,9 @@
-//! The scene of a case, run: with an energy balance, beside a simulation that is told the same by verbs, at rest,
+//! The scene of a case, run: with an energy balance, beside a simulation by the same verbs, at rest,
 //! and by what it costs.
 
 use std::collections::BTreeMap;
 
+use tearmesh::nalgebra::Rotation3;
 use tearmesh::{Edit, Scissor, Vector, VertexId};
 use tearmesh_cloth::scene::{Frame, Run, Scene};
 use tearmesh_cloth::{Simulation, SimulationDef, Unstable, Wind, Wounds};
@@ -82,10 +83,11 @@ fn led(run: &Run, taken: &mut BTreeMap<(usize, VertexId), Vector>) -> Result<usi
         };
         for &v in run.held(number).iter().filter(|v| is_last(v)) {
             let at = system.positions()[v.index()].coords;
-            let from = *taken
-                .entry((number, v))
-                .or_insert_with(|| at - offset(&hold.moves, now_s));
-            let off = (at - from - offset(&hold.moves, now_s)).norm();
+            let turn = Rotation3::from_scaled_axis(offset(&hold.turns, now_s));
+            let middle = hold.about.coords + offset(&hold.moves, now_s);
+            let turned = taken.entry((number, v));
+            let began = *turned.or_insert_with(|| turn.inverse() * (at - middle));
+            let off = (at - middle - turn * began).norm();
             if off > 1e-9 || !system.is_held(v.index()) {
                 let text = format!("after {now_s} s {v} of hold {number} is {off} m from its way");
                 return Err(fault("holds", text));

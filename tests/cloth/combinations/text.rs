@@ -52,7 +52,7 @@ type Table = (&'static str, Vec<(&'static str, String)>);
 #[derive(Clone, Debug)]
 pub(super) struct Text(Vec<Table>);
 
-/// The offsets of a hold that moves, by frames.
+/// The offsets of a hold that moves, by frames; one that turns does so besides, in a scene.
 pub(super) fn moves(case: &Case) -> Vec<(u64, [f64; 3])> {
     match case.get("hold") {
         "moving" => vec![(TAKEN, [0.0; 3]), (12, [0.0, 0.08, 0.15])],
@@ -358,6 +358,8 @@ fn hold(case: &Case, shape: &Shape) -> Option<Table> {
             ("radius_m", number(radius_m)),
             ("from_s", number(at_s(TAKEN))),
             ("moves", rows(moves(case))),
+            ("turns", rows([(TAKEN, [0.0; 3]), (12, [0.0, 15.0, 20.0])])),
+            ("about", numbers(&corner)),
         ],
     };
     Some(("hold", keys))
@@ -370,6 +372,7 @@ fn hand(case: &Case, shape: &Shape) -> Option<Table> {
         ("from_s", number(at_s(GRABBED))),
         ("until_s", number(at_s(RELEASED))),
         ("moves", rows([(GRABBED, [0.0; 3]), (GRABBED + 8, LED_M)])),
+        ("grip_m", number(0.2)),
     ];
     case.is("hand", "led").then_some(("hold", keys))
 }
