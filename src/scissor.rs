@@ -502,7 +502,7 @@ impl Scissor {
         if let (CutLayers::First, Some(rays)) = (self.layers, &self.rays) {
             choice = layers::first(&context, rays, mesh, positions);
             hits = choice.hits;
-            choice.faces = choice.beyond_the_rays(mesh, offsets);
+            choice.faces = choice.beyond_the_rays(mesh, positions, offsets);
             context = CutContext {
                 among: &choice.faces,
                 joints: &choice.joints,

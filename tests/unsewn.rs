@@ -382,6 +382,30 @@ fn cuts_across_unsewn_seams_are_those_of_the_whole() {
     );
 }
 
+/// A sheet in parts is one layer: also where a snapped seam ends beyond the rays, across a seam that is closed
+/// meanwhile. (Found by combinations of `--layers first`, `--snap` and seams.)
+#[test]
+fn regression_the_first_layer_of_a_sheet_in_parts_is_all_of_it() {
+    let mut random = Random(43);
+    let mut torn = 0;
+    for case in 0..cases() {
+        let sheet = unsewn(&delaunay(30, 4, &mut random), 1.0, &mut random);
+        let mut at = || ([random.next(), random.next(), 1.0], [0.0, 0.0, -1.0]);
+        let rays = [at(), at()].map(ray);
+        let snap = [0.0, 0.05, 0.2, 0.49][case as usize % 4];
+        let both = [CutLayers::All, CutLayers::First].map(|layers| {
+            let scissor = Scissor::new(rays[0], rays[1]).expect("a plane");
+            let mut mesh = built(&sheet);
+            let scissor = scissor.with_snap(snap).with_layers(layers);
+            cut_closed(&mut mesh, &scissor, CutMethod::Exact).expect("parallel rays");
+            [mesh.0.vertex_count(), mesh.0.face_count()]
+        });
+        assert_eq!(both[0], both[1], "case {case}, snap {snap}");
+        torn += usize::from(both[0][0] > sheet.points.len());
+    }
+    assert!(2 * torn as u64 > cases());
+}
+
 /// Nothing sews the front of double-sided cloth to its back, so each side decides by itself. It decides alike
 /// on the outline that both share, in ties too, whatever corner its faces begin with.
 #[test]

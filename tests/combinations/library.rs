@@ -203,13 +203,14 @@ impl World {
         ends: Option<&[CutEnd; 2]>,
     ) -> Result<Scissor, ScissorError> {
         let pairs = verb.pairs();
-        let is_closed = pairs.len() > 1 && pairs[0][0] == pairs[pairs.len() - 1][1];
+        // Each cut that comes back to where the first began ends there.
+        let comes_back = |i: usize| i > 0 && pairs[i][1] == pairs[0][0];
         let scissor = match (&verb.along, ends) {
             (Along::Plane(point, normal), _) => {
                 let plane = Plane::new(Point::from(*point), Vector::from(*normal));
                 Scissor::by_plane(plane.expect("a normal"))
             }
-            (_, Some([first, last])) if is_closed && i + 1 == pairs.len() => {
+            (_, Some([first, last])) if comes_back(i) => {
                 Scissor::closed(last, first, &self.positions)?
             }
             (_, Some([_, last])) => Scissor::continued(last, ray(pairs[i][1]), &self.positions)?,

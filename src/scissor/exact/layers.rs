@@ -105,10 +105,12 @@ impl Choice {
     /// ascending. A method that splits vertices tears edges there too: where the last vertex between the
     /// rays is split, the edges beyond it are the plane's, and not the slit's. And a seam that is snapped to
     /// a vertex may end in a face that the plane itself meets beyond the rays. Faces with a vertex of
-    /// another chain are left out, so that this is not split.
+    /// another chain are left out, so that this is not split. As a chain does, the plane goes on across a tear
+    /// whose sides coincide.
     pub(in crate::scissor) fn beyond_the_rays(
         &self,
         mesh: &Mesh,
+        positions: &Positions,
         offsets: &Offsets,
     ) -> Vec<FaceId> {
         let corners = self.others.iter().flat_map(|&f| mesh.face_vertices(f));
@@ -130,7 +132,8 @@ impl Choice {
             }
             for h in f.half_edges() {
                 let [from, to] = [mesh.origin(h), mesh.target(h)].map(|v| offsets.of(v));
-                let across = mesh.pair(h).filter(|_| from * to <= 0.0);
+                let across = mesh.pair(h).or_else(|| across_tear(h, mesh, positions));
+                let across = across.filter(|_| from * to <= 0.0);
                 open.extend(across.map(HalfEdgeId::face));
             }
         }
@@ -156,20 +159,23 @@ fn chains(trace: &Trace, mesh: &Mesh, positions: &Positions) -> Vec<u32> {
 
 /// A node, or where it lies on a tear that has not opened, the same one of two for both sides.
 fn of_both_sides(site: Site, mesh: &Mesh, positions: &Positions) -> Site {
-    let are_one = |a: VertexId, b: VertexId| positions.at(a) == positions.at(b);
     match site {
-        Site::Edge(h) => {
-            let coincides = |g: &HalfEdgeId| {
-                are_one(mesh.origin(h), mesh.target(*g)) && are_one(mesh.target(h), mesh.origin(*g))
-            };
-            let across = mesh.ghost_pair(h).filter(coincides);
-            Site::Edge(across.map_or(h, |g| g.min(h)))
-        }
+        Site::Edge(h) => Site::Edge(across_tear(h, mesh, positions).map_or(h, |g| g.min(h))),
         Site::Vertex(v) => {
-            let copies = mesh.copies(v).filter(|&copy| are_one(copy, v));
+            let copies = mesh.copies(v);
+            let copies = copies.filter(|&copy| positions.at(copy) == positions.at(v));
             Site::Vertex(copies.min().unwrap_or(v))
         }
     }
+}
+
+/// The other side of a torn edge, where both sides coincide.
+fn across_tear(h: HalfEdgeId, mesh: &Mesh, positions: &Positions) -> Option<HalfEdgeId> {
+    let are_one = |a: VertexId, b: VertexId| positions.at(a) == positions.at(b);
+    let coincides = |g: &HalfEdgeId| {
+        are_one(mesh.origin(h), mesh.target(*g)) && are_one(mesh.target(h), mesh.origin(*g))
+    };
+    mesh.ghost_pair(h).filter(coincides)
 }
 
 /// The faces of a piece: the one that it crosses, or the two between which it runs.
