@@ -385,6 +385,11 @@ impl<'w> World<'w> {
         }
         let other = cut_surface(&Surface { points, faces }, verb);
         let other = other.expect("it is not refused with other numbers");
+        // A cut goes on from the nearest of the vertices that the last one ended at, and of two at one place from the one
+        // that comes first.
+        if verb.pairs().len() > 1 && has_layers(surface) {
+            return;
+        }
         is_the_same(&made.steps, &other, "renumbered");
         // A slide, and a tip within its face, are computed from the corner that comes first.
         if !made.has_slid() && verb.pairs().is_empty() {
