@@ -1,4 +1,4 @@
-//! What a cut tells of itself, against what can be read off the mesh.
+//! Reports of cuts against what can be read off the mesh.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! What crosses the border of the module of `play`, in the engine that a page runs in: the tables of `border.js`.
+//! The border of the module of `play`, in the engine that a page runs in, by the tables of `border.js`.
 
 use crate::chrome::Chrome;
 use crate::harness::Folder;

@@ -1,4 +1,4 @@
-//! What fuzzing the command found, and the seeds it started from, replayed.
+//! Replay of the seeds of the command's fuzz target, and of its finds.
 
 use std::fs;
 

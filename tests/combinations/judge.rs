@@ -1,4 +1,4 @@
-//! What must hold of a cut of any levels. No oracle shares code with what it judges: each sees points and
+//! The oracles of a cut of any levels. No oracle shares code with what it judges: each sees points and
 //! triangles, rays, and the text of files.
 
 use std::collections::BTreeMap;

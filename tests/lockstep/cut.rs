@@ -1,4 +1,4 @@
-//! What a cut must do: nothing but splits, insertions and slides, which leave no gap and lose no face.
+//! Cuts of scripts: nothing but splits, insertions and slides, which leave no gap and lose no face.
 
 use tearmesh::script::{CutSettings, World};
 use tearmesh::split as split_op;

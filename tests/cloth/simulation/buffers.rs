@@ -1,5 +1,5 @@
-//! What a cloth is drawn from is the cloth, wherever it is and whatever is done to it; and a copy that takes over
-//! changes alone is the same.
+//! Draw buffers of a cloth against the cloth, wherever it is and whatever is done to it, and copies of them that take
+//! over changes alone.
 
 use tearmesh::geometry::{cross, length};
 use tearmesh::{Plane, Point, Positions, Scissor, Vector, shapes};
