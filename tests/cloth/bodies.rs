@@ -65,7 +65,7 @@ fn friction_of_a_plane_obeys_coulomb_by_every_method() {
 }
 
 /// A box of points from corner to corner, and its faces.
-fn block(low: [f64; 3], high: [f64; 3]) -> (Vec<Point>, Vec<[u32; 3]>) {
+pub(crate) fn block(low: [f64; 3], high: [f64; 3]) -> (Vec<Point>, Vec<[u32; 3]>) {
     let corner = |i: usize| Point::from([0, 1, 2].map(|axis| [low, high][i >> axis & 1][axis]));
     let sides = [
         [0, 2, 3, 1],

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use tearmesh::Point;
-use tearmesh_cloth::scene::file::{BodyMesh, SceneFile};
+use tearmesh_cloth::scene::file::SceneFile;
 use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
 use super::factors::Case;
 use super::shapes::Shape;
+use crate::bodies::block;
 
 /// The frames of a sequence, of 1/60 s each, and those at which something begins or ends.
 pub(super) const FRAMES: u64 = 18;
@@ -144,27 +144,10 @@ impl Text {
         let file: SceneFile =
             serde_json::from_str(&json).map_err(|error| format!("{error}: {json}"))?;
         let frame = Frame::new(&shape.mesh, shape.positions.as_slice(), Axis::Y);
-        let scene = file.on(&frame, None, &mut |_, _| Ok(block()));
+        let scene = file.on(&frame, None, &mut |_, _| Ok(block(BOX[0], BOX[1])));
         let scene = scene.map_err(|faults| format!("{} {}", faults[0].code, faults[0]))?;
         Ok((scene, frame))
     }
-}
-
-/// The box that is a body, and its faces.
-pub(super) fn block() -> BodyMesh {
-    let corner = |i: usize| Point::from([0, 1, 2].map(|axis| BOX[i >> axis & 1][axis]));
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let halves = sides
-        .into_iter()
-        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    ((0..8).map(corner).collect(), halves.collect())
 }
 
 fn is_list(table: &str) -> bool {
