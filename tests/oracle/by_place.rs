@@ -24,13 +24,14 @@ pub(crate) fn by_place(surface: &Surface) -> Vec<[[u64; 3]; 3]> {
     faces
 }
 
-/// The directed edges, by place, that have no opposite there.
+/// The directed edges, by place, that have no opposite there. (Where both ends round to one place, there is no
+/// direction.)
 pub(crate) fn open_edges(surface: &Surface) -> Vec<[Point; 2]> {
     let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
     for &[a, b, c] in &surface.faces {
         for ends in [[a, b], [b, c], [c, a]] {
             let [p, q] = ends.map(|v| place(surface.points[v as usize]));
-            *edges.entry([p.min(q), p.max(q)]).or_default() += if p < q { 1 } else { -1 };
+            *edges.entry([p.min(q), p.max(q)]).or_default() += p.cmp(&q) as i32;
         }
     }
     let open = edges.into_iter().filter(|&(_, count)| count != 0);
