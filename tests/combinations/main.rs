@@ -37,7 +37,10 @@ mod verb;
 mod work;
 
 use std::any::Any;
+use std::ops::RangeInclusive;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::thread;
 
 use counts::Counts;
 use random::Random;
@@ -124,11 +127,26 @@ fn told(row: usize, sequence: &Sequence) -> String {
     )
 }
 
+/// Runs seeds in as many threads as there are processors.
+fn run_all(seeds: RangeInclusive<u64>) {
+    let seeds = Mutex::new(seeds);
+    let next = || seeds.lock().expect("no thread panics here").next();
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some(seed) = next() {
+                    run(seed);
+                }
+            });
+        }
+    });
+}
+
 #[test]
 fn every_three_levels_of_a_cut_meet_and_are_judged_whole() {
     let seed = std::env::var("TEARMESH_SEED").ok();
     match seed {
         Some(seed) => run(seed.parse().expect("a number")),
-        None => (1..=if cases() > 1_500 { 7 } else { 1 }).for_each(run),
+        None => run_all(1..=if cases() > 1_500 { 10 } else { 1 }),
     }
 }
