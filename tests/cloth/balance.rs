@@ -2,14 +2,14 @@
 
 use tearmesh::{Edits, Point, Vector, mend, shapes, split};
 use tearmesh_cloth::implicit;
-use tearmesh_cloth::scene::{EnergyGain, Frame, Scene};
+use tearmesh_cloth::scene::{Frame, Scene};
 use tearmesh_cloth::{
     Balance, Collider, EnergyBalance, Fabric, Limiter, Loads, Method, Solver, System, Tearing,
     Threshold, TornStiffness, Unstable, Verlet, Xpbd,
 };
 
 use crate::parts::cloths::{cloth, loaded, of_edges};
-use crate::parts::scenes::{methods, play, played, staged};
+use crate::parts::scenes::{energy_warning, methods, play, played, staged};
 use crate::parts::{
     METHODS, blown, implicit, mechanical_j, method, near, on_a_line, onto, path, plane, pulled,
     take_observed,
@@ -325,7 +325,7 @@ fn no_method_makes_energy_in_the_scenes_that_stand_ready() {
     let finer = ["hang", "flag", "rip"].map(|scene| (32, scene, "xpbd"));
     for &(cells, scene, method) in coarse.as_flattened().iter().chain(&fine).chain(&finer) {
         let run = &played(cells, scene, method).run;
-        assert_eq!(run.energy_gain(), None, "{scene} by {method} at {cells}");
+        assert_eq!(energy_warning(run), None, "{scene} by {method} at {cells}");
     }
 }
 
@@ -351,24 +351,26 @@ fn a_cloth_that_tears_by_energy_out_of_nothing_says_so() {
     let own = play(staged(16, |frame| violent(frame, springs.clone(), None)));
     let step_s = Some(own.step_s());
     let run = play(staged(16, |frame| violent(frame, springs.clone(), step_s)));
-    let gain = run.energy_gain().expect("it is said");
-    let EnergyGain {
-        since_s,
-        made_j,
-        put_in_j,
-    } = gain;
+    let said = energy_warning(&run).expect("it is said");
+    let numbers: Vec<f64> = said
+        .split(' ')
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let [made_j, since_s, put_in_j] = numbers[..] else {
+        panic!("{said}");
+    };
     let pieces = run.mesh().components().count();
     assert!((1.0..1.6).contains(&since_s));
     assert!(made_j > put_in_j);
-    assert!(made_j >= run.energy_balance().made_j());
+    assert!(made_j >= 0.99 * run.energy_balance().made_j()); // It has three digits.
     assert!(pieces > 20);
     // A step that may be divided is, as soon as the cloth is torn; and the guards of Verlet show what
     // nature would do at the same step.
     let half = play(staged(16, |frame| violent(frame, Method::Verlet, step_s)));
-    assert_eq!(half.energy_gain(), None);
+    assert_eq!(energy_warning(&half), None);
     assert!(half.mesh().components().count() < pieces / 2);
     for (name, solver) in methods() {
         let run = play(staged(16, |frame| violent(frame, solver.clone(), None)));
-        assert_eq!(run.energy_gain(), None, "{name}");
+        assert_eq!(energy_warning(&run), None, "{name}");
     }
 }

@@ -14,6 +14,7 @@ use super::judge::{Fault, Judge, fault};
 use super::script::{definition, words, words_of};
 use super::shapes::Shape;
 use super::text::{COEFFICIENT, CUT, FRAMES, HEALED, Text, at_s};
+use crate::parts::scenes::energy_warning;
 
 /// How a run ended: nothing, or why it was refused; and how often it was judged.
 #[derive(Debug, Default)]
@@ -53,7 +54,7 @@ pub(super) fn run(case: &Case, shape: &Shape) -> Result<Ended, Fault> {
                 judge.energy(
                     run.cloth(),
                     &run.energy_balance(),
-                    run.energy_gain().is_some(),
+                    energy_warning(&run).is_some(),
                 )?;
             }
         }

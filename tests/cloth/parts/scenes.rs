@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 
 use tearmesh::{HalfEdgeId, Mesh, Positions, Vector, shapes};
-use tearmesh_cloth::scene::{Axis, Frame, Region, Run, Scene, SwayingWind, TearLog};
+use tearmesh_cloth::scene::{
+    Axis, Frame, Region, Run, Scene, SwayingWind, TearLog, Warning, Wording,
+};
 use tearmesh_cloth::{Method, Wind};
 
 /// A square of one metre with `cells` cells per side and alternating diagonals.
@@ -81,6 +83,15 @@ pub(crate) fn noted(mut run: Run) -> Played {
         torn,
         cuts,
     }
+}
+
+/// What a run says of energy that its method made out of nothing, if it made any.
+pub(crate) fn energy_warning(run: &Run) -> Option<String> {
+    let warnings = Warning::after(run, &Wording::default());
+    let found = warnings
+        .iter()
+        .find(|warning| warning.code() == "W-SIM-ENERGY");
+    found.map(ToString::to_string)
 }
 
 /// Plays a run until something tears, and returns the edge with the largest load.

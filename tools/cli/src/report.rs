@@ -4,7 +4,7 @@ use serde::Serialize;
 use tearmesh::gap::Gapped;
 use tearmesh::{CutMethod, CutReport, Mesh, Point, Ray, Scissor, Vector};
 use tearmesh_cloth::Quality;
-use tearmesh_cloth::scene::{EnergyGain, FirstTear, TearEvent};
+use tearmesh_cloth::scene::TearEvent;
 use tearmesh_obj::Location;
 
 use crate::choice::Choice as _;
@@ -156,8 +156,9 @@ pub(crate) struct Tear {
     /// The same in a single step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) peak_force_n: Option<f64>,
+    /// The largest force at a hold as the first of `tears` began: mean over the 1/60 s before it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) first_tear: Option<FirstTear>,
+    pub(crate) first_force_n: Option<f64>,
     /// The steps in which something tore.
     pub(crate) tears: Vec<TearEvent>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -184,8 +185,8 @@ pub(crate) struct Energy {
     pub(crate) kinetic: f64,
     pub(crate) elastic: f64,
     pub(crate) gravity: f64,
-    /// As `numerical_dissipation` and the numbers of `gain`, not said where Provot's limiter has worked: that grows
-    /// without bound as steps get shorter.
+    /// As `numerical_dissipation`, not said where Provot's limiter has worked: that grows without bound as steps
+    /// get shorter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) held: Option<f64>,
     pub(crate) wind: f64,
@@ -196,9 +197,6 @@ pub(crate) struct Energy {
     /// The remainder, which the method lost, or made where negative.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) numerical_dissipation: Option<f64>,
-    /// Where the method made more than it may: W-SIM-ENERGY.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) gain: Option<EnergyGain>,
 }
 
 /// What was computed.

@@ -20,9 +20,8 @@ pub use opening::Opening;
 pub use presets::Preset;
 pub use rest::{TextureError, TextureFault, rest_from_texture};
 pub use run::error::RunError;
-pub use run::gain::EnergyGain;
 pub use run::{Run, RunTally};
-pub use tear_log::{FirstTear, HoldForces, TearEvent, TearLog};
+pub use tear_log::{HoldForces, TearEvent, TearLog};
 pub use warning::{Warning, Wording};
 
 use tearmesh::geometry::{Point, Ray, Vector, length};

@@ -35,7 +35,7 @@ pub struct Subject<'a> {
 pub(crate) struct Observed {
     /// The time of the first tear, in seconds; `None` if nothing tore.
     pub(crate) first_tear_s: Option<f64>,
-    /// The force at the first tear in newtons, as in [`TearLog::first_tear`]. `None` if nothing tore, or
+    /// The force at the first tear in newtons, as in [`TearLog::first_force_n`]. `None` if nothing tore, or
     /// if the method does not know its forces, as Provot's does not.
     pub(crate) first_force_n: Option<f64>,
     /// The rest length of the edges that tore, in metres.
@@ -95,11 +95,10 @@ fn played(
         let tear = run.step()?;
         tear_log.note(&run, &tear);
     }
-    let first_tear = tear_log.first_tear();
     let largest_force_n = tear_log.largest_force_n();
     Ok(Some(Observed {
-        first_tear_s: first_tear.map(|first| first.event.time_s),
-        first_force_n: first_tear.and_then(|first| first.force_n),
+        first_tear_s: tear_log.events().first().map(|first| first.time_s),
+        first_force_n: tear_log.first_force_n(),
         torn_m: run.torn_length_m() - torn_before_m,
         pieces: run.mesh().components().count(),
         largest_force_n,

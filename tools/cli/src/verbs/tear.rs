@@ -258,7 +258,7 @@ impl Play<'_> {
             },
             largest_force_n: log.largest_force_n(),
             peak_force_n: log.peak_force_n(),
-            first_tear: log.first_tear(),
+            first_force_n: log.first_force_n(),
             tears: log.events().to_vec(),
             frames: None,
             cache: None,

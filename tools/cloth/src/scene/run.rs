@@ -462,8 +462,7 @@ impl Run {
     /// of the energy that was put in. The cloth then tears more than it should, and its pieces fly
     /// about. This is checked every 1/60 s. A shorter step helps, as does drag or a method that
     /// damps.
-    #[must_use]
-    pub fn energy_gain(&self) -> Option<EnergyGain> {
+    pub(super) fn energy_gain(&self) -> Option<EnergyGain> {
         self.watch.is_beyond.then_some(self.watch.gain)
     }
 

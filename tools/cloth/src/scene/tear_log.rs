@@ -30,19 +30,6 @@ pub struct TearEvent {
     pub load: f64,
 }
 
-/// The first tear of a cloth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct FirstTear {
-    /// The first step in which the cloth tore.
-    #[cfg_attr(feature = "serde", serde(flatten))]
-    pub event: TearEvent,
-    /// The largest force at a hold in newtons, as a mean over the [`FRAME_S`] before the tear, by
-    /// the rule of [`TearLog::largest_force_n`]; `None` if the method does not know its forces.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
-    pub force_n: Option<f64>,
-}
-
 /// The forces at all holds of a scene, as means over a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoldForces {
@@ -76,9 +63,9 @@ pub struct HoldForces {
 ///     let tear = run.step()?;
 ///     log.note(&run, &tear);
 /// }
-/// let first = log.first_tear().ok_or("it rips")?;
-/// assert!(first.event.time_s > 0.5); // It is grabbed then.
-/// let force_n = first.force_n.ok_or("Verlet knows forces")?;
+/// let first = log.events().first().ok_or("it rips")?;
+/// assert!(first.time_s > 0.5); // It is grabbed then.
+/// let force_n = log.first_force_n().ok_or("Verlet knows forces")?;
 /// assert!(force_n > 0.0 && Some(force_n) <= log.largest_force_n());
 /// let splits: usize = log.events().iter().map(|event| event.splits).sum();
 /// assert_eq!(splits as u64, run.tally().splits);
@@ -197,12 +184,12 @@ impl TearLog {
         &self.events
     }
 
-    /// Returns the first tear of the cloth; `None` if it has not torn.
+    /// Returns the largest force at a hold in newtons, as a mean over the [`FRAME_S`] before the first
+    /// tear, by the rule of [`TearLog::largest_force_n`]. `None` if nothing tore, or if the method does
+    /// not know its forces.
     #[must_use]
-    pub fn first_tear(&self) -> Option<FirstTear> {
-        let &event = self.events.first()?;
-        let force_n = self.first_n;
-        Some(FirstTear { event, force_n })
+    pub fn first_force_n(&self) -> Option<f64> {
+        self.first_n.filter(|_| !self.events.is_empty())
     }
 
     /// Returns the forces at all holds, frame by frame. The last frame may be shorter than

@@ -82,9 +82,9 @@ fn a_member_is_a_run_that_was_disturbed() {
             let step = run.step().expect("a step");
             log.note(&run, &step);
         }
-        let first_tear = log.first_tear().expect("a rip");
-        assert_eq!(observed.first_tear_s, Some(first_tear.event.time_s));
-        assert_eq!(observed.first_force_n, first_tear.force_n);
+        let first_tear = log.events().first().expect("a rip");
+        assert_eq!(observed.first_tear_s, Some(first_tear.time_s));
+        assert_eq!(observed.first_force_n, log.first_force_n());
         assert_eq!(observed.torn_m, run.torn_length_m());
         assert_eq!(observed.pieces, run.mesh().components().count());
         assert_eq!(observed.largest_force_n, log.largest_force_n());

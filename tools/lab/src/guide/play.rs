@@ -271,7 +271,7 @@ impl Stage {
         take_steps(&mut run, bounds.stop, |run, step| {
             times.push(bounds.now().saturating_sub(began).as_secs_f64());
             tear_log.note(run, step);
-            let is_over = is_first_tear && tear_log.first_tear().is_some();
+            let is_over = is_first_tear && !tear_log.events().is_empty();
             if !is_over && (run.elapsed_s() / FRAME_S) as usize > frames.len() {
                 frames.push(run.cloth().positions().to_vec());
             }
@@ -293,10 +293,10 @@ impl Stage {
             }
             Rip | Trouser => {
                 let nothing = || (Status::Restless, "nothing tore".to_owned());
-                let first = tear_log.first_tear().ok_or_else(nothing)?;
+                let first = tear_log.events().first().ok_or_else(nothing)?;
                 // The hand of a rip begins to pull after half a second.
                 let begins_s = if self.topic == Rip { 0.5 } else { 0.0 };
-                let numbers = [Some(first.event.time_s - begins_s), first.force_n];
+                let numbers = [Some(first.time_s - begins_s), tear_log.first_force_n()];
                 Some(numbers.into_iter().flatten().map(|x| vec![x]).collect())
             }
             Aftermath => {

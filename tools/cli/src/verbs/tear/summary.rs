@@ -88,7 +88,6 @@ pub(super) fn energy(run: &Run) -> report::Energy {
         colliders: balance.colliders_j,
         edits: balance.edits_j,
         numerical_dissipation: said(-balance.made_j()),
-        gain: run.energy_gain().filter(|_| !run.quality().has_limited()),
     }
 }
 
@@ -160,10 +159,10 @@ pub(super) fn cost(features: &[report::FeatureCost]) -> String {
 
 /// The line of the summary; none where nothing tore.
 pub(super) fn first_tear(tear_log: &TearLog) -> Option<String> {
-    let first = tear_log.first_tear()?;
-    let rest: [f64; 3] = first.event.place_at_rest.into();
+    let first = tear_log.events().first()?;
+    let rest: [f64; 3] = first.place_at_rest.into();
     let forces = [
-        first.force_n,
+        tear_log.first_force_n(),
         tear_log.largest_force_n(),
         tear_log.peak_force_n(),
     ];
@@ -175,7 +174,7 @@ pub(super) fn first_tear(tear_log: &TearLog) -> Option<String> {
         }
         _ => String::new(),
     };
-    let (time, place) = (short(first.event.time_s), rest.map(three_digits).join(","));
+    let (time, place) = (short(first.time_s), rest.map(three_digits).join(","));
     let words = format!("first tear: after {time} s at {place} of the cloth at rest{forces}");
     Some(words)
 }

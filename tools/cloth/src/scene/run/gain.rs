@@ -13,16 +13,15 @@ use crate::system::System;
 use crate::system::balance::EnergyBalance;
 
 /// The energy that a method made out of nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct EnergyGain {
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::scene) struct EnergyGain {
     /// The time at which it was first noticed, in seconds: at most 1/60 s after it exceeded the
     /// margin.
-    pub since_s: f64,
+    pub(in crate::scene) since_s: f64,
     /// The largest energy made so far, in joules.
-    pub made_j: f64,
+    pub(in crate::scene) made_j: f64,
     /// The largest energy put in so far, in joules: see [`EnergyBalance::put_in_j`].
-    pub put_in_j: f64,
+    pub(in crate::scene) put_in_j: f64,
 }
 
 /// Judges the balance frame by frame.
