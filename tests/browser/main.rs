@@ -23,6 +23,9 @@ mod playing;
 #[path = "../support/random.rs"]
 #[allow(dead_code, reason = "shared with other tests")]
 mod random;
+#[path = "../cli/read_back.rs"]
+#[allow(dead_code, reason = "shared with other tests")]
+mod read_back;
 mod screen;
 #[path = "../support/vectors.rs"]
 mod vectors;

@@ -8,8 +8,9 @@ use serde_json::json;
 use tearmesh_play::{Plan, Player};
 
 use crate::chrome::Chrome;
-use crate::harness::{Folder, content, root};
+use crate::harness::{Folder, root};
 use crate::random::Random;
+use crate::read_back::content;
 use crate::screen::{is_grey, is_seam};
 
 /// A page that is open, and the folder that it saves into.

@@ -1,12 +1,10 @@
 //! Runs the command as a person would, in a folder of its own, but in this process.
 
 use std::fs;
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::{Mutex, PoisonError};
 
-use base64::Engine as _;
 use serde_json::Value;
 use tearmesh::{Mesh, Positions};
 
@@ -272,18 +270,4 @@ pub(crate) fn interrupted_at(mut command: Command, file: &Path) -> Answer {
     }
     signal("-INT", child.id());
     child.wait_with_output().expect("an end").into()
-}
-
-/// The text of a page, and the bytes behind it.
-pub(crate) fn content(html: &str) -> (Value, Vec<u8>) {
-    let (_, data) = html.split_once("type=\"text/plain\">").expect("data");
-    let (data, _) = data.split_once('<').expect("an end");
-    let packed = base64::engine::general_purpose::STANDARD.decode(data);
-    let packed = packed.expect("base64");
-    let mut bytes = Vec::new();
-    let mut inflated = flate2::read::ZlibDecoder::new(&packed[..]);
-    inflated.read_to_end(&mut bytes).expect("zlib");
-    let length = u32::from_le_bytes(bytes[..4].try_into().expect("four bytes")) as usize;
-    let behind = bytes.split_off(4 + length);
-    (serde_json::from_slice(&bytes[4..]).expect("JSON"), behind)
 }

@@ -27,6 +27,7 @@ mod pieces;
 mod play;
 #[cfg(target_os = "linux")]
 mod progress;
+mod read_back;
 #[path = "../support/mod.rs"]
 #[allow(dead_code, reason = "each has its users in some of the crates")]
 mod support;

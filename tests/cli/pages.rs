@@ -4,9 +4,10 @@ use std::fs;
 
 use serde_json::Value;
 
+use crate::harness::Folder;
 #[cfg(unix)]
 use crate::harness::interrupted_at;
-use crate::harness::{Folder, content};
+use crate::read_back::content;
 
 const CUT: &str = "cut sheet.obj --rays 0.3,0.2,5:0,0,-1 0.7,0.8,5:0,0,-1";
 

@@ -5,7 +5,8 @@ use tearmesh_cloth::{ColliderShape, Wind};
 use tearmesh_obj::Document;
 use tearmesh_play::{Plan, Player, Settings};
 
-use crate::harness::{Folder, content};
+use crate::harness::Folder;
+use crate::read_back::content;
 
 #[test]
 fn a_mesh_that_is_too_large_is_refused_with_its_number() {

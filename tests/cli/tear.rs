@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use crate::harness::{Folder, root};
+use crate::read_back::added_up;
 
 /// A cloth that the wind lifts off a floor.
 const LIFTED: &str = r#"
@@ -87,21 +88,9 @@ fn the_energy_that_is_printed_adds_up() {
             if said.contains("E-SCENE-CLASH") {
                 continue; // These methods have no triangles.
             }
-            let energy = said.lines().find_map(|line| line.strip_prefix("energy: "));
-            let energy = energy.unwrap_or_else(|| panic!("{line}:\n{said}"));
-            let (mut sum, mut rounding) = (0.0, 0.0);
-            for part in energy.split(", ") {
-                let (number, what) = part.split_once(" J ").expect("a number of joules");
-                let joules: f64 = number.parse().expect("a number");
-                let is_given = matches!(what, "put in" | "made by the method");
-                sum += if is_given { joules } else { -joules };
-                rounding += 0.005 * joules.abs();
-                takers.insert(what.to_owned());
-            }
-            assert!(
-                sum.abs() <= rounding,
-                "{line}: {sum} J are missing in\n{energy}"
-            );
+            let added_up = added_up(&said).unwrap_or_else(|| panic!("{line}:\n{said}"));
+            assert_eq!(added_up.1, 0.0, "{line}: joules are missing\n{said}");
+            takers.extend(added_up.0.into_iter().map(str::to_owned));
         }
     }
     for taker in ["to damping", "to gravity", "to colliders"] {

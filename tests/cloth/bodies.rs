@@ -18,6 +18,7 @@ use crate::parts::{
     take, take_observed, v,
 };
 use crate::random::Random;
+use crate::support::fixtures::block;
 
 /// The coefficient of friction.
 const MU: f64 = 0.4;
@@ -62,22 +63,6 @@ fn obeys_coulomb(floor: &Collider, height_m: f64) {
 fn friction_of_a_plane_obeys_coulomb_by_every_method() {
     let floor = Collider::plane(plane([0.0, 0.0, 0.25], Vector::z()));
     obeys_coulomb(&floor, 0.25);
-}
-
-/// A box of points from corner to corner, and its faces.
-pub(crate) fn block(low: [f64; 3], high: [f64; 3]) -> (Vec<Point>, Vec<[u32; 3]>) {
-    let corner = |i: usize| Point::from([0, 1, 2].map(|axis| [low, high][i >> axis & 1][axis]));
-    let sides = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let halves = sides.into_iter();
-    let halves = halves.flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    ((0..8).map(corner).collect(), halves.collect())
 }
 
 #[test]

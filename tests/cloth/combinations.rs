@@ -179,15 +179,6 @@ fn repeated(case: &Case, found: &Fault) -> String {
     )
 }
 
-fn case_of(table: &Table, row: &[usize]) -> Case {
-    Case(
-        FACTORS
-            .iter()
-            .map(|(name, _)| (*name, table.level(row, name)))
-            .collect(),
-    )
-}
-
 /// The seeds of a run: one, or ten in CI, from one that may be said.
 fn seeds() -> std::ops::Range<u64> {
     let said = std::env::var("TEARMESH_SEED").ok();
@@ -204,7 +195,7 @@ fn every_pair_of_options_is_judged_whole() {
         let mut tally = Tally::default();
         let mut failed = Vec::new();
         for row in &cover.rows {
-            let case = case_of(&table, row);
+            let case = Case::of_row(&table, row);
             if let Err(found) = judge(&case, &mut tally) {
                 if is_known(&case, found.oracle) {
                     tally.count("known faults", true);

@@ -9,7 +9,7 @@ pub(crate) mod vibration;
 pub(crate) mod woven;
 
 use tearmesh::geometry::length;
-use tearmesh::{Plane, Point, Ray, Vector, VertexId};
+use tearmesh::{Plane, Point, Vector, VertexId};
 use tearmesh_cloth::implicit::{Method, Settings, Stats};
 use tearmesh_cloth::{
     Balance, Collider, ConstraintId, Implicit, Loads, Path, Pbd, Provot, Quality, Solver, System,
@@ -19,6 +19,7 @@ use tearmesh_cloth::{
 use crate::plain_verlet::PlainVerlet;
 use crate::random::Random;
 use crate::rk4::Rk4;
+pub(crate) use crate::support::fixtures::ray;
 
 /// The acceleration of gravity, in m/s².
 pub(crate) const G: f64 = 9.81;
@@ -233,11 +234,6 @@ pub(crate) fn path<const N: usize>(points: [(f64, [f64; 3]); N]) -> Path {
 /// The vertex of this number.
 pub(crate) fn v(index: usize) -> VertexId {
     VertexId::new(index).expect("an id")
-}
-
-/// A ray down at a place of a sheet in the plane z = 0.
-pub(crate) fn ray(x: f64, y: f64) -> Ray {
-    Ray::new(Point::new(x, y, 5.0), -Vector::z()).expect("a ray")
 }
 
 /// The plane through a point, with a normal.

@@ -23,6 +23,8 @@ mod options;
     reason = "the tests of the kernel use the rest"
 )]
 mod oracle;
+#[path = "../cli/read_back.rs"]
+mod read_back;
 mod sequence;
 #[path = "../support/mod.rs"]
 #[allow(dead_code, reason = "each has its users in some of the crates")]
@@ -31,6 +33,7 @@ mod support;
 #[allow(dead_code, reason = "the tests of the kernel use the rest")]
 mod surfaces;
 mod table;
+mod tear;
 mod verb;
 #[path = "../work.rs"]
 #[allow(dead_code, reason = "the tests of the kernel use the rest")]

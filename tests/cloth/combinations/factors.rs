@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::array::{Exclusion, Factor};
+use crate::array::{Exclusion, Factor, Table};
 
 pub(super) const FACTORS: &[Factor] = &[
     ("seams", &["none", "sewn"]),
@@ -151,6 +151,12 @@ impl Case {
                 .map(|(name, levels)| (*name, levels[0]))
                 .collect(),
         )
+    }
+
+    /// The case of a row of a table of the factors.
+    pub(super) fn of_row(table: &Table, row: &[usize]) -> Case {
+        let level = |(name, _): &Factor| (*name, table.level(row, name));
+        Case(FACTORS.iter().map(level).collect())
     }
 
     /// A case by the words of a [`Display`](std::fmt::Display); factors that it does not name are plain.

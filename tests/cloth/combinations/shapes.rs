@@ -2,8 +2,8 @@
 
 use tearmesh::{CutMethod, Edits, Mesh, Positions, Scissor};
 
-use crate::parts::ray;
 use crate::random::Random;
+use crate::support::fixtures::ray;
 
 /// A mesh, and where things are done to it.
 #[derive(Clone)]
@@ -19,6 +19,9 @@ pub(super) struct Shape {
     /// The two sides of each seam.
     pub(super) sides: Vec<[Vec<usize>; 2]>,
 }
+
+/// The ends of the cut in a mesh that is torn, along z, as x and y.
+pub(super) const TORN: [[f64; 2]; 2] = [[0.31, 0.72], [0.77, 0.81]];
 
 /// Points and triangles.
 type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
@@ -37,7 +40,7 @@ impl Shape {
         let mut mesh = Mesh::build(points.len(), &faces).expect("a mesh");
         let mut positions = Positions::new(points.iter().copied()).expect("finite");
         if level == "torn" {
-            let [a, b] = [[0.31, 0.72], [0.77, 0.81]].map(|[x, y]| ray(x, y));
+            let [a, b] = TORN.map(|[x, y]| ray(x, y));
             let scissor = Scissor::new(a, b).expect("a plane");
             let mut edits = Edits::new();
             let cut = scissor.cut(CutMethod::Exact, &mut mesh, &mut positions, &mut edits);

@@ -8,7 +8,7 @@ use tearmesh_cloth::scene::{Axis, Frame, Scene};
 
 use super::factors::Case;
 use super::shapes::Shape;
-use crate::bodies::block;
+use crate::support::fixtures::block;
 
 /// The frames of a sequence, of 1/60 s each, and those at which something begins or ends.
 pub(super) const FRAMES: u64 = 18;
@@ -109,7 +109,7 @@ impl Text {
         text
     }
 
-    fn json(&self) -> String {
+    pub(super) fn json(&self) -> String {
         let object = |keys: &[(&str, String)]| {
             let pairs: Vec<String> = keys
                 .iter()
