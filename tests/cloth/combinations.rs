@@ -14,6 +14,7 @@ mod scenes;
 mod script;
 mod shapes;
 mod text;
+mod wind;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -139,6 +140,7 @@ fn judge_parts(case: &Case, tally: &mut Tally) -> Result<(), Fault> {
     tally.count("energy", ended.balanced > 0);
     tally.count("bodies", ended.touched + script.judged[1] > 0);
     tally.count("holds", ended.led > 0);
+    tally.count("wind", ended.pushed > 0);
     tally.count("run is simulation", common.is_some());
     tally.count("cost", options > 1);
     tally.count("lost", ended.balanced > 0 && case.is("method", "verlet"));

@@ -2,7 +2,7 @@
 //! share no code with what they judge.
 
 use tearmesh::{Mesh, Point, Vector};
-use tearmesh_cloth::Cloth;
+use tearmesh_cloth::{Cloth, System};
 
 use super::factors::Case;
 use super::text::{
@@ -95,12 +95,11 @@ pub(super) fn rest_area(mesh: &Mesh, cloth: &Cloth) -> f64 {
 }
 
 /// The force of the wind of a time on each vertex: of each face the pressure by how fast the air meets it, a third each.
-fn wind_n(case: &Case, cloth: &Cloth, time_s: f64) -> Vec<Vector> {
-    let system = cloth.system();
+pub(super) fn wind_n(case: &Case, system: &System, indices: &[u32], time_s: f64) -> Vec<Vector> {
     let (x, v) = (system.positions(), system.velocities());
     let mut forces = vec![Vector::zeros(); x.len()];
     if let Some(air) = air(case, time_s) {
-        for face in cloth.indices().as_chunks::<3>().0 {
+        for face in indices.as_chunks::<3>().0 {
             let [a, b, c] = face.map(|corner| corner as usize);
             let double = (x[b] - x[a]).cross(&(x[c] - x[a]));
             if double.norm() > 0.0 {
@@ -114,6 +113,10 @@ fn wind_n(case: &Case, cloth: &Cloth, time_s: f64) -> Vec<Vector> {
         }
     }
     forces
+}
+
+fn blown_n(case: &Case, cloth: &Cloth, time_s: f64) -> Vec<Vector> {
+    wind_n(case, cloth.system(), cloth.indices(), time_s)
 }
 
 pub(super) fn held(cloth: &Cloth) -> usize {
@@ -136,7 +139,7 @@ pub(super) fn pulls_by_length(case: &Case) -> bool {
 
 /// The force of the wind of a time, and of springs to vertices that are held, where it follows from their lengths.
 pub(super) fn outer_n(case: &Case, cloth: &Cloth, time_s: f64) -> Vec<Vector> {
-    let (system, mut forces) = (cloth.system(), wind_n(case, cloth, time_s));
+    let (system, mut forces) = (cloth.system(), blown_n(case, cloth, time_s));
     if pulls_by_length(case) {
         for family in [system.stretches(), system.bends()] {
             for spring in family.iter().map(|id| family.get(id)) {
@@ -158,7 +161,7 @@ pub(super) fn outer_n(case: &Case, cloth: &Cloth, time_s: f64) -> Vec<Vector> {
 /// The power of drag and of wind on what is free.
 pub(super) fn power_w(case: &Case, cloth: &Cloth, time_s: f64) -> [f64; 2] {
     let (system, (_, drag_per_s)) = (cloth.system(), gravity(case));
-    let forces = wind_n(case, cloth, time_s);
+    let forces = blown_n(case, cloth, time_s);
     let free = (0..forces.len()).filter(|&v| !system.is_held(v));
     free.fold([0.0; 2], |[drag, wind], v| {
         let (speed, mass) = (system.velocities()[v], system.masses()[v]);

@@ -14,6 +14,7 @@ use super::judge::{Fault, Judge, fault};
 use super::script::{definition, words, words_of};
 use super::shapes::Shape;
 use super::text::{COEFFICIENT, CUT, FRAMES, HEALED, Text, at_s};
+use super::wind;
 use crate::parts::scenes::energy_warning;
 
 /// How a run ended: nothing, or why it was refused; and how often it was judged.
@@ -25,7 +26,11 @@ pub(super) struct Ended {
     pub(super) balanced: usize,
     pub(super) touched: usize,
     pub(super) led: usize,
+    pub(super) pushed: usize,
 }
+
+/// The frames between two looks at what the wind does.
+const BLOWN_EVERY: u64 = 3;
 
 /// Runs the scene of a case to its end, and judges every step.
 pub(super) fn run(case: &Case, shape: &Shape) -> Result<Ended, Fault> {
@@ -49,6 +54,12 @@ pub(super) fn run(case: &Case, shape: &Shape) -> Result<Ended, Fault> {
         if run.tally().steps.is_multiple_of(steps) {
             judge.frame(run.mesh(), run.cloth(), is_sewn)?;
             crate::follow::check(run.mesh(), run.cloth(), false);
+            if run.tally().steps.is_multiple_of(BLOWN_EVERY * steps) {
+                // The wind of a step is that of its beginning.
+                let time_s = run.elapsed_s() - step_s;
+                let method = &run.scene().solver;
+                ended.pushed += wind::pushes(case, run.cloth(), method, time_s)?;
+            }
             let limited = run.quality().has_limited();
             if !limited {
                 judge.energy(
