@@ -26,7 +26,7 @@ use self::shapes::Shape;
 use self::text::Text;
 use crate::array::Table;
 use crate::random::Random;
-use crate::support::cases::stride;
+use crate::support::cases::{planted, stride};
 
 /// A fault that is known, and waits for a change of its own.
 struct Known {
@@ -204,6 +204,9 @@ fn every_pair_of_options_is_judged_whole() {
                 } else {
                     failed.push((case, found));
                 }
+                if planted() == Some(true) && !failed.is_empty() {
+                    break;
+                }
             }
         }
         println!(
@@ -216,7 +219,7 @@ fn every_pair_of_options_is_judged_whole() {
         // Of each oracle the first is made plainer.
         let mut told = BTreeSet::new();
         for (case, found) in &failed {
-            match told.insert(found.oracle) {
+            match told.insert(found.oracle) && planted().is_none() {
                 true => println!("{}\n", repeated(case, found)),
                 false => println!("{}: {}\nof: {case}\n", found.oracle, found.message),
             }

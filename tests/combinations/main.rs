@@ -48,7 +48,7 @@ use std::thread;
 use counts::Counts;
 use random::Random;
 use sequence::Sequence;
-use support::cases::cases;
+use support::cases::{cases, planted};
 use support::{delaunay, plain, random};
 use table::Levels;
 use verb::{Verb, script};
@@ -59,20 +59,24 @@ const LEAST: usize = 50;
 /// So many sequences that fail end a run.
 const FAILED_MAX: usize = 5;
 
+/// The rows of a run that looks for a planted bug.
+const PLANTED_ROWS: usize = 320;
+
 /// Runs all rows of the table by a seed.
 fn run(seed: u64) {
     let table = table::table();
     let cover = table.rows(3, &mut Random(seed));
     let (mut counts, mut untorn, mut verbs) = (Counts::default(), 0, 0);
     let mut failed = Vec::new();
-    for (i, row) in cover.rows.iter().enumerate() {
+    let most = planted().map_or(usize::MAX, |_| PLANTED_ROWS);
+    for (i, row) in cover.rows.iter().enumerate().take(most) {
         let levels = Levels::new(&table, row);
         let mut sequence = Sequence::new(levels, 1_000_003 * seed + i as u64);
         let ran = catch_unwind(AssertUnwindSafe(|| sequence.run(&mut counts)));
         if let Err(panic) = ran {
             println!("row {i}: {}: {}", sequence.levels.words(), message(&*panic));
             failed.push(i);
-            if failed.len() == FAILED_MAX {
+            if failed.len() == FAILED_MAX || planted().is_some() {
                 break;
             }
             if failed.len() == 1 {
@@ -93,6 +97,9 @@ fn run(seed: u64) {
         "{} sequences failed: {failed:?}",
         failed.len()
     );
+    if planted().is_some() {
+        return; // Fewer rows say less.
+    }
     assert!(
         absent.is_empty(),
         "applied in fewer than {LEAST}: {absent:?}"

@@ -31,7 +31,7 @@ use crate::array::Table;
 use crate::in_process::{Ran, in_memory};
 use crate::random::Random;
 use crate::read_back::{added_up, content};
-use crate::support::cases::cases;
+use crate::support::cases::{cases, planted};
 use crate::support::fixtures::{block, ray};
 
 /// What of a case is in files, and what the library reads in them.
@@ -381,6 +381,9 @@ fn every_pair_of_the_solver_layer_is_played_alike_by_command_page_and_library() 
                 let text = Text::of(&case, &Shape::of(case.get("mesh")));
                 println!("{case}: {}\n{}", crate::message(&*panic), text.toml());
                 failed += 1;
+                if planted() == Some(true) {
+                    break;
+                }
             }
         }
         let rows = cover.rows.len();
