@@ -29,7 +29,7 @@ pub(super) struct Ended {
     pub(super) pushed: usize,
 }
 
-/// The frames between two looks at what the wind does.
+/// The frames from one comparison of what the wind does to the next.
 const BLOWN_EVERY: u64 = 3;
 
 /// Runs the scene of a case to its end, and judges every step.
