@@ -17,8 +17,8 @@ use crate::harness::{Folder, files_in, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0xa2ae_bae8_f7c3_b1b0),
-    ("tear.txt", 0x640e_55a8_cdbc_4d3a),
+    ("README.md", 0x434b_6ddf_bd6b_0777),
+    ("tear.txt", 0x1b1f_c3fb_ed11_bdb9),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A

@@ -190,6 +190,17 @@ impl Balance {
         self.work.sums.held_j += energy::at_j(system, particle) - before_j;
     }
 
+    /// Calls `change`, which displaces particles, and counts the state after it as the one at the beginning, if nothing
+    /// has moved before.
+    pub(crate) fn displace(&mut self, system: &mut System, change: impl FnOnce(&mut System)) {
+        let energies = |system: &System| (energy::stored_j(system), energy::potential_j(system));
+        let before = energies(system);
+        change(system);
+        let after = energies(system);
+        self.work.sums.began_j += after.0 - before.0;
+        self.work.sums.gravity_j += after.1 - before.1;
+    }
+
     /// Reads the system before a substep. Particles that are led have the velocity for it already.
     pub(crate) fn before(&mut self, system: &System) {
         if is_leading(system) {
