@@ -380,7 +380,8 @@ impl System {
     /// Whether a particle is held, a wind blows or there is a collider.
     pub(crate) fn is_acted_on(&self) -> bool {
         let loads = &self.model.loads;
-        loads.wind.is_some() || !loads.colliders.is_empty() || self.model.held.contains(&true)
+        let blows = loads.wind.is_some_and(|wind| wind.coefficient > 0.0);
+        blows || !loads.colliders.is_empty() || self.model.held.contains(&true)
     }
 
     /// Notes that constraints have changed otherwise than by edits of a mesh.
