@@ -2,7 +2,7 @@
 
 use tearmesh::nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use tearmesh::{Mesh, Point, Positions, Vector};
-use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, TearLog};
+use tearmesh_cloth::scene::{Axis, Frame, Run, Scene, SwayingWind, TearLog};
 use tearmesh_cloth::{
     Loads, Method, Simulation, SimulationDef, SimulationError, Unstable, Wind, implicit,
 };
@@ -235,6 +235,31 @@ fn a_ripple_waits_for_something_that_acts() {
     sim.advance(2.0 * sim.step_s(), 2).expect("steps");
     assert_eq!(sim.ripple_m(), 1e-6);
     assert!(sim.cloth().positions().iter().any(|at| at.z != 0.0));
+}
+
+#[test]
+fn a_wind_that_has_not_begun_makes_no_ripple() {
+    let (mesh, positions) = square(8);
+    let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
+    let wind = Wind {
+        velocity_m_per_s: Vector::new(0.0, 0.0, 1.0),
+        coefficient: 1.0,
+    };
+    let scene = Scene {
+        wind: Some(SwayingWind {
+            from_s: 0.05,
+            ..SwayingWind::steady(wind)
+        }),
+        colliders: Vec::new(),
+        ..Scene::fall(Axis::Y)
+    };
+    let mut run = Run::new(mesh, &positions, scene, &frame).expect("a scene");
+    while run.elapsed_s() < 0.06 {
+        run.step().expect("a step");
+        // The step that has just been taken began a step earlier.
+        let has_begun = run.elapsed_s() - 0.5 * run.step_s() > 0.05;
+        assert_eq!(run.ripple_m() > 0.0, has_begun, "{} s", run.elapsed_s());
+    }
 }
 
 /// What is cut before the first step is cut as it was given, and its vertices have the ripple of their places.
