@@ -24,8 +24,8 @@ struct Observed {
 }
 
 impl Observed {
-    fn new(system: System) -> Observed {
-        let balance = Balance::new(&system);
+    fn new(mut system: System) -> Observed {
+        let balance = Balance::new(&mut system);
         Observed { system, balance }
     }
 

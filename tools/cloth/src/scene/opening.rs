@@ -93,7 +93,6 @@ impl Scene {
             tearing: self.tearing,
             strengths: self.vertex_strengths(mesh, points, frame)?,
             rest: self.rest.clone(),
-            ripple_m: self.ripple_m,
             seams: self.seams.clone(),
             loads: self.loads(),
             step_s: self.step_s,
