@@ -1,4 +1,4 @@
-//! What the command printed and wrote, read back.
+//! Readers of answers and pages of the command.
 
 use std::io::Read as _;
 

@@ -1,4 +1,4 @@
-//! What a slide must do, and what it must leave as it was.
+//! The duties of a slide, and all that it has to leave as it was.
 
 use tearmesh::script::World;
 use tearmesh::slide::SlideRefusal;

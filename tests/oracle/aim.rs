@@ -1,4 +1,4 @@
-//! Where rays are aimed at a surface, and what lies beyond them, in plain formulas.
+//! The aims of rays on a surface, and the places beyond them, in plain formulas.
 
 use super::straight::{Surface, cross, dot, length, minus, on_the_way};
 

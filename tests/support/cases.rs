@@ -1,4 +1,4 @@
-//! How many random cases a test tries. No other place says so.
+//! The number of random cases that a test tries. No other place says so.
 
 /// What finds every seeded bug.
 const CASES: u64 = 1_500;

@@ -1,4 +1,4 @@
-//! What fuzz targets start from, and what they found.
+//! The seeds of fuzz targets, and their finds.
 
 use std::fs;
 use std::path::{Path, PathBuf};

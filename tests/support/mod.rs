@@ -1,4 +1,4 @@
-//! What the tests of all crates have in common.
+//! The helpers that the tests of all crates share.
 
 pub(crate) mod cases;
 pub(crate) mod delaunay;
