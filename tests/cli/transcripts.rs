@@ -17,13 +17,13 @@ use crate::harness::{Folder, files_in, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0xa2ae_bae8_f7c3_b1b0),
-    ("tear.txt", 0x640e_55a8_cdbc_4d3a),
+    ("README.md", 0x434b_6ddf_bd6b_0777),
+    ("tear.txt", 0x1b1f_c3fb_ed11_bdb9),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0xdd61_a706_39f0_c10a;
+const DIGEST: u64 = 0xc610_fe24_3f6b_74c2;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

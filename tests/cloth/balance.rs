@@ -24,8 +24,8 @@ struct Observed {
 }
 
 impl Observed {
-    fn new(mut system: System) -> Observed {
-        let balance = Balance::new(&mut system);
+    fn new(system: System) -> Observed {
+        let balance = Balance::new(&system);
         Observed { system, balance }
     }
 

@@ -40,18 +40,6 @@ struct Known {
 
 const KNOWN: &[Known] = &[
     Known {
-        levels: "collider=body",
-        oracle: "lost",
-        example: "collider=body hold=none",
-        reason: BODY,
-    },
-    Known {
-        levels: "collider=moving",
-        oracle: "lost",
-        example: "collider=moving",
-        reason: BODY,
-    },
-    Known {
         levels: "cut=snap0",
         oracle: "frames",
         example: "mesh=torn cut=snap0 heal=cut hand=led",
@@ -75,9 +63,6 @@ const KNOWN: &[Known] = &[
 
 const SEWN: &str =
     "copies are drawn together at the end of a step, after contact, into what is between them";
-
-const BODY: &str = "the work of a body and what the method loses are both too large by what contact moves springs, and \
-                    cancel: of first order in the step";
 
 /// How often each oracle was applied to something, by sequences.
 #[derive(Default)]

@@ -38,7 +38,7 @@ fn corner(damping_s: f64, moved: Vector) -> System {
 
 /// Where the last particle is after two seconds, in steps of this length, and the balance.
 fn swung(mut system: System, dt_s: f64) -> (Point, Balance, System) {
-    let mut kept = Balance::new(&mut system);
+    let mut kept = Balance::new(&system);
     let (observed, steps) = ((&mut system, &mut kept), (2.0 / dt_s).round() as usize);
     take_observed(observed, &mut Verlet, dt_s, steps);
     (*system.positions().last().expect("particles"), kept, system)

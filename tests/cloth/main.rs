@@ -35,6 +35,7 @@ mod reaction;
 mod reference;
 #[cfg(feature = "serde")]
 mod refused;
+mod ripple;
 #[path = "../../tools/lab/src/rk4.rs"]
 #[allow(dead_code, unreachable_pub, reason = "shared with the experiments")]
 mod rk4;

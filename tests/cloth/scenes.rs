@@ -59,7 +59,17 @@ fn a_flag_is_cut_in_two_and_goes_on_waving() {
         };
         near(end_s - run.step_s(), 1.5, run.step_s() / 2.0);
         assert!(energy::kinetic_j(run.cloth().system()) > 0.01, "{name}");
-        assert_eq!(run.mesh().components().count(), 2, "{name}");
+        // A plane may cut a fold off as well.
+        let components = run.mesh().components();
+        let mut sizes = vec![0; components.count()];
+        let faces = run.mesh().faces();
+        faces.for_each(|f| sizes[components.of(f)] += 1);
+        sizes.sort_unstable();
+        let of_two: usize = sizes.iter().rev().take(2).sum();
+        assert!(
+            sizes.len() <= 3 && 20 * of_two >= 19 * run.mesh().face_count(),
+            "{name}: {sizes:?}"
+        );
         check_ledgers(run);
     }
 }
@@ -431,6 +441,7 @@ fn a_wind_that_begins_later_is_none_before() {
                 ..swaying(0.5, 4.0, 0.25)
             }),
             gravity_m_per_s2: Vector::zeros(),
+            ripple_m: Some(0.0), // Which is at rest.
             ..Scene::hang(frame)
         }));
         run.cloth().positions().to_vec()
@@ -460,6 +471,7 @@ fn regression_a_wind_begins_with_the_step_of_its_time() {
                 ..swaying(2.0, 0.0, 1.0)
             }),
             gravity_m_per_s2: Vector::zeros(),
+            ripple_m: Some(0.0), // Which is at rest.
             ..Scene::hang(frame)
         }));
         let mut velocities = run.cloth().system().velocities().iter();

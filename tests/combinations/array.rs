@@ -3,10 +3,9 @@
 //!
 //! The rows are found greedily, in the manner of AETG (Cohen, Dalal, Fredman, Patton 1997): of a few
 //! candidates the one with most combinations that are new. Each begins with a combination that no row
-//! has yet and takes the other factors in any order, of each the level that adds most; where no level of
-//! a factor is left, the level before is taken back. Combinations that no row can have are found first, by
-//! a complete search, with the exclusions that forbid them. The least number of rows is not sought: AETG
-//! comes within a fifth of it or so.
+//! has yet and takes the other factors in any order, of each the level that adds most among those that a
+//! complete search can go on from. That search also finds the combinations that no row can have, with the
+//! exclusions that forbid them. The least number of rows is not sought: AETG comes within a fifth of it or so.
 
 use crate::random::Random;
 
@@ -331,39 +330,27 @@ impl<'t> Search<'t> {
         let free = (0..chosen.len()).filter(|&factor| chosen[factor].is_none());
         let mut free: Vec<usize> = free.collect();
         random.shuffle(&mut free);
-        assert!(
-            self.complete(&mut chosen, &free, random),
-            "a row that is possible is found"
-        );
+        for factor in free {
+            self.choose(&mut chosen, factor, random);
+        }
         let row: Row = chosen.into_iter().flatten().collect();
         let sets = 0..self.sets.len();
         let new = sets.filter(|&set| self.open[self.place(set, |factor| row[factor])]);
         (new.count(), row)
     }
 
-    /// Chooses a level of each factor that is free, or gives back what it chose.
-    fn complete(
-        &self,
-        chosen: &mut Vec<Option<usize>>,
-        free: &[usize],
-        random: &mut Random,
-    ) -> bool {
-        let Some((&factor, rest)) = free.split_first() else {
-            return true;
-        };
+    /// Chooses the level of a factor that makes most new combinations, of those with which a row can be completed.
+    fn choose(&self, chosen: &mut Vec<Option<usize>>, factor: usize, random: &mut Random) {
         let mut levels: Vec<usize> = (0..self.table.factors[factor].1.len()).collect();
         random.shuffle(&mut levels);
         let gains = self.gains(chosen, factor);
         levels.sort_by_key(|&level| std::cmp::Reverse(gains[level]));
         let all = vec![true; self.table.exclusions.len()];
-        for level in levels {
+        let fits = levels.into_iter().any(|level| {
             chosen[factor] = Some(level);
-            if self.table.is_allowed(chosen, &all) && self.complete(chosen, rest, random) {
-                return true;
-            }
-        }
-        chosen[factor] = None;
-        false
+            self.table.is_possible(chosen, &all)
+        });
+        assert!(fits, "a row that is possible is found");
     }
 
     /// For each level of a factor, how many new combinations it makes with what is chosen.

@@ -162,6 +162,27 @@ fn what_follows_from_exclusions_is_found_with_its_reasons() {
     assert!(layers.all(|layers| layers == "all"));
 }
 
+/// Each factor that is switched on needs the next one: by its last, a row can be spoiled for its first.
+#[test]
+fn exclusions_that_follow_one_from_another_are_seen_early() {
+    const NAMES: [&str; 24] = [
+        "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o", "p", "q", "r",
+        "s", "t", "u", "v", "w", "x",
+    ];
+    let factors = NAMES.map(|name| (name, ["off", "on"].as_slice()));
+    let exclusions = NAMES.windows(2).map(|two| Exclusion {
+        levels: Vec::leak(vec![(two[0], "on"), (two[1], "off")]),
+        reason: "the next one is needed",
+    });
+    let exclusions: Vec<Exclusion> = exclusions.collect();
+    let cover = Table::new(&factors, &exclusions).rows(2, &mut Random(3));
+    // Of two factors, three combinations are left: not the first on with the second off.
+    assert_eq!(cover.visited, 3 * 24 * 23 / 2);
+    for row in &cover.rows {
+        assert!(row.is_sorted(), "{row:?}");
+    }
+}
+
 /// Tables with exclusions of up to three factors by chance; in some of them, no row is left at all.
 #[test]
 fn tables_by_chance_are_covered() {

@@ -20,6 +20,7 @@ pub(super) const FACTORS: &[Factor] = &[
     ("bending", &["none", "spring", "vertex", "buckling"]),
     ("damping", &["default", "none", "strong"]),
     ("gravity", &["down", "aslant", "none"]),
+    ("ripple", &["default", "none", "large"]),
     ("drag", &["some", "none"]),
     (
         "threshold",
@@ -58,6 +59,7 @@ pub(super) const SHRINKING: &[&str] = &[
     "strength",
     "threshold",
     "drag",
+    "ripple",
     "gravity",
     "damping",
     "bending",
@@ -130,6 +132,7 @@ pub(super) const OTHER_VERBS: &[(&str, &str)] = &[
     ("time_s", "it is read"),
     ("steps", "it is read"),
     ("step_s", "it is read"),
+    ("ripple_m", "it is read"),
     ("pick", "it changes nothing; a hand asks it for its vertex"),
     ("GRIP_RADIUS_M", "it is a number, which a hand is given"),
     (

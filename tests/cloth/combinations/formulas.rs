@@ -181,6 +181,11 @@ pub(super) fn weight_j(case: &Case, cloth: &Cloth) -> f64 {
         .sum::<f64>()
 }
 
+/// The weight of the whole cloth, which lifts it by no more than this times how far it is lifted.
+pub(super) fn weight_n(case: &Case, cloth: &Cloth) -> f64 {
+    gravity(case).0.norm() * cloth.system().masses().iter().sum::<f64>()
+}
+
 /// The energy of motion and of springs.
 pub(super) fn stored_j(cloth: &Cloth) -> [f64; 2] {
     let system = cloth.system();

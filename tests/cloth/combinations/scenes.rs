@@ -64,7 +64,7 @@ pub(super) fn run(case: &Case, shape: &Shape) -> Result<Ended, Fault> {
             if !limited {
                 judge.energy(
                     run.cloth(),
-                    &run.energy_balance(),
+                    (&run.energy_balance(), run.ripple_m()),
                     energy_warning(&run).is_some(),
                 )?;
             }
@@ -229,6 +229,7 @@ fn at_rest(case: &Case) -> Case {
         .without("unpick")
         .without("seams");
     let still = still.with("gravity", "none").with("hold", "still");
+    let still = still.with("ripple", "none");
     match case.get("collider") {
         "moving" => still.with("collider", "body"),
         _ => still,

@@ -30,6 +30,7 @@ pub(super) fn definition(scene: &Scene, frame: &Frame, shape: &Shape) -> Simulat
         tearing: scene.tearing,
         strengths: strengths.expect("regions with vertices"),
         rest: scene.rest.clone(),
+        ripple_m: scene.ripple_m,
         seams: scene.seams.clone(),
         loads: scene.loads(),
         step_s: scene.step_s,

@@ -188,13 +188,18 @@ fn top(case: &Case) -> Table {
         _ => number(0),
     };
     let drag = if case.is("drag", "some") { 0.5 } else { 0.0 };
-    let keys = vec![
+    let mut keys = vec![
         ("base", quoted("fall")),
         ("seconds", number(at_s(FRAMES))),
         ("up", quoted("y")),
         ("gravity_m_per_s2", gravity),
         ("drag_per_s", number(drag)),
     ];
+    match case.get("ripple") {
+        "none" => keys.push(("ripple_m", number(0))),
+        "large" => keys.push(("ripple_m", number(1e-3))),
+        _ => {}
+    }
     ("", keys)
 }
 

@@ -172,7 +172,8 @@ fn what_changed_brings_a_copy_of_the_buffers_up_to_date() {
 
 #[test]
 fn only_what_moved_is_listed() {
-    let mut sim = hung(Vector::zeros(), SimulationDef::default());
+    let flat = SimulationDef::default().with_ripple(0.0);
+    let mut sim = hung(Vector::zeros(), flat);
     for frame in 0..10 {
         pass(&mut sim, 1.0 / 60.0);
         let changes = sim.draw_buffers().take_changes();

@@ -133,6 +133,7 @@ pub(crate) struct Tear {
     pub(crate) dt_s: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) bodies: Vec<BodyGrid>,
+    pub(crate) ripple_m: f64,
     pub(crate) time_simulated_s: f64,
     pub(crate) time_planned_s: f64,
     pub(crate) splits: u64,

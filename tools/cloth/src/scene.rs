@@ -61,6 +61,9 @@ pub struct Scene {
     pub holds: Vec<HeldVertices>,
     /// The rest shape of faces: a place in metres for each corner, face by face. Empty for where they are.
     pub rest: Vec<Point>,
+    /// The amplitude in metres of the [ripple](crate::SimulationDef::ripple_m) of a flat cloth; 0 for none, and `None` for
+    /// a millionth of its size.
+    pub ripple_m: Option<f64>,
     /// The seams of a garment, whose panels are the mesh. They are sewn from the beginning.
     pub seams: Vec<Seam>,
     /// The times in seconds at which seams are unpicked, and their names.

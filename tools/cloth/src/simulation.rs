@@ -15,6 +15,7 @@ pub(crate) mod hand;
 mod heal;
 mod log;
 mod report;
+mod ripple;
 mod seams;
 
 pub use buffers::{BufferChanges, ClothBuffers};
@@ -34,11 +35,13 @@ use tearmesh::{
 use self::hand::Hands;
 use self::heal::Healing;
 use self::log::Record;
+use self::ripple::Ripple;
 use self::seams::Seams;
 use crate::cloth::held_set::HeldSet;
 use crate::cloth::tearing::apply::{Tear, TearReport};
 use crate::cloth::{Cloth, ClothError};
 use crate::method::solver::{Solver, StepError};
+use crate::system::System;
 use crate::system::balance::Balance;
 use crate::system::load::{Loads, Wind};
 
@@ -85,6 +88,10 @@ pub struct Simulation {
     hands: Hands,
     seams: Seams,
     healing: Healing,
+    /// The ripple of a flat cloth, until something acts on it.
+    ripple: Option<Ripple>,
+    /// The amplitude of the ripple that was made, in metres.
+    rippled_m: f64,
     /// The edits that holds, hands, seams and healing have followed.
     seen: Cursor,
     buffers: ClothBuffers,
@@ -95,7 +102,9 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Creates the simulation of a cloth, which is at rest where it is unless the definition has a rest shape. Takes linear time. If the cloth may
+    /// Creates the simulation of a cloth, which is at rest where it is unless the definition has a rest shape.
+    /// Takes linear time. A flat cloth gets a [ripple](SimulationDef::ripple_m) with the first step in which something
+    /// acts on it. If the cloth may
     /// tear, room is reserved for all that can: three vertices per face, some kilobytes each. The panels of a
     /// garment begin to be sewn as [`heal`](Simulation::heal) sews.
     ///
@@ -113,6 +122,7 @@ impl Simulation {
         let digest = is_recorded.then(|| log::digest(&mesh, positions, &def));
         let (mut mesh, seams) = Seams::open(mesh, def.seams)?;
         let seen = positions.seen();
+        let ripple = Ripple::of(&mesh, positions, def.ripple_m)?;
         let mut edits = Edits::starting_at(seen);
         let mut rest = def.rest;
         if rest.is_empty() {
@@ -183,6 +193,8 @@ impl Simulation {
             hands: Hands::default(),
             seams,
             healing: Healing::default(),
+            ripple,
+            rippled_m: 0.0,
             seen,
             buffers,
             events,
@@ -348,9 +360,16 @@ impl Simulation {
     /// Takes a step, which a balance of energy sees, and tears nothing.
     pub(crate) fn step_observed(
         &mut self,
-        balance: Option<&mut Balance>,
+        mut balance: Option<&mut Balance>,
     ) -> Result<u32, StepError> {
         let system = self.cloth.system_mut();
+        if let Some(ripple) = self.ripple.take_if(|_| system.is_acted_on()) {
+            let mut displace = |system: &mut System| self.rippled_m = ripple.displace(system);
+            match &mut balance {
+                Some(balance) => balance.displace(system, displace),
+                None => displace(system),
+            }
+        }
         let substeps = system.step_observed(&mut *self.solver, self.step_s, balance)?;
         self.log.steps += 1;
         Ok(substeps)
@@ -424,6 +443,9 @@ impl Simulation {
         self.edits.replay(&mut (&mut self.cloth, others));
         if let Some(tear) = &mut self.tear {
             self.edits.replay(tear);
+        }
+        if let Some(ripple) = &mut self.ripple {
+            self.edits.replay(&mut ripple.by_m);
         }
     }
 
@@ -742,6 +764,12 @@ impl Simulation {
     #[must_use]
     pub fn time_s(&self) -> f64 {
         self.cloth.system().elapsed_s()
+    }
+
+    /// Returns the amplitude of the [ripple](SimulationDef::ripple_m) that was made, in metres; 0 if none was yet.
+    #[must_use]
+    pub fn ripple_m(&self) -> f64 {
+        self.rippled_m
     }
 
     /// Returns the number of steps taken so far.

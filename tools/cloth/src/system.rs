@@ -34,7 +34,7 @@ use tearmesh::geometry::{Point, Vector, check_point};
 
 use self::bend::Buckling;
 use self::constraint::{Constraint, ConstraintId, Constraints};
-use self::contact::{Contact, ContactCache, Pressed};
+use self::contact::{Contact, ContactCache, Impulses, Pressed};
 use self::counters::Counters;
 use self::error::{SettingError, SystemError};
 use self::guard::Guard;
@@ -79,8 +79,6 @@ pub struct System {
     pub(crate) scratch: Scratch,
     pub(crate) elapsed_s: f64,
     pub(crate) unstable: Unstable,
-    /// What the push of colliders made in all, in joules, where someone keeps a balance of energy.
-    pub(crate) contact_j: Option<f64>,
     /// What material damping took in all, in joules.
     pub(crate) damped_j: f64,
 }
@@ -111,6 +109,7 @@ pub(crate) struct Scratch {
     /// The contacts of the last substep, and how the particles were pressed in it, if any were.
     pub(crate) contacts: Vec<Contact>,
     pub(crate) pressed: Vec<Pressed>,
+    pub(crate) impulses: Impulses,
     /// How far particles are from bodies.
     pub(crate) contact: ContactCache,
     /// Where a limiter found the particles.
@@ -204,7 +203,6 @@ impl System {
             scratch: Scratch::default(),
             elapsed_s: 0.0,
             unstable: Unstable::default(),
-            contact_j: None,
             damped_j: 0.0,
         }
     }
@@ -377,6 +375,13 @@ impl System {
             self.model.faces.is_empty(),
             "the constraints of a cloth follow its mesh and fabric"
         );
+    }
+
+    /// Whether a particle is held, a wind blows or there is a collider.
+    pub(crate) fn is_acted_on(&self) -> bool {
+        let loads = &self.model.loads;
+        let blows = loads.wind.is_some_and(|wind| wind.coefficient > 0.0);
+        blows || !loads.colliders.is_empty() || self.model.held.contains(&true)
     }
 
     /// Notes that constraints have changed otherwise than by edits of a mesh.

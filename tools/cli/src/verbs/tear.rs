@@ -207,6 +207,7 @@ impl Play<'_> {
         let tear = self.numbers(run, &records.tear_log, beginning, status);
         session.faults.extend(advice::after(run));
         session.words.extend(tear.bodies.iter().map(summary::body));
+        session.words.extend(summary::ripple(run));
         let has_cuts = !session.report.cuts.is_empty();
         session.words.push(summary::simulation(&tear, has_cuts));
         session.words.extend(summary::first_tear(&records.tear_log));
@@ -238,6 +239,7 @@ impl Play<'_> {
             steps: tally.steps,
             dt_s: run.step_s(),
             bodies: summary::bodies(run),
+            ripple_m: run.ripple_m(),
             time_simulated_s: run.elapsed_s(),
             time_planned_s: run.scene().duration_s,
             splits: tally.splits,

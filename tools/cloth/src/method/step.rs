@@ -69,15 +69,14 @@ impl System {
         let led = self.model.grabbed.iter().map(|(particle, _)| *particle);
         let led = led.map(|particle| (particle, self.velocities[particle as usize]));
         self.scratch.led.extend(led);
-        let (began_s, contact_j, damped_j) = (self.elapsed_s, self.contact_j, self.damped_j);
+        let (began_s, damped_j) = (self.elapsed_s, self.damped_j);
         let work = balance.as_ref().map(|balance| balance.work);
         self.model.recorded = Recorded::Nothing;
         self.model.is_damped = solver.abilities().damps;
         let substep_s = dt_s / f64::from(substeps);
         for _ in 0..substeps {
             if let Err(failure) = advance(self, solver, substep_s, balance.as_deref_mut()) {
-                (self.elapsed_s, self.contact_j) = (began_s, contact_j);
-                self.damped_j = damped_j;
+                (self.elapsed_s, self.damped_j) = (began_s, damped_j);
                 if let Some((balance, work)) = balance.zip(work) {
                     balance.work = work;
                 }
@@ -130,9 +129,9 @@ fn advance(
     if let Some(balance) = balance.as_deref_mut() {
         balance.before(system);
     }
-    collide::begin(system, substep_s);
+    collide::begin(system, substep_s, balance.is_some());
     solver.advance(system, substep_s)?;
-    collide::push_out(system);
+    let contact = collide::push_out(system);
     if let Some(particle) = collide::too_far(system) {
         return Err(Failure::TooFar { particle });
     }
@@ -140,7 +139,7 @@ fn advance(
     if let Some(balance) = balance {
         // Methods without a stability limit move particles by the forces at the end of a substep.
         let moves_at_end = solver.abilities().frequency_limit.is_none();
-        balance.after(system, substep_s, moves_at_end);
+        balance.after(system, substep_s, moves_at_end, contact);
     }
     system.elapsed_s += substep_s;
     Ok(())

@@ -112,7 +112,9 @@ impl Solver for Verlet {
         // Forces are then those of where the step ends, and serve the next one.
         let has_close_contact = system.model.loads.has_close_contact();
         if has_close_contact {
+            system.scratch.impulses.is_halfway = true;
             collide::move_out(system, 1.0 / dt_s);
+            system.scratch.impulses.is_halfway = false;
         }
         // The velocities at the end of the step, at which wind blows, as far as they are known in its
         // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),

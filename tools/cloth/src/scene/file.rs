@@ -67,6 +67,8 @@ pub struct SceneFile {
     pub up: Option<Word<Axis>>,
     /// Gravity.
     pub gravity_m_per_s2: Option<Gravity>,
+    /// The amplitude of the ripple of a flat cloth.
+    pub ripple_m: Option<NotNegative>,
     /// The rate at which velocities decay.
     pub drag_per_s: Option<NotNegative>,
     /// The material.
@@ -92,7 +94,7 @@ pub struct SceneFile {
 impl SceneFile {
     /// The version of scene files, and of [`PackedScene`]. It is raised whenever a key is added, renamed or removed,
     /// or means something else, so that a program can refuse to hand a scene to another one that would misread it.
-    pub const FORMAT: u32 = 4;
+    pub const FORMAT: u32 = 5;
 }
 
 /// The table `[fabric]`.

@@ -93,6 +93,7 @@ impl Scene {
             tearing: self.tearing,
             strengths: self.vertex_strengths(mesh, points, frame)?,
             rest: self.rest.clone(),
+            ripple_m: self.ripple_m,
             seams: self.seams.clone(),
             loads: self.loads(),
             step_s: self.step_s,

@@ -41,6 +41,7 @@ impl Scene {
             colliders: Vec::new(),
             holds: Vec::new(),
             rest: Vec::new(),
+            ripple_m: None,
             seams: Vec::new(),
             unpicks: Vec::new(),
             cuts: Vec::new(),

@@ -215,7 +215,8 @@ impl Run {
     }
 
     /// Displaces the vertices of a run that has not begun, each by its offset in metres. The rest
-    /// state does not change, and holds take the vertices where they then are.
+    /// state does not change, and holds take the vertices where they then are. A cloth that was flat
+    /// without this still gets its ripple.
     ///
     /// # Errors
     ///
@@ -233,8 +234,9 @@ impl Run {
         let moved = self.mesh().vertices().zip(points);
         let moved = Positions::new(moved.map(|(v, &x)| x + by_m(v)))?;
         let system = self.sim.cloth.system_mut();
-        system.state_mut().0.copy_from_slice(moved.as_slice());
-        self.balance = Balance::new(system);
+        self.balance.displace(system, |system| {
+            system.state_mut().0.copy_from_slice(moved.as_slice());
+        });
         Ok(self)
     }
 
@@ -432,6 +434,12 @@ impl Run {
         let system = self.cloth().system();
         let softness = self.scene.solver.softness(system, self.step_s());
         softness.map(|softness| softness.extra)
+    }
+
+    /// Returns the amplitude of the [ripple](crate::SimulationDef::ripple_m) that was made, in metres; 0 if none was yet.
+    #[must_use]
+    pub fn ripple_m(&self) -> f64 {
+        self.sim.ripple_m()
     }
 
     /// Returns the time simulated so far, in seconds.

@@ -39,6 +39,12 @@ pub struct SimulationDef {
     /// The texture coordinates for [drawing](super::Simulation::draw_buffers): those of each corner, face by face.
     /// Empty, as by default, for zero everywhere.
     pub texture: Vec<[f32; 2]>,
+    /// The amplitude in metres of the ripple of a flat cloth; 0 for none, and `None`, as by default, for a millionth of
+    /// its size. Where all vertices of a component of the mesh lie within a thousand-millionth of its size of one
+    /// plane, those that are not held are displaced along its normal, by four sines of their place, at the beginning
+    /// of the first step in which a vertex of the cloth is held, a wind blows or there is a collider. Without, what
+    /// is pulled in its plane could never buckle, and would tear too late.
+    pub ripple_m: Option<f64>,
     /// The seams of a garment, whose panels are the mesh; none by default.
     pub seams: Vec<Seam>,
     /// The loads: by default gravity along −y, and the drag of still air.
@@ -62,6 +68,7 @@ impl Default for SimulationDef {
             strengths: Vec::new(),
             rest: Vec::new(),
             texture: Vec::new(),
+            ripple_m: None,
             seams: Vec::new(),
             loads: Loads {
                 gravity_m_per_s2: Some(Vector::new(0.0, -9.81, 0.0)),
@@ -120,6 +127,13 @@ impl SimulationDef {
     #[must_use]
     pub fn with_texture(self, texture: Vec<[f32; 2]>) -> SimulationDef {
         SimulationDef { texture, ..self }
+    }
+
+    /// Sets the amplitude in metres of the ripple of a flat cloth; 0 for none.
+    #[must_use]
+    pub fn with_ripple(self, ripple_m: f64) -> SimulationDef {
+        let ripple_m = Some(ripple_m);
+        SimulationDef { ripple_m, ..self }
     }
 
     /// Sets the seams of a garment.

@@ -41,6 +41,8 @@ pub enum SimulationError {
     },
     /// The step, in seconds, is not positive and finite.
     Step(f64),
+    /// The amplitude of the ripple, in metres, is negative, not finite or too large.
+    Ripple(f64),
 }
 
 impl fmt::Display for SimulationError {
@@ -60,6 +62,9 @@ impl fmt::Display for SimulationError {
                 )
             }
             SimulationError::Step(s) => write!(f, "a step of {s} s is not positive and finite"),
+            SimulationError::Ripple(m) => {
+                write!(f, "a ripple of {m} m is negative, not finite or too large")
+            }
         }
     }
 }

@@ -15,7 +15,7 @@
 //! | wind, drag | ∫ power dt, trapezoids of [`AIR_S`] | a pass over particles each, with wind over faces |
 //! | leading | −∫ (f + m g) · dx of each led particle | its valence a step while it moves |
 //! | holding, letting go | the change of the particle's own energy ([`Balance::handle`]) | its valence |
-//! | colliders | the change of each particle's energy as it is pushed out | its valence while in contact |
+//! | colliders | their impulses times the mean velocity of a substep ([`ContactWork`]) | a copy of velocities a substep |
 //! | edits | the change of all energy by an edit ([`Balance::add_edits`]) | a pass over constraints |
 //! | the method | the remainder | nothing |
 //!
@@ -30,6 +30,7 @@
 use tearmesh::geometry::{Vector, dot};
 
 use crate::system::System;
+use crate::system::contact::ContactWork;
 use crate::system::energy;
 use crate::system::force;
 
@@ -78,8 +79,8 @@ pub struct EnergyBalance {
     pub drag_j: f64,
     /// The work of the damping of springs ([`System::set_damping`]), which is never positive.
     pub damping_j: f64,
-    /// The work of colliders. It is negative, since impacts are inelastic and friction takes motion, except
-    /// for the energy it takes to push a particle out against springs or gravity.
+    /// The work of colliders. It is negative, since impacts are inelastic and friction takes motion, except for what
+    /// colliders that move give.
     pub colliders_j: f64,
     /// The energy that edits (tears, cuts and mends) added.
     pub edits_j: f64,
@@ -122,7 +123,7 @@ pub struct Balance {
 /// The work that was summed up, in joules, and the power of air that was sampled last.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Work {
-    /// What was summed up; of gravity, damping and colliders what there was at the beginning.
+    /// What was summed up; of gravity and damping what there was at the beginning.
     sums: EnergyBalance,
     /// Of wind and drag, in watts.
     sampled: Option<[f64; 2]>,
@@ -139,16 +140,14 @@ impl Work {
 }
 
 impl Balance {
-    /// Starts a balance at the present state. From now on the system also sums the work of its
-    /// colliders, which cannot be observed from outside.
+    /// Starts a balance at the present state.
     #[must_use]
-    pub fn new(system: &mut System) -> Balance {
+    pub fn new(system: &System) -> Balance {
         let mut balance = Balance::default();
         balance.work.sums = EnergyBalance {
             began_j: energy::kinetic_j(system) + energy::stored_j(system),
             gravity_j: energy::potential_j(system),
             damping_j: system.damped_j,
-            colliders_j: *system.contact_j.get_or_insert(0.0),
             ..EnergyBalance::default()
         };
         balance
@@ -171,7 +170,6 @@ impl Balance {
             elastic_j: energy::stored_j(system),
             gravity_j: sums.gravity_j - energy::potential_j(system),
             damping_j: sums.damping_j - system.damped_j,
-            colliders_j: system.contact_j.unwrap_or(0.0) - sums.colliders_j,
             ..sums
         }
     }
@@ -190,6 +188,17 @@ impl Balance {
         self.work.sums.held_j += energy::at_j(system, particle) - before_j;
     }
 
+    /// Calls `change`, which displaces particles, and counts the state after it as the one at the beginning, if nothing
+    /// has moved before.
+    pub(crate) fn displace(&mut self, system: &mut System, change: impl FnOnce(&mut System)) {
+        let energies = |system: &System| (energy::stored_j(system), energy::potential_j(system));
+        let before = energies(system);
+        change(system);
+        let after = energies(system);
+        self.work.sums.began_j += after.0 - before.0;
+        self.work.sums.gravity_j += after.1 - before.1;
+    }
+
     /// Reads the system before a substep. Particles that are led have the velocity for it already.
     pub(crate) fn before(&mut self, system: &System) {
         if is_leading(system) {
@@ -206,7 +215,14 @@ impl Balance {
 
     /// Reads the system after a substep of so many seconds, in which the method moved particles by the
     /// forces at its end, or by those at both.
-    pub(crate) fn after(&mut self, system: &System, substep_s: f64, moves_at_end: bool) {
+    pub(crate) fn after(
+        &mut self,
+        system: &System,
+        substep_s: f64,
+        moves_at_end: bool,
+        contact: ContactWork,
+    ) {
+        self.work.sums.colliders_j += contact.colliders_j;
         if is_leading(system) {
             let led = system.model.grabbed.iter().zip(&self.forces);
             for (((particle, _), &before), after) in led.zip(led_forces(system)) {

@@ -22,7 +22,7 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::system::System;
 use crate::system::body::Body;
-use crate::system::contact::{ColliderCache, Contact, ContactCache, Corners, Pressed};
+use crate::system::contact::{ColliderCache, Contact, ContactCache, ContactWork, Corners, Pressed};
 use crate::system::energy;
 use crate::system::load::{Collider, ColliderShape};
 use crate::system::path::Pose;
@@ -33,12 +33,18 @@ pub(crate) fn touching(system: &System) -> impl Iterator<Item = (usize, Vector)>
     contacts.filter_map(|contact| Some((contact.corners.particle()?, contact.normal)))
 }
 
-/// Notes where a substep begins, if a collider asks for it.
-pub(crate) fn begin(system: &mut System, substep_s: f64) {
+/// Notes where a substep begins, if a collider asks for it; and with which velocities, if the work of contact is to be
+/// known.
+pub(crate) fn begin(system: &mut System, substep_s: f64, is_observed: bool) {
     system.scratch.span_s = [system.elapsed_s, system.elapsed_s + substep_s];
     let cache = &mut system.scratch.contact;
     (cache.is_out, cache.too_far) = (false, None);
     system.scratch.pressed.clear();
+    let is_observed = is_observed && !system.model.loads.colliders.is_empty();
+    system
+        .scratch
+        .impulses
+        .begin(&system.velocities, is_observed);
     if system.model.loads.has_close_contact() {
         system.scratch.before.clone_from(&system.positions);
     }
@@ -50,9 +56,8 @@ pub(crate) fn too_far(system: &System) -> Option<usize> {
 }
 
 /// Moves the particles out of the colliders if that was not done yet in this substep, and takes their
-/// velocity inward. Where someone keeps a balance of energy, what that makes is summed up, which takes the
-/// valence of each particle in contact.
-pub(crate) fn push_out(system: &mut System) {
+/// velocity inward. Returns the work of contact in the substep.
+pub(crate) fn push_out(system: &mut System) -> ContactWork {
     system.keep();
     if !system.scratch.contact.is_out {
         move_out(system, 0.0);
@@ -65,6 +70,8 @@ pub(crate) fn push_out(system: &mut System) {
         change(system, contact.corners, |_, v, share| *v -= taken * share);
     }
     system.scratch.contacts = contacts;
+    let (impulses, velocities) = (&system.scratch.impulses, &system.velocities);
+    impulses.work(&system.model.masses, velocities)
 }
 
 /// Moves the particles out of the colliders, in a method that goes on from where they are then, and adds what
@@ -318,19 +325,39 @@ fn pressed(system: &System, corners: Corners) -> Pressed {
 /// Moves particles out by a depth. Returns how far one of them was moved, at most.
 fn take_out(system: &mut System, contact: &Contact, depth: f64, per_s: f64) -> f64 {
     let corners = contact.corners;
-    let mut went = Vector::zeros();
+    // Where it is not known where a particle was, it was outside.
+    let mut went = contact.normal * -depth;
     if contact.friction > 0.0 || per_s > 0.0 {
         let [x, before] = [&system.positions, &system.scratch.before];
         let [from_s, to_s] = system.scratch.span_s;
         went = corners.mean(|corner| x[corner] - before[corner]);
         went -= contact.velocity * (to_s - from_s);
     }
-    let [way, speed] = contact.way_out(went, depth, per_s);
+    let [way, lifted, speed] = contact.way_out(went, depth, per_s);
     let share = change(system, corners, |x, v, share| {
         *x += way * share;
         *v += speed * share;
     });
+    if system.scratch.impulses.is_kept() && lifted != Vector::zeros() {
+        note_lifting(system, corners, lifted);
+    }
     share * length(way)
+}
+
+/// Notes the work of a move that ended where the corners are now, and gave them no velocity.
+fn note_lifting(system: &mut System, corners: Corners, lifted: Vector) {
+    // Back, and forth again to the same bits: a balance of energy moves nothing.
+    let mut ends = [Point::origin(); 3];
+    for (end, i) in ends.iter_mut().zip(corners.each()) {
+        *end = system.positions[i];
+    }
+    change(system, corners, |x, _, share| *x -= lifted * share);
+    for (i, end) in corners.each().zip(ends) {
+        let before_j = energy::at_j(system, i);
+        system.positions[i] = end;
+        let after_j = energy::at_j(system, i);
+        system.scratch.impulses.lift(after_j - before_j);
+    }
 }
 
 /// Changes each corner by its inverse mass, so that the middle changes by one in all. Returns the largest change.
@@ -345,11 +372,10 @@ fn change(
     for i in corners.each() {
         let share = corners.count as f64 * (system.model.inverse_masses[i] / sum);
         most = most.max(share);
-        let before_j = system.contact_j.map(|_| energy::at_j(system, i));
+        let before = system.velocities[i];
         change(&mut system.positions[i], &mut system.velocities[i], share);
-        if let (Some(sum_j), Some(before_j)) = (system.contact_j, before_j) {
-            system.contact_j = Some(sum_j - before_j + energy::at_j(system, i));
-        }
+        let impulses = &mut system.scratch.impulses;
+        impulses.note(i, system.velocities[i] - before);
     }
     most
 }

@@ -356,7 +356,7 @@ impl Stage {
         run.displaced(offset_m).map_err(|error| failed(&error))
     }
 
-    /// The shape at rest: by implicit steps with much drag, from a sheet that bulges a little.
+    /// The shape at rest: by implicit steps with much drag.
     fn shape_at_rest(&self, stop: &dyn Fn() -> bool) -> Result<Vec<Point>, End> {
         let backward_euler = implicit::Settings {
             tolerance: 1e-5,
@@ -366,10 +366,7 @@ impl Stage {
         scene.solver = Method::Implicit(backward_euler);
         scene.step_s = Some(REST_STEP_S);
         (scene.drag_per_s, scene.duration_s) = (20.0, 100.0);
-        let depth = |p: &Point| 0.01 * (3.0 * p.x).sin() * (2.0 * p.y).cos();
-        let bulged = self.positions.as_slice().iter();
-        let bulged = bulged.map(|p| Point::new(p.x, p.y, depth(p)));
-        let mut run = self.run(scene, 0, Some(&bulged.collect::<Vec<_>>()))?;
+        let mut run = self.run(scene, 0, None)?;
         let is_at_rest = |run: &Run| fastest_m_per_s(run.cloth().system()) < AT_REST_M_PER_S;
         take_steps(&mut run, stop, |run, _| is_at_rest(run))?;
         if !is_at_rest(&run) {

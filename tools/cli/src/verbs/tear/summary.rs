@@ -121,6 +121,16 @@ pub(super) fn body(body: &report::BodyGrid) -> String {
     )
 }
 
+/// The line of the summary about the ripple of a flat cloth; none of one that was given its shape.
+pub(super) fn ripple(run: &Run) -> Option<String> {
+    let ripple_m = Some(run.ripple_m()).filter(|ripple_m| *ripple_m > 0.0)?;
+    let up_to = three_digits(ripple_m);
+    let words = "so that it can buckle (ripple_m = 0 in a scene file: not)";
+    Some(format!(
+        "ripple: the flat cloth began up to {up_to} m out of its plane, {words}"
+    ))
+}
+
 /// The features that a scene uses, and which part of the work each is.
 pub(super) fn features(run: &Run) -> Vec<report::FeatureCost> {
     let (system, scene) = (run.cloth().system(), run.scene());

@@ -160,6 +160,7 @@ impl SceneFile {
         let mut faults = Vec::new();
         put(&mut scene.duration_s, self.seconds.as_deref());
         put(&mut scene.drag_per_s, self.drag_per_s.as_deref());
+        scene.ripple_m = self.ripple_m.as_deref().copied();
         match &self.gravity_m_per_s2 {
             Some(Gravity::Down(g)) => scene.gravity_m_per_s2 = frame.up.vector() * -**g,
             Some(Gravity::Vector(g)) => scene.gravity_m_per_s2 = g.vector(),
