@@ -139,6 +139,21 @@ fn each_method_counts_what_it_evaluates() {
     assert_eq!(chain.counters().force_evaluations, 11 + 40 + 10 + 2);
 }
 
+/// Contact moves particles before forces are summed, so these serve the next step too: with and without friction.
+#[test]
+fn contact_costs_no_second_sum_of_forces() {
+    for friction in [0.0, 0.3] {
+        let (_, mut lying) = loaded(6, Fabric::new(1e3), gravity_along_y(1.0));
+        let floor = Collider::plane(plane([0.0, 0.3, 0.0], Vector::y())).with_friction(friction);
+        let loads = onto(floor, &gravity_along_y(1.0));
+        lying.system_mut().set_loads(loads).expect("loads");
+        run(lying.system_mut(), Verlet, 1e-4, 10);
+        assert_eq!(lying.system().counters().force_evaluations, 11);
+        let lowest = lying.positions().iter().map(|x| x.y);
+        assert_eq!(lowest.fold(f64::INFINITY, f64::min), 0.3, "it lies there");
+    }
+}
+
 /// Without colliders, the end of a substep and the begin of the next are one pass.
 #[test]
 fn a_collider_that_nothing_meets_changes_no_bit_of_a_step() {

@@ -75,7 +75,11 @@ fn tables_replace_those_of_the_base() {
             "base": "flag",
             "gravity_m_per_s2": [0, 0, -1],
             "hold": [{ "vertices": [1, 5] }, { "along": [0.5, 1], "from_s": 0.5 }],
-            "collider": [{ "body": "rock.obj" }, { "point": [0, 0, -1], "normal": [0, 0, 1] }],
+            "collider": [
+                { "body": "rock.obj" },
+                { "point": [0, 0, -1], "normal": [0, 0, 1] },
+                { "centre": [0, 0, -1], "radius_m": 0.5, "friction": 0 },
+            ],
             "cut": [{ "rays": ["0,0,1:0,0,-1 0,1,1:0,0,-1"], "at_s": 0.2 }],
         }),
         None,
@@ -93,6 +97,8 @@ fn tables_replace_those_of_the_base() {
         scene.colliders[0].shape,
         ColliderShape::Body { .. }
     ));
+    let frictions = scene.colliders.iter().map(|it| it.friction);
+    assert!(frictions.eq([Scene::FRICTION, Scene::FRICTION, 0.0]));
     assert!(
         scene.wind.is_some() && scene.tearing.is_none(),
         "those of the flag"

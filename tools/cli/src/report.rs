@@ -175,6 +175,10 @@ pub(crate) struct BodyGrid {
     pub(crate) cell_m: f64,
     pub(crate) error_rms_m: f64,
     pub(crate) error_worst_m: f64,
+    /// How far the nearest vertex is from the skin at the end, negative inside.
+    pub(crate) nearest_vertex_m: f64,
+    /// The same of the middle of an edge.
+    pub(crate) nearest_middle_m: f64,
 }
 
 /// Energy in joules: what edges held as they tore, and the balance of all: what was

@@ -131,7 +131,7 @@ pub struct Implicit {
     /// piece misses.
     shift: Vec<Vector>,
     piece_masses: Vec<f64>,
-    /// The particles in close contact as the step began, the normals of what they touch, and the stiffness that
+    /// The particles in contact as the step began, the normals of what they touch, and the stiffness that
     /// keeps them out.
     touching: Vec<(usize, Vector, f64)>,
 }
@@ -438,8 +438,7 @@ impl Solver for Implicit {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         system.keep();
         system.scratch.is_fresh = false;
-        let is_close = system.model.loads.has_close_contact();
-        let touching = collide::touching(system).filter(|_| is_close);
+        let touching = collide::touching(system);
         refill(
             &mut self.touching,
             touching.map(|(particle, normal)| (particle, normal, 0.0)),

@@ -90,16 +90,14 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
     }
 }
 
-/// Takes as velocity what was moved, also by close contact.
+/// Takes as velocity what was moved, also by contact.
 pub(crate) fn finish(system: &mut System, dt_s: f64) {
     let per_s = 1.0 / dt_s;
     let moves = system.positions.iter().zip(&system.scratch.before);
     for (v, (x, before)) in system.velocities.iter_mut().zip(moves) {
         *v = (x - before) * per_s;
     }
-    if system.model.loads.has_close_contact() {
-        move_out(system, per_s);
-    }
+    move_out(system, per_s);
 }
 
 /// How far a particle moves in a substep without constraints, by its velocity, acceleration and inverse mass.

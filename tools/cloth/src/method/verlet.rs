@@ -110,12 +110,9 @@ impl Solver for Verlet {
         let before_w = system.scratch.damped_w;
         kick_and_drift(system, half_s, dt_s);
         // Forces are then those of where the step ends, and serve the next one.
-        let has_close_contact = system.model.loads.has_close_contact();
-        if has_close_contact {
-            system.scratch.impulses.is_halfway = true;
-            collide::move_out(system, 1.0 / dt_s);
-            system.scratch.impulses.is_halfway = false;
-        }
+        system.scratch.impulses.is_halfway = true;
+        collide::move_out(system, 1.0 / dt_s);
+        system.scratch.impulses.is_halfway = false;
         // The velocities at the end of the step, at which wind blows, as far as they are known in its
         // middle: by the accelerations at its beginning. They err by O(Δt²), and so the step by O(Δt³),
         // as without wind. (Those of the middle err by O(Δt).)
@@ -129,7 +126,7 @@ impl Solver for Verlet {
         let is_sane = accelerate(system, blows, Some(dt_s));
         let accelerations = &system.scratch.accelerations;
         kick(&system.model, accelerations, half_s, &mut system.velocities);
-        system.scratch.is_fresh = has_close_contact || system.model.loads.colliders.is_empty();
+        system.scratch.is_fresh = true;
         system.damped_j += half_s * (before_w + system.scratch.damped_w);
         Failure::unless(began_sane && is_sane)
     }

@@ -18,6 +18,9 @@ impl Scene {
     /// The ratio of length to rest length at which an edge tears in built-in scenes with tearing.
     pub const STRETCH_RATIO: f64 = 1.5;
 
+    /// The coefficient of friction of an obstacle for which a scene file gives none: that of cotton on most things.
+    pub const FRICTION: f64 = 0.3;
+
     /// The built-in scenes by their names, each for a mesh with a frame.
     pub const PRESETS: [(&str, Preset); 5] = [
         ("hang", Scene::hang),

@@ -9,6 +9,7 @@ use crate::method::solver::Quality;
 use crate::method::stability::frequency_bound;
 use crate::method::xpbd::Pbd;
 use crate::method::{Method, Softness};
+use crate::system::body::Body;
 use crate::system::load::ColliderShape;
 use crate::text::{count, short, three_digits, two_digits};
 
@@ -341,12 +342,20 @@ fn inside(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warning> {
         let first = (wording.vertex)(within.next()?.0);
         let vertices = count(1 + within.count(), "vertex begins", "vertices begin");
         let sentence = format!(
-            "{vertices} inside of the body of collider {number}, such as {first}: from deep inside \
-             there is no way out"
+            "{vertices} inside of {}, such as {first}: from deep inside there is no way out",
+            body_of(number, body)
         );
         let help = "move the mesh or the body in its file";
         Some(Warning::new("W-SIM-INSIDE", sentence, help))
     })
+}
+
+/// A body in words: by the name of its file, where it has one.
+fn body_of(number: usize, body: &Body) -> String {
+    match body.name() {
+        Some(name) => format!("the body `{name}`"),
+        None => format!("the body of collider {number}"),
+    }
 }
 
 /// All vertices are stronger than the cloth: strengths are those of vertices, and on a coarse mesh a small region

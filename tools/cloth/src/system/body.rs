@@ -57,6 +57,7 @@ const OFFSETS: [f64; 3] = [0.381_966, 0.267_949, 0.414_214];
 /// ```
 #[derive(Clone, PartialEq)]
 pub struct Body {
+    name: Option<String>,
     points: Vec<Point>,
     /// Anticlockwise as seen from outside.
     faces: Vec<[u32; 3]>,
@@ -97,6 +98,7 @@ impl Body {
         let mut distances = grid.distances(&surface, BAND);
         grid.sign(&surface, &mut distances)?;
         let mut body = Body {
+            name: None,
             points: points.to_vec(),
             faces: surface.faces[..faces.len()].to_vec(),
             grid,
@@ -106,6 +108,21 @@ impl Body {
         };
         body.measure(&surface);
         Ok(body)
+    }
+
+    /// Names the body, for warnings.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Body {
+        Body {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// Returns the name of the body, if it has one: in a scene that of its file.
+    #[must_use]
+    pub fn name(&self) -> Option<&str> {
+        self.name.as_deref()
     }
 
     /// Returns the distance of a point from the surface in metres, as the grid has it: negative inside. Beyond

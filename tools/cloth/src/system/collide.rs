@@ -33,7 +33,7 @@ pub(crate) fn touching(system: &System) -> impl Iterator<Item = (usize, Vector)>
     contacts.filter_map(|contact| Some((contact.corners.particle()?, contact.normal)))
 }
 
-/// Notes where a substep begins, if a collider asks for it; and with which velocities, if the work of contact is to be
+/// Notes where a substep begins, if there are colliders; and with which velocities, if the work of contact is to be
 /// known.
 pub(crate) fn begin(system: &mut System, substep_s: f64, is_observed: bool) {
     system.scratch.span_s = [system.elapsed_s, system.elapsed_s + substep_s];
@@ -45,7 +45,7 @@ pub(crate) fn begin(system: &mut System, substep_s: f64, is_observed: bool) {
         .scratch
         .impulses
         .begin(&system.velocities, is_observed);
-    if system.model.loads.has_close_contact() {
+    if !system.model.loads.colliders.is_empty() {
         system.scratch.before.clone_from(&system.positions);
     }
 }
@@ -325,14 +325,10 @@ fn pressed(system: &System, corners: Corners) -> Pressed {
 /// Moves particles out by a depth. Returns how far one of them was moved, at most.
 fn take_out(system: &mut System, contact: &Contact, depth: f64, per_s: f64) -> f64 {
     let corners = contact.corners;
-    // Where it is not known where a particle was, it was outside.
-    let mut went = contact.normal * -depth;
-    if contact.friction > 0.0 || per_s > 0.0 {
-        let [x, before] = [&system.positions, &system.scratch.before];
-        let [from_s, to_s] = system.scratch.span_s;
-        went = corners.mean(|corner| x[corner] - before[corner]);
-        went -= contact.velocity * (to_s - from_s);
-    }
+    let [x, before] = [&system.positions, &system.scratch.before];
+    let [from_s, to_s] = system.scratch.span_s;
+    let went = corners.mean(|corner| x[corner] - before[corner]);
+    let went = went - contact.velocity * (to_s - from_s);
     let [way, lifted, speed] = contact.way_out(went, depth, per_s);
     let share = change(system, corners, |x, v, share| {
         *x += way * share;

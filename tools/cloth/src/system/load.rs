@@ -133,12 +133,6 @@ impl Loads {
         }
         Ok(())
     }
-
-    /// Whether contact asks where substeps begin.
-    pub(crate) fn has_close_contact(&self) -> bool {
-        let mut colliders = self.colliders.iter();
-        colliders.any(|collider| collider.friction > 0.0 || collider.is_body())
-    }
 }
 
 impl Wind {

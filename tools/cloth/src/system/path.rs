@@ -172,11 +172,12 @@ impl Pose {
         Matrix3x4::from_columns(&[x, y, z, self.to_world(Point::origin()).coords])
     }
 
-    /// The point of the body that is at a place.
-    pub(crate) fn to_body(self, x: Point) -> Point {
+    /// Returns the point of the body, as it was made, that is at a place.
+    #[must_use]
+    pub fn to_body(&self, x: Point) -> Point {
         let back = Pose {
             turn: -self.turn,
-            ..self
+            ..*self
         };
         self.about + back.turned(x - self.about - self.offset)
     }

@@ -2,7 +2,7 @@
 
 use tearmesh::geometry::{Plane, Point, Ray};
 use tearmesh::{CutLayers, Edits, Mesh, Positions, Scissor, VertexId};
-use tearmesh_cloth::scene::{Frame, Opening, SwayingWind};
+use tearmesh_cloth::scene::{Frame, Opening, Scene, SwayingWind};
 use tearmesh_cloth::{
     ClothBuffers, Collider, Event, HandId, InputError, InputLog, Simulation, StepError, Wind,
     Wounds, digest,
@@ -415,7 +415,7 @@ impl Start {
             let up = frame.up.vector();
             let below = frame.point([0.0; 3]) - up * (0.5 * frame.size_m());
             let floor = Plane::new(below, up).map(Collider::plane);
-            colliders.extend(floor);
+            colliders.extend(floor.map(|floor| floor.with_friction(Scene::FRICTION)));
         }
         opening.def.is_recorded = true;
         Ok(Start {

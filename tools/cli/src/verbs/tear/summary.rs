@@ -2,8 +2,9 @@
 
 use std::io::{self, Write};
 
+use tearmesh::Point;
 use tearmesh_cloth::scene::{Run, TearLog};
-use tearmesh_cloth::{Collider, ColliderShape, EnergyBalance};
+use tearmesh_cloth::{Body, Collider, ColliderShape, EnergyBalance, Pose};
 
 use crate::report;
 use crate::say::{count, pieces, short, three_digits};
@@ -96,28 +97,56 @@ pub(super) fn bodies(run: &Run) -> Vec<report::BodyGrid> {
     let grid = |collider: &Collider| match &collider.shape {
         ColliderShape::Body {
             body, thickness_m, ..
-        } => Some(report::BodyGrid {
-            thickness_m: *thickness_m,
-            cell_m: body.cell_m(),
-            error_rms_m: body.error_rms_m(),
-            error_worst_m: body.error_worst_m(),
-        }),
+        } => {
+            let pose = collider.pose(run.elapsed_s());
+            let [nearest_vertex_m, nearest_middle_m] = clearances_m(run, body, &pose);
+            Some(report::BodyGrid {
+                thickness_m: *thickness_m,
+                cell_m: body.cell_m(),
+                error_rms_m: body.error_rms_m(),
+                error_worst_m: body.error_worst_m(),
+                nearest_vertex_m,
+                nearest_middle_m,
+            })
+        }
         _ => None,
     };
     run.scene().colliders.iter().filter_map(grid).collect()
 }
 
+/// How far the nearest vertex, and the nearest middle of an edge, are from a body. Between its ends, which are kept
+/// away, an edge is a chord of what it lies on.
+fn clearances_m(run: &Run, body: &Body, pose: &Pose) -> [f64; 2] {
+    let (mesh, positions) = (run.mesh(), run.cloth().positions());
+    let distance_m = |x: Point| body.distance_m(pose.to_body(x));
+    let vertices = positions.iter().map(|&x| distance_m(x));
+    let edges = mesh.edges();
+    let middles = edges.map(|h| {
+        let [from, to] = [mesh.origin(h), mesh.target(h)].map(|end| positions[end.index()]);
+        distance_m(from + (to - from) / 2.0)
+    });
+    [
+        vertices.fold(f64::INFINITY, f64::min),
+        middles.fold(f64::INFINITY, f64::min),
+    ]
+}
+
 /// The line of the summary about a body.
 pub(super) fn body(body: &report::BodyGrid) -> String {
-    let [thickness, cell, rms, worst] = [
+    let [thickness, middle, cell, rms, worst] = [
         body.thickness_m,
+        body.nearest_middle_m.abs(),
         body.cell_m,
         body.error_rms_m,
         body.error_worst_m,
     ]
     .map(three_digits);
+    let ended = match body.nearest_middle_m < 0.0 {
+        true => format!("middles of edges ended up to {middle} m inside"),
+        false => format!("middles of edges ended at least {middle} m away"),
+    };
     format!(
-        "body: vertices stay {thickness} m away; a grid with cells of {cell} m, off by {rms} m (rms) and at most {worst} m"
+        "body: vertices stay {thickness} m away, {ended}; a grid with cells of {cell} m, off by {rms} m (rms) and at most {worst} m"
     )
 }
 

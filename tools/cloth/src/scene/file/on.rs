@@ -366,7 +366,8 @@ impl ColliderTable {
                 Collider::sphere(centre.point(), **radius_m)
             }
         };
-        Ok(collider.with_friction(self.friction.as_deref().copied().unwrap_or(0.0)))
+        let friction = self.friction.as_deref().copied();
+        Ok(collider.with_friction(friction.unwrap_or(Scene::FRICTION)))
     }
 
     /// The body in a file.
@@ -402,7 +403,7 @@ impl ColliderTable {
         };
         Ok(Collider {
             shape: ColliderShape::Body {
-                body: Arc::new(body),
+                body: Arc::new(body.named(name)),
                 thickness_m,
                 motion: RigidMotion {
                     moves: path(&self.moves, 1.0),
