@@ -2,6 +2,7 @@
 //! depend on the method.
 
 mod sheets;
+mod warned;
 
 use tearmesh::Vector;
 use tearmesh_cloth::Method;
@@ -132,10 +133,17 @@ fn a_crushed_sheet_makes_no_energy_at_any_step() {
     assert!(shaken, "the guard has something to do");
 }
 
-/// What is estimated of XPBD's softness is what a sheet droops by, and the step that is advised leaves little of it.
+/// What is estimated of XPBD's softness is what a sheet droops by beside Verlet's method at a quarter of its step, and
+/// the step that is advised leaves little of it.
 #[test]
 fn xpbd_is_as_soft_as_is_said() {
-    for (sweeps, part, least) in [(1, 1.0, 0.5), (1, 0.5, 0.1), (1, 0.25, 0.02), (2, 1.0, 0.2)] {
+    for (sweeps, part, least) in [
+        (1, 4.0, 0.5),
+        (1, 1.0, 0.5),
+        (1, 0.5, 0.1),
+        (1, 0.25, 0.02),
+        (2, 1.0, 0.2),
+    ] {
         let drooped = |solver: Method, step_s: Option<f64>| {
             let (mesh, positions) = sheets::grid(12, 0.0);
             let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
@@ -160,8 +168,9 @@ fn xpbd_is_as_soft_as_is_said() {
             let own_s = run.step_s();
             (droop, run.softness(), [own_s, wanted_s.unwrap_or(own_s)])
         };
-        let (exact, none, _) = drooped(Method::Verlet, None);
+        let (_, none, [verlet_s, _]) = drooped(Method::Verlet, None);
         assert_eq!(none, None);
+        let (exact, ..) = drooped(Method::Verlet, Some(verlet_s / 4.0));
         let xpbd = Method::Xpbd(Xpbd::new(1, sweeps));
         let [own_s, _] = drooped(Method::Xpbd(Xpbd::new(1, 1)), None).2;
         let (droop, softness, [_, wanted_s]) = drooped(xpbd.clone(), Some(part * own_s));
@@ -170,6 +179,6 @@ fn xpbd_is_as_soft_as_is_said() {
         assert!(softness > least && measured > least);
         assert!((0.6..1.7).contains(&(softness / measured)));
         let (droop, ..) = drooped(xpbd, Some(wanted_s));
-        assert!(droop / exact - 1.0 < 0.08, "{}", droop / exact - 1.0);
+        assert!(droop / exact - 1.0 < 0.02, "{}", droop / exact - 1.0);
     }
 }

@@ -176,7 +176,7 @@ impl Method {
             (1..xpbd.sweeps).fold(tau / 2.0, |extra, _| extra * (left / 2.0))
         };
         let mut shorter_s = step_s;
-        while extra(shorter_s) > Softness::TOLERABLE {
+        while extra(shorter_s) > TOLERABLE_ERROR {
             shorter_s *= 0.95;
         }
         Some(Softness {
@@ -206,6 +206,9 @@ fn reach(sweeps: u32, fraction: f64) -> f64 {
     (f64::from(sweeps.max(1)) * fraction).sqrt()
 }
 
+/// The error that a method may have by its own formula and no warning, as a fraction.
+pub(crate) const TOLERABLE_ERROR: f64 = 0.01;
+
 /// How much softer a cloth is left than its fabric.
 pub(crate) struct Softness {
     /// The mean excess stretch of the edges of a cloth that hangs at rest, as a fraction of the
@@ -213,9 +216,4 @@ pub(crate) struct Softness {
     pub(crate) extra: f64,
     /// The longest step in seconds at which the excess is tolerable.
     pub(crate) step_s: f64,
-}
-
-impl Softness {
-    /// The excess stretch up to which no warning is given, as a fraction.
-    pub(crate) const TOLERABLE: f64 = 0.05;
 }

@@ -1,17 +1,17 @@
 //! Reasons to doubt a run, in words: what is known before its first step, and what showed in the steps that it took.
 
+mod methods;
+
 use std::fmt;
 
 use super::frame::Frame;
 use super::run::Run;
 use super::run::gain::EnergyGain;
-use crate::method::solver::Quality;
+use crate::method::Method;
 use crate::method::stability::frequency_bound;
-use crate::method::xpbd::Pbd;
-use crate::method::{Method, Softness};
 use crate::system::body::Body;
 use crate::system::load::ColliderShape;
-use crate::text::{count, short, three_digits, two_digits};
+use crate::text::{count, short, two_digits};
 
 /// A reason to doubt what a run shows of its cloth. Its text is one sentence.
 ///
@@ -118,11 +118,7 @@ impl Warning {
         warnings.extend(size(frame));
         warnings.extend(endless(run, wording));
         warnings.extend(late(run, wording));
-        warnings.extend(soft(run, wording));
-        if let Method::Pbd(pbd) = &run.scene().solver {
-            warnings.extend(coarse(run, pbd, wording));
-            warnings.push(rigid(run, wording));
-        }
+        warnings.extend(methods::before(run, wording));
         warnings.extend(pinned(run));
         warnings.extend(small_balls(run));
         warnings.extend(inside(run, wording));
@@ -143,10 +139,8 @@ impl Warning {
     #[must_use]
     pub fn after(run: &Run, wording: &Wording<'_>) -> Vec<Warning> {
         let mut warnings = Vec::new();
-        warnings.extend(limiter(run, wording));
         warnings.extend(passed_balls(run, wording));
-        warnings.extend(energy(run, wording));
-        warnings.extend(damped(run, wording));
+        warnings.extend(methods::after(run, wording));
         warnings
     }
 }
@@ -213,62 +207,6 @@ fn late(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warning> {
         );
         Warning::new("W-SCENE-LATE", sentence, help)
     })
-}
-
-/// XPBD leaves the cloth softer than its fabric by more than is tolerable.
-fn soft(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
-    let softness = run
-        .scene()
-        .solver
-        .softness(run.cloth().system(), run.step_s());
-    let softness = softness.filter(|softness| softness.extra > Softness::TOLERABLE)?;
-    let step = short(run.step_s());
-    let extra = short((softness.extra * 100.0).round());
-    let (suited, most) = (
-        two_digits(softness.step_s),
-        short(Softness::TOLERABLE * 100.0),
-    );
-    let sentence = format!(
-        "xpbd with a step of {step} s leaves the cloth too soft: hanging cloth stretches {extra} % \
-         too far, and some edges far more"
-    );
-    let (dt, solver) = (wording.step, wording.solver);
-    let help = format!("{dt} {suited} for {most} %, or {solver} verlet, which is exact at rest");
-    Some(Warning::new("W-SIM-SOFT", sentence, help))
-}
-
-/// PBD takes steps that are too long for the mesh, so that cloth is stretched by its own weight.
-fn coarse(run: &Run, pbd: &Pbd, wording: &Wording<'_>) -> Option<Warning> {
-    let scene = run.scene();
-    let speed_m_per_s = scene.fabric.speed_m_per_s(scene.areal_density_kg_per_m2);
-    let system = run.cloth().system();
-    let wanted_s = scene.solver.wanted_step_s(system, speed_m_per_s);
-    let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s)?;
-    let step = short(run.step_s());
-    let sweeps = count(pbd.sweeps as usize, "sweep", "sweeps");
-    let times = short((run.step_s() / wanted_s * 10.0).round() / 10.0);
-    let and = scene.tearing.map_or("", |_| ", and may tear");
-    let sentence = format!(
-        "a step of {step} s with {sweeps} is {times} times too long for so fine a mesh: hanging \
-         cloth stretches too far{and}"
-    );
-    let (dt, wanted, solver) = (wording.step, two_digits(wanted_s), wording.solver);
-    let help = format!("{dt} {wanted}, or {solver} verlet");
-    Some(Warning::new("W-SIM-COARSE", sentence, help))
-}
-
-/// PBD treats edges as rigid, whatever the fabric.
-fn rigid(run: &Run, wording: &Wording<'_>) -> Warning {
-    let stiffness = short(run.scene().fabric.stretch_n_per_m());
-    let sentence = format!(
-        "pbd treats edges as rigid: their stretch depends on the step and the number of sweeps, not \
-         on the {stiffness} N/m of the fabric"
-    );
-    let solver = wording.solver;
-    let help = format!(
-        "{solver} verlet, or xpbd, whose edges are as stiff as the fabric's at short steps"
-    );
-    Warning::note("W-SIM-RIGID", sentence, help)
 }
 
 /// In a scene that tears, a hold pins single vertices, whose strain grows as the mesh gets finer.
@@ -372,99 +310,3 @@ fn strong(run: &Run) -> Option<Warning> {
     let help = "a finer mesh, or smaller regions of strength";
     (least > 1.0 && least.is_finite()).then(|| Warning::note("W-SIM-STRONG", sentence, help))
 }
-
-/// Provot's limiter could not hold its limit, since held vertices were too far apart.
-fn limiter(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
-    let Quality::Limiter {
-        steps_infeasible: some @ 1..,
-        excess_max,
-        ..
-    } = run.quality()
-    else {
-        return None;
-    };
-    let limit = match &run.scene().solver {
-        Method::Provot(limiter) => limiter.stretch_ratio_max,
-        _ => 1.0,
-    };
-    let (all, most) = (of_steps(run), short(limit + excess_max));
-    let sentence = format!(
-        "in {some} of {all}, the holds were too far apart for the limiter: edges stayed up to {most} \
-         times their rest length, above its limit of {limit}"
-    );
-    let solver = wording.solver;
-    let help = format!("a larger limit_ratio in [solver] of a scene file, or {solver} verlet");
-    Some(Warning::new("W-SIM-LIMIT", sentence, help))
-}
-
-/// How many steps were taken; where they were divided, and the method had each part, how many parts.
-fn of_steps(run: &Run) -> String {
-    let substeps = run.cloth().system().counters().substeps;
-    match substeps == run.tally().steps {
-        true => count(substeps as usize, "step", "steps"),
-        false => count(substeps as usize, "substep", "substeps"),
-    }
-}
-
-/// The method made energy out of nothing. What a run that has exploded shows of tears is not worth a word.
-fn energy(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
-    let gain = run.energy_gain()?;
-    let since = short(gain.since_s);
-    let much = if run.quality().has_limited() {
-        format!("energy out of nothing, from {since} s on")
-    } else {
-        let [made, put_in] = [gain.made_j, gain.put_in_j].map(three_digits);
-        format!("{made} J out of nothing, from {since} s on, where {put_in} J were put in")
-    };
-    let so = match Warning::has_exploded(run) {
-        true => "",
-        false => ": what tore since then tore partly because of it",
-    };
-    let others = match run.scene().solver {
-        Method::Verlet => "implicit",
-        Method::Implicit(_) => "verlet",
-        _ => "verlet or implicit",
-    };
-    let (solver, dt, half) = (wording.solver, wording.step, two_digits(run.step_s() / 2.0));
-    let help = format!("{solver} {others}, {dt} {half}, or a larger drag_per_s in a scene file");
-    Some(Warning::new(
-        "W-SIM-ENERGY",
-        format!("the method made {much}{so}"),
-        help,
-    ))
-}
-
-/// The method lost more than a tenth of the energy that went into motion. Of what Provot's limiter takes
-/// nothing is known.
-fn damped(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
-    if run.quality().has_limited() {
-        return None;
-    }
-    let balance = run.energy_balance();
-    let (lost_j, put_in_j) = (-balance.made_j(), balance.put_in_j());
-    // A sheet in its frame holds most of what was put in, and rings with the rest.
-    let moving_j = put_in_j - balance.elastic_j;
-    let shows = put_in_j >= LEAST_J && lost_j > DISSIPATED * moving_j;
-    let (method, [lost, moving]) = (
-        run.scene().solver.name(),
-        [lost_j, moving_j].map(three_digits),
-    );
-    let sentence = format!(
-        "{method} lost {lost} J of the {moving} J that went into motion, which fades too soon"
-    );
-    let solver = wording.solver;
-    let or = match run.scene().solver {
-        Method::Verlet => String::new(),
-        Method::Implicit(_) => {
-            format!(", `order = \"2\"` in [solver] of a scene file, or {solver} verlet")
-        }
-        _ => format!(", or {solver} verlet"),
-    };
-    let (dt, half) = (wording.step, two_digits(run.step_s() / 2.0));
-    shows.then(|| Warning::note("W-SIM-DAMPED", sentence, format!("{dt} {half}{or}")))
-}
-
-/// The part of that energy that a method may lose unsaid, and the energy in joules below which nothing is
-/// said of it.
-const DISSIPATED: f64 = 0.1;
-const LEAST_J: f64 = 1e-6;

@@ -185,6 +185,16 @@ impl Held {
         self.since.map_or(NOTHING, |_| &self.set)
     }
 
+    /// Whether it holds from the beginning.
+    pub(in crate::scene) fn is_first(&self) -> bool {
+        self.hold.from_s <= 0.0
+    }
+
+    /// The vertices that are held, or are to be.
+    pub(in crate::scene) fn vertices(&self) -> impl Iterator<Item = VertexId> {
+        self.set.vertices().iter().copied()
+    }
+
     /// How many of its vertices are joined to no other of them. The strain around such a pin grows as
     /// 1/h with the edge length h of the mesh; the strain around a clamp does not.
     pub(in crate::scene) fn pins(&self, mesh: &Mesh) -> usize {
