@@ -50,6 +50,7 @@ mod strain;
 #[path = "../support/mod.rs"]
 #[allow(dead_code, reason = "each has its users in some of the crates")]
 mod support;
+mod sway;
 mod tables;
 mod tear_log;
 mod tearing;

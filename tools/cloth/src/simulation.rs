@@ -43,7 +43,7 @@ use crate::cloth::{Cloth, ClothError};
 use crate::method::solver::{Solver, StepError};
 use crate::system::System;
 use crate::system::balance::Balance;
-use crate::system::load::{Loads, Wind};
+use crate::system::load::Wind;
 
 /// A cloth with its mesh, in motion.
 ///
@@ -678,12 +678,7 @@ impl Simulation {
     ///
     /// [`InputError::Number`] if a number of the wind cannot be used.
     pub fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), InputError> {
-        let system = self.cloth.system_mut();
-        let loads = Loads {
-            wind,
-            ..system.loads().clone()
-        };
-        let set = system.set_loads(loads);
+        let set = self.cloth.system_mut().set_wind(wind);
         set.map_err(|error| InputError::Number(error.setting, error.given))?;
         let numbers = wind.map(|wind| {
             let velocity: [f64; 3] = wind.velocity_m_per_s.into();

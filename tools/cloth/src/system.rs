@@ -39,7 +39,7 @@ use self::counters::Counters;
 use self::error::{SettingError, SystemError};
 use self::guard::Guard;
 use self::incidence::room_for;
-use self::load::Loads;
+use self::load::{Loads, Wind};
 use self::model::{Model, Recorded};
 use self::path::Path;
 use self::triangle::Triangle;
@@ -490,6 +490,23 @@ impl System {
         self.scratch.is_fresh = false;
         self.scratch.lose_contact();
         self.model.loads = loads;
+        Ok(())
+    }
+
+    /// Has another wind blow, or none. Other loads stay, and so do the distances from colliders, which no wind changes: a
+    /// wind that sways would otherwise have every particle and face tested against every body in each step.
+    ///
+    /// # Errors
+    ///
+    /// [`SettingError`] if a number of the wind is not finite, or is negative where it must not be.
+    pub(crate) fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), SettingError> {
+        wind.as_ref().map_or(Ok(()), Wind::check)?;
+        // All forces, and not only those of wind: the ones that are kept are damped by the velocities in the middle of a
+        // step, and the next step damps by those at its beginning.
+        self.scratch.is_fresh = false;
+        // An implicit step begins without contacts, as it does after any change of loads.
+        self.scratch.contacts.clear();
+        self.model.loads.wind = wind;
         Ok(())
     }
 
