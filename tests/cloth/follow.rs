@@ -6,14 +6,14 @@ use tearmesh::{
     VertexId, mend, shapes, split,
 };
 use tearmesh_cloth::{
-    BendRemoval, Bending, Buckling, Cloth, Constraint, Fabric, Stretch, Tear, Tearing, Threshold,
-    TornStiffness, Unstable, Xpbd, energy, frequency_bound,
+    BendRemoval, Bending, Buckling, Cloth, Constraint, Fabric, Frequency, Stretch, Tear, Tearing,
+    Threshold, TornStiffness, Unstable, Verlet, Xpbd, energy, frequency_bound, recommended_step_s,
 };
 
 use crate::parts::cloths::{Done, bent, cloth, edit, momentum, of_edges, split_off};
 use crate::parts::vibration::rayleigh_quotient;
 use crate::parts::woven::of_moduli;
-use crate::parts::{gravity, method, near, shake, v};
+use crate::parts::{gravity, method, near, shake, state, v};
 use crate::random::Random;
 
 /// The ends of a constraint with its rest length, but for the last bits, which depend on the end that
@@ -102,8 +102,13 @@ pub(crate) fn check_anew(mesh: &Mesh, cloth: &Cloth, fabric: Fabric, bends: bool
     let corner = |h: HalfEdgeId| cloth.rest_corners()[h.index()];
     let rest = |f: FaceId| f.half_edges().map(corner);
     let now = Positions::new(cloth.positions().to_vec()).expect("finite");
-    let anew = Cloth::with_rest(mesh, &now, corners, masses, fabric).expect("a cloth made anew");
-    let [triangles, others] = [cloth, &anew].map(|cloth| cloth.system().triangles());
+    let mut anew =
+        Cloth::with_rest(mesh, &now, corners, masses, fabric).expect("a cloth made anew");
+    let mut damped = cloth.clone();
+    for cloth in [&mut damped, &mut anew] {
+        frequency_bound(cloth.system_mut()); // Which has its triangles damped.
+    }
+    let [triangles, others] = [&damped, &anew].map(|cloth| cloth.system().triangles());
     assert_eq!(triangles, others);
     let woven = fabric.orthotropic.map_or(0, |_| mesh.face_count());
     assert_eq!(triangles.len(), woven);
@@ -250,6 +255,24 @@ fn made_j(cloth: &Cloth, edits: &Edits, before: &[f64], torn: TornStiffness) -> 
     split.torn.iter().zip(before).map(of).sum()
 }
 
+/// A copy of a cloth that takes in all of its constraints anew before its next step.
+fn taken_in_anew(cloth: &Cloth) -> Cloth {
+    let mut anew = cloth.clone();
+    let damping_s = anew.system().damping_s();
+    anew.system_mut().set_damping(damping_s).expect("usable");
+    anew
+}
+
+/// All that steps go by, as far as it shows: the bound of frequencies, and a step of velocity Verlet that is so long
+/// that some particles are carried.
+fn shown(mut cloth: Cloth) -> (Frequency, bool, (Vec<Point>, Vec<Vector>)) {
+    let system = cloth.system_mut();
+    let bound = frequency_bound(system);
+    system.when_unstable(Unstable::Allow);
+    let is_taken = system.step(&mut Verlet, 3.0 / bound.omega_rad_per_s);
+    (bound, is_taken.is_ok(), state(system))
+}
+
 /// By halves a split makes no energy, and by whole copies what the torn links store.
 #[test]
 fn a_running_cloth_follows_every_edit_as_if_made_anew() {
@@ -290,8 +313,10 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
                 law: Buckling::new(0.6 + 0.01 * (seed - 90) as f64).expect("a law"),
             });
         }
+        fabric.damping_s = [0.0, 2e-3, 0.1][seed as usize % 3];
         let triangles_alone = fabric.stretch == Stretch::Slack && !with_bends;
         let mut cloth = shaken(&mesh, &positions, fabric, &mut random);
+        let mut suited_s = recommended_step_s(cloth.system_mut());
         check(&mesh, &cloth, bends);
         let (mut tear, mut strengths) = tearing(&mesh, &cloth, seed);
         let mut edits = Edits::new();
@@ -325,6 +350,16 @@ fn a_running_cloth_follows_every_edit_as_if_made_anew() {
             for (now, moving) in now.iter().zip(&moving) {
                 near(now.to_f64(), moving.to_f64(), 1e-15);
             }
+
+            // What follows edits is what is summed up anew, to the bit; but the step that suits gets no shorter.
+            let mut anew = taken_in_anew(&cloth);
+            assert_eq!(shown(cloth.clone()), shown(anew.clone()), "{seed}");
+            let mut held = cloth.clone();
+            frequency_bound(held.system_mut());
+            held.system_mut().hold(seed as usize % mesh.vertex_count());
+            assert_eq!(shown(held.clone()), shown(taken_in_anew(&held)), "{seed}");
+            suited_s = suited_s.max(recommended_step_s(anew.system_mut()));
+            assert_eq!(recommended_step_s(cloth.system_mut()), suited_s, "{seed}");
 
             // The bound holds for the cloth as it is now.
             let known = frequency_bound(cloth.system_mut()).omega_rad_per_s;

@@ -302,6 +302,7 @@ impl System {
     pub fn set_buckling(&mut self, buckling: Option<Buckling>) {
         self.is_no_cloth();
         self.model.bend.law = buckling;
+        self.guard.mark_all(self.positions.len());
         self.rebuilt();
     }
 
@@ -477,6 +478,7 @@ impl System {
         let model = &mut self.model;
         model.inverse_masses[particle] =
             model::inverse(model.masses[particle], model.held[particle]);
+        self.guard.changed.mark(particle);
         self.touched();
     }
 
@@ -521,6 +523,7 @@ impl System {
     pub fn set_damping(&mut self, time_s: f64) -> Result<(), SettingError> {
         SettingError::unless_at_least_0("damping_s", time_s)?;
         self.model.damping_s = time_s;
+        self.guard.mark_all(self.positions.len());
         self.rebuilt();
         Ok(())
     }

@@ -106,7 +106,7 @@ pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
 /// Costs a pass over all constraints if something has changed, and over all triangles.
 pub fn frequency_bound(system: &mut System) -> Frequency {
     reach_out(system);
-    system.guard.frequency
+    system.guard.frequency(&system.model)
 }
 
 /// Returns the largest step in seconds that is taken whole by a method with this limit of ω Δt, which
@@ -123,13 +123,9 @@ fn reach_out(system: &mut System) {
     system.guard.reach_out(&system.model, &system.positions);
 }
 
-/// Computes the damping of springs, if masses or stiffness have changed.
+/// Computes the damping of springs where masses or stiffness have changed.
 fn damp(system: &mut System) {
-    let model = &mut system.model;
-    if !system.guard.is_known {
-        model.stretch.damp(model.damping_s, &model.inverse_masses);
-        model.triangles.damp(model.damping_s, &model.inverse_masses);
-    }
+    system.guard.damp(&mut system.model);
 }
 
 /// The largest step in seconds that is taken whole by this method with the present wind, where of that of the

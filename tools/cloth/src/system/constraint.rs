@@ -11,7 +11,7 @@
 
 use crate::system::bend::Buckling;
 use crate::system::damping;
-use crate::system::incidence::{Incidence, room_for};
+use crate::system::incidence::{Dirty, Incidence, room_for};
 
 /// The id of a constraint within its family. It is stable until the constraint is removed; a later
 /// constraint may then reuse it.
@@ -184,6 +184,9 @@ impl Constraints {
         let colour = &mut self.colours[colour];
         colour.stiffness[i] = stiffness_n_per_m;
         colour.compliance[i] = 1.0 / stiffness_n_per_m;
+        for end in colour.ends[i] {
+            self.lists.changed.mark(end as usize);
+        }
     }
 
     /// Changes the stiffness of a constraint, and the force that it remembers in proportion.
@@ -204,15 +207,24 @@ impl Constraints {
         self.colours[colour].damping[i]
     }
 
-    /// Computes the damping of all constraints by the present masses.
-    pub(crate) fn damp(&mut self, time_s: f64, inverse_masses: &[f64]) {
-        for colour in &mut self.colours {
-            let springs = colour.ends.iter().zip(&colour.stiffness);
-            for ((&[a, b], &stiffness), damping) in springs.zip(&mut colour.damping) {
-                let w = inverse_masses[a as usize] + inverse_masses[b as usize];
-                *damping = damping::coefficient(time_s, stiffness, w);
-            }
+    /// Computes the damping of the constraints of a particle by the present masses.
+    pub(crate) fn damp(&mut self, particle: usize, time_s: f64, inverse_masses: &[f64]) {
+        for (id, _) in self.lists.of(particle) {
+            let [colour, i] = self.slots[id].map(|index| index as usize);
+            let colour = &mut self.colours[colour];
+            let [a, b] = colour.ends[i].map(|end| inverse_masses[end as usize]);
+            colour.damping[i] = damping::coefficient(time_s, colour.stiffness[i], a + b);
         }
+    }
+
+    /// The particles whose constraints changed since they were taken over.
+    pub(crate) fn changed(&mut self) -> &mut Dirty {
+        &mut self.lists.changed
+    }
+
+    /// The place of a constraint among those of its particles in every sweep: no two of one particle share it.
+    pub(crate) fn colour(&self, id: ConstraintId) -> usize {
+        self.slot(id).0
     }
 
     /// The share of those that are damped by less than their stiffness times `time_s`, of all that are damped.
@@ -397,7 +409,9 @@ mod tests {
             constraints.remove(id);
             expected.retain(|(other, _)| *other != id);
         }
+        constraints.changed().clear();
         constraints.swap_remove_particle(0);
+        assert_eq!(constraints.changed().list(), [0]);
         for end in expected.iter_mut().flat_map(|(_, ends)| ends) {
             *end %= 6;
         }

@@ -106,6 +106,31 @@ impl Model {
         self.triangles.each_spring(reach, visit);
     }
 
+    /// Visits those springs of a particle: their place in that order, as far as springs of one particle go, the
+    /// other particle, and the numbers.
+    pub(crate) fn springs_at(
+        &self,
+        particle: usize,
+        reach: f64,
+        mut visit: impl FnMut([usize; 2], usize, [f64; 2]),
+    ) {
+        let stretch = |place, other, numbers| visit([0, place], other, numbers);
+        pair::springs_at(&self.stretch, particle, stretch);
+        let bend = |place, other, numbers| visit([1, place], other, numbers);
+        pair::springs_at(&self.bend, particle, bend);
+        let side = |place, other, numbers| visit([2, place], other, numbers);
+        self.triangles.springs_at(particle, reach, side);
+    }
+
+    /// Computes the damping of all that these particles have, by the present masses.
+    pub(crate) fn damp(&mut self, particles: &[u32]) {
+        let (time_s, w) = (self.damping_s, &self.inverse_masses);
+        for particle in particles.iter().map(|&particle| particle as usize) {
+            self.stretch.damp(particle, time_s, w);
+            self.triangles.damp(particle, time_s, w);
+        }
+    }
+
     /// The pairs of particles that act on each other, once for each constraint and each side of a triangle.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = [u32; 2]> + Clone + '_ {
         let colours = [&self.stretch, &self.bend].into_iter();

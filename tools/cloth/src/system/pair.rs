@@ -176,18 +176,19 @@ pub(crate) fn each_spring(family: &Constraints, mut visit: impl FnMut([usize; 2]
     }
 }
 
-/// Visits those springs of a particle: the other one, and the numbers.
+/// Visits those springs of a particle: their place among those of [`each_spring`], the other particle, and the
+/// numbers.
 pub(crate) fn springs_at(
     family: &Constraints,
     particle: usize,
-    mut visit: impl FnMut(usize, [f64; 2]),
+    mut visit: impl FnMut(usize, usize, [f64; 2]),
 ) {
     for id in family.of(particle) {
         let one = family.get(id);
         if one.stiffness_n_per_m > 0.0 {
             let stiffness = stiffest(family, one.stiffness_n_per_m);
             let other = one.ends[0] + one.ends[1] - particle;
-            visit(other, [stiffness, family.damping(id)]);
+            visit(family.colour(id), other, [stiffness, family.damping(id)]);
         }
     }
 }

@@ -29,7 +29,7 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::system::crush::Crush;
 use crate::system::damping;
-use crate::system::incidence::Incidence;
+use crate::system::incidence::{Dirty, Incidence};
 use crate::system::matrix::{Block, Hessian, outer};
 use crate::system::pair::Pull;
 
@@ -280,6 +280,7 @@ impl Triangles {
                 self.lists.attach(t, corner, v as usize);
             } else {
                 self.repoint(t, corner, v as usize);
+                self.lists.changed.mark(v as usize);
             }
         }
         self.list[t] = triangle;
@@ -319,9 +320,11 @@ impl Triangles {
         triangles.fold(0.0, |sum, t| sum + t.energy(t.derivatives_at(x)))
     }
 
-    /// Computes the damping of all by the present masses. Warp, weft and shear are each damped as a spring is.
-    pub(crate) fn damp(&mut self, time_s: f64, inverse_masses: &[f64]) {
-        for t in &mut self.list {
+    /// Computes the damping of the triangles of a particle by the present masses. Warp, weft and shear are each
+    /// damped as a spring is.
+    pub(crate) fn damp(&mut self, particle: usize, time_s: f64, inverse_masses: &[f64]) {
+        for (t, _) in self.lists.of(particle) {
+            let t = &mut self.list[t];
             let w = t.vertices.map(|v| inverse_masses[v as usize]);
             let along = |g: [f64; 3]| (0..3).map(|i| w[i] * (g[i] * g[i])).sum::<f64>();
             let [u, v] = t.weights().map(along);
@@ -401,21 +404,26 @@ impl Triangles {
         }
     }
 
-    /// Visits those springs of a particle: the other one, and the numbers.
+    /// The particles whose triangles changed since they were taken over.
+    pub(crate) fn changed(&mut self) -> &mut Dirty {
+        &mut self.lists.changed
+    }
+
+    /// Visits those springs of a particle, those without stiffness too: their place among those of
+    /// [`each_spring`](Triangles::each_spring), the other particle, and the numbers.
     pub(crate) fn springs_at(
         &self,
         particle: usize,
         reach: f64,
-        mut visit: impl FnMut(usize, [f64; 2]),
+        mut visit: impl FnMut(usize, usize, [f64; 2]),
     ) {
-        for (t, corner) in self.of(particle) {
-            let t = &self.list[t];
+        for (index, corner) in self.of(particle) {
+            let t = &self.list[index];
             let springs = t.springs(reach);
             let (next, last) = ((corner + 1) % 3, (corner + 2) % 3);
-            for (other, numbers) in [(next, springs[corner]), (last, springs[last])] {
-                if numbers[0] > 0.0 {
-                    visit(t.vertices[other] as usize, numbers);
-                }
+            for (other, side) in [(next, corner), (last, last)] {
+                let place = 3 * index + side;
+                visit(place, t.vertices[other] as usize, springs[side]);
             }
         }
     }
@@ -434,5 +442,23 @@ impl Triangles {
             }
         }
         clamped
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triangle_of_another_stiffness_changes_its_particles() {
+        let material = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let of = |stiffness| Triangle::new([2, 0, 1], material, stiffness).expect("a triangle");
+        let mut triangles = Triangles::default();
+        (0..4).for_each(|_| triangles.push_particle());
+        for stiffness in [[1.0; 3], [2.0; 3]] {
+            triangles.put(0, of(stiffness));
+            assert_eq!(triangles.changed().list(), [2, 0, 1]);
+            triangles.changed().clear();
+        }
     }
 }
