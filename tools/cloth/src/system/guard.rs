@@ -110,9 +110,11 @@ pub(crate) struct Guard {
     is_sound: bool,
     /// A step that was found unstable, the shortest so far.
     unsound_s: f64,
-    /// The vector that was found last, and room for a product.
+    /// The vector that was found last, and room for a product and for the springs of a step. (Without that list a
+    /// measurement of five products would be 1.2 times as long.)
     vector: Vec<f64>,
     product: Vec<f64>,
+    net: Vec<([u32; 2], f64)>,
     /// Room for the springs of a particle by their places, and for the rates of all in some order.
     springs: Vec<([usize; 2], [f64; 2])>,
     ranked: Vec<f64>,
@@ -132,6 +134,7 @@ impl Guard {
         self.changed.reserve(particles);
         room_for(&mut self.vector, particles);
         room_for(&mut self.product, particles);
+        room_for(&mut self.net, springs);
     }
 
     /// Takes in how far triangles are stretched now, and brings the frequency and the suited step up to date.
@@ -294,6 +297,11 @@ impl Guard {
             self.vector.clear();
             self.vector.extend(start);
         }
+        self.net.clear();
+        model.each_spring(self.reach.max(REACH), |ends, [k, c]| {
+            let ends = ends.map(|end| end as u32);
+            self.net.push((ends, k + damper * c));
+        });
         let mut largest = 0.0;
         for _ in 0..PRODUCTS {
             counters.matrix_products += 1;
@@ -303,11 +311,13 @@ impl Guard {
             }
             product.clear();
             product.resize(count, 0.0);
-            model.each_spring(self.reach.max(REACH), |[a, b], [k, c]| {
-                let force = (k + damper * c) * (u[a] - u[b]);
-                product[a] += force;
-                product[b] -= force;
-            });
+            let (from, to) = (&u[..], &mut product[..]);
+            for &([a, b], stiffness) in &self.net {
+                let [a, b] = [a as usize, b as usize];
+                let force = stiffness * (from[a] - from[b]);
+                to[a] += force;
+                to[b] -= force;
+            }
             let energy = inner(u, product);
             std::mem::swap(u, product);
             // What was the product is made an acceleration, and its own product is needed with it.

@@ -168,8 +168,10 @@ pub(crate) fn longest(family: &Constraints, x: &[Point]) -> Option<([usize; 2], 
 /// any state: their particles, their stiffness in N/m, and their damping in N s/m.
 pub(crate) fn each_spring(family: &Constraints, mut visit: impl FnMut([usize; 2], [f64; 2])) {
     for colour in &family.colours {
-        for ((ends, _, stiffness), &damping) in colour.springs().zip(&colour.damping) {
+        let numbers = colour.stiffness.iter().zip(&colour.damping);
+        for (ends, (&stiffness, &damping)) in colour.ends.iter().zip(numbers) {
             if stiffness > 0.0 {
+                let ends = ends.map(|end| end as usize);
                 visit(ends, [stiffest(family, stiffness), damping]);
             }
         }
