@@ -51,6 +51,7 @@ impl Case<'_> {
         if verb.method == CutMethod::Exact {
             for (i, step) in made.steps.iter().enumerate() {
                 self.near(i, step);
+                self.slides(step);
             }
         }
         self.parts();
@@ -249,7 +250,21 @@ impl Case<'_> {
                 "a seam {far} from its aim {at:?}: {aim:?}"
             );
             self.counts.add("aims");
+            self.counts.aim(far > near);
         }
+    }
+
+    /// What slid is an end of an edge that was torn.
+    fn slides(&mut self, step: &Step) {
+        if !step.has_slid {
+            return;
+        }
+        let [before, after] = [&step.before, &step.after].map(|state| &state.surface.points);
+        for (v, (from, to)) in before.iter().zip(after).enumerate() {
+            let is_end = step.torn.as_flattened().contains(to);
+            assert!(from == to || is_end, "vertex {v} slid, and is on no seam");
+        }
+        self.counts.add("slides");
     }
 
     /// What a plane parts is not in one piece: faces farther before it and behind it than a seam may be.
