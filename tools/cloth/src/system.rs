@@ -495,19 +495,17 @@ impl System {
         Ok(())
     }
 
-    /// Has another wind blow, or none. Other loads stay, and so do the distances from colliders, which no wind changes: a
-    /// wind that sways would otherwise have every particle and face tested against every body in each step.
+    /// Has another wind blow, or none, and forgets nothing unless that begins or ends: a wind that sways is set before
+    /// every step, which costs what a steady one does. Forces that a method has kept of the end of the last step are those
+    /// of the wind before, as a step that begins with them takes the mean of both.
     ///
     /// # Errors
     ///
     /// [`SettingError`] if a number of the wind is not finite, or is negative where it must not be.
     pub(crate) fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), SettingError> {
         wind.as_ref().map_or(Ok(()), Wind::check)?;
-        // All forces, and not only those of wind: the ones that are kept are damped by the velocities in the middle of a
-        // step, and the next step damps by those at its beginning.
-        self.scratch.is_fresh = false;
-        // An implicit step begins without contacts, as it does after any change of loads.
-        self.scratch.contacts.clear();
+        let blows = |wind: Option<Wind>| wind.is_some_and(|wind| wind.coefficient > 0.0);
+        self.scratch.is_fresh &= blows(self.model.loads.wind) == blows(wind);
         self.model.loads.wind = wind;
         Ok(())
     }
