@@ -95,6 +95,7 @@ class Simulation:
         drag: float = 0.5,
         colliders: Sequence[tuple[_Triple, _Triple | float]] | None = None,
         friction: float = 0.0,
+        ripple: float | None = None,
         step: float | None = None,
     ) -> Simulation: ...
     @staticmethod

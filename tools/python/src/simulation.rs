@@ -28,8 +28,9 @@ use crate::waiting::{Listener, heard};
 /// multiple of its rest length; None for never. toughness: instead, the energy per metre of tear, in J/m. weakening:
 /// the strength of the tips of a tear, as a part of that of whole cloth. strengths: (n,) floats, the strength of
 /// each vertex as a multiple of the threshold; both are refused where nothing tears. gravity: in m/s², by default (0, -9.81, 0). drag: in 1/s. colliders: a
-/// list of planes (point, normal) and balls (centre, radius). friction: Coulomb's coefficient of them all. step: its
-/// length in s, by default one that suits.
+/// list of planes (point, normal) and balls (centre, radius). friction: Coulomb's coefficient of them all. ripple: how
+/// far in m a flat cloth begins out of its plane with the first step in which something holds or touches it, so that it
+/// can buckle; by default a millionth of its size, and 0 for not. step: its length in s, by default one that suits.
 ///
 /// Splits append vertices. Sewing takes vertices away, and the last vertex gets the number that becomes free. Holds and
 /// hands follow; arrays of your own follow by `map`.
@@ -141,7 +142,7 @@ fn tearing(
 #[pymethods]
 impl Simulation {
     #[new]
-    #[pyo3(signature = (points, faces, *, roots=None, density=0.15, modulus=1000.0, damping=1.6e-3, method="verlet", stretch=1.5, toughness=None, weakening=None, strengths=None, gravity=None, drag=0.5, colliders=None, friction=0.0, step=None))]
+    #[pyo3(signature = (points, faces, *, roots=None, density=0.15, modulus=1000.0, damping=1.6e-3, method="verlet", stretch=1.5, toughness=None, weakening=None, strengths=None, gravity=None, drag=0.5, colliders=None, friction=0.0, ripple=None, step=None))]
     #[expect(clippy::too_many_arguments, reason = "in Python they have names")]
     fn new(
         points: &Array<'_>,
@@ -159,6 +160,7 @@ impl Simulation {
         drag: f64,
         colliders: Option<Vec<(Triple, Array<'_>)>>,
         friction: f64,
+        ripple: Option<f64>,
         step: Option<f64>,
     ) -> PyResult<Simulation> {
         let (mesh, positions) = parts_of(points, faces, roots)?;
@@ -189,6 +191,7 @@ impl Simulation {
                 wind: None,
                 colliders: colliders.collect::<PyResult<_>>()?,
             },
+            ripple_m: ripple,
             step_s: step,
             ..SimulationDef::default()
         };

@@ -66,6 +66,15 @@ def test_what_hangs_pulls_by_its_weight(sheet):
     sim.set_wind(None)
 
 
+def test_a_flat_sheet_buckles_unless_it_has_no_ripple(sheet):
+    points, faces = sheet
+    flat, buckled = (tearmesh.Simulation(points, faces, ripple=ripple) for ripple in (0.0, None))
+    for sim in (flat, buckled):
+        sim.hold(TOP)
+        sim.advance(0.1)
+    assert np.all(flat.points[:, 2] == 0.0) and np.any(buckled.points[:, 2] != 0.0)
+
+
 def test_a_falling_sheet_lands(sheet):
     points, faces = sheet
     flat = points[:, [0, 2, 1]]

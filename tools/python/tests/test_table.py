@@ -452,7 +452,7 @@ PLANE, AWAY = ((0.31, 0, 0), (1, 0.2, 0)), ((9, 0, 0), (1, 0, 0))
 MAP = np.array([5e5, 4.5e6, 0])
 TOP = range(20, 25)
 INTEGERS = [np.dtype(kind).type for kind in ["i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8"]]
-FLOATS = ["density", "modulus", "damping", "stretch", "toughness", "weakening", "drag", "friction", "step"]
+FLOATS = ["density", "modulus", "damping", "stretch", "toughness", "weakening", "drag", "friction", "ripple", "step"]
 
 
 def finite(array):
