@@ -203,15 +203,16 @@ impl<'c> Judge<'c> {
         // Undamped springs to what is held swing between two looks.
         let is_loose = is_implicit || self.case.is("damping", "none");
         for piece in &self.pieces {
-            // Single triangles tumble.
-            let share = match piece.vertices.len() {
+            // One triangle or two tumble in wind, by half a turn in a step: the oracle of wind has their vertices.
+            if piece.vertices.len() <= 4 && !self.case.is("wind", "still") {
+                continue;
+            }
+            let share = match is_unsteady {
                 _ if piece.is_held && is_loose => 2.0 * HELD,
                 _ if piece.is_held => HELD,
-                3 if is_unsteady && is_implicit => 6.0 * MOMENTUM,
-                3 => 3.5 * MOMENTUM,
-                _ if is_unsteady && is_implicit => 4.0 * MOMENTUM,
-                _ if is_unsteady => 2.0 * MOMENTUM,
-                _ => MOMENTUM,
+                true if is_implicit => 4.0 * MOMENTUM,
+                true => 2.0 * MOMENTUM,
+                false => MOMENTUM,
             };
             let system = cloth.system();
             let sizes = piece
