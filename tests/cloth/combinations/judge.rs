@@ -155,22 +155,21 @@ impl<'c> Judge<'c> {
     }
 
     fn finite(&self, cloth: &Cloth) -> Result<(), Fault> {
-        let system = cloth.system();
-        let is_near = |x: &Point| x.coords.norm() < 100.0;
-        let is_slow = |v: &Vector| v.norm() < 1000.0;
+        let (system, time_s) = (cloth.system(), cloth.system().elapsed_s());
+        let mut places = system.positions().iter().enumerate();
+        let is_inside = |x: &Point| outside_m(self.case, time_s, *x) < 0.0;
+        // What is led into a body, which keeps all round it out, is pulled apart at any step.
+        let most = match places.any(|(v, x)| system.is_held(v) && is_inside(x)) {
+            true => f64::MAX,
+            false => 1000.0,
+        };
+        let is_near = |x: &Point| x.coords.norm() < 0.1 * most;
+        let is_slow = |v: &Vector| v.norm() < most;
         let is_sane =
             system.positions().iter().all(is_near) && system.velocities().iter().all(is_slow);
-        let fastest = system
-            .velocities()
-            .iter()
-            .map(Vector::norm)
-            .fold(0.0, f64::max);
-        let text = || {
-            format!(
-                "after {} s a vertex is far away or goes at {fastest} m/s",
-                system.elapsed_s()
-            )
-        };
+        let speeds = system.velocities().iter().map(Vector::norm);
+        let fastest = speeds.fold(0.0, f64::max);
+        let text = || format!("after {time_s} s a vertex is far away or goes at {fastest} m/s");
         is_sane.then_some(()).ok_or_else(|| fault("finite", text()))
     }
 
