@@ -14,6 +14,7 @@ mod rest;
 mod run;
 mod tear_log;
 mod warning;
+mod warnings;
 
 pub use frame::{Axis, Frame};
 pub use opening::Opening;

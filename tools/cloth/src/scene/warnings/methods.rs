@@ -5,12 +5,24 @@
 
 use tearmesh::geometry::{Point, Vector, length};
 
-use super::{Warning, Wording};
 use crate::method::solver::Quality;
 use crate::method::xpbd::Pbd;
 use crate::method::{Method, TOLERABLE_ERROR, implicit};
 use crate::scene::run::Run;
+use crate::scene::run::gain::EnergyGain;
+use crate::scene::warning::{Warning, Wording};
 use crate::text::{count, short, three_digits, two_digits};
+
+impl Warning {
+    /// Returns whether the method has made so much energy that a run shows nothing of the cloth: more than
+    /// three times what was put in, and more than a millijoule. Where Provot's limiter has worked, its energy
+    /// is not known, and the result is `false`.
+    #[must_use]
+    pub fn has_exploded(run: &Run) -> bool {
+        let is_absurd = |gain: EnergyGain| gain.made_j > f64::max(3.0 * gain.put_in_j, 1e-3);
+        run.energy_gain().is_some_and(is_absurd) && !run.quality().has_limited()
+    }
+}
 
 /// The warnings about the method of a run that has not begun.
 pub(super) fn before(run: &Run, wording: &Wording<'_>) -> Vec<Warning> {
