@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use crate::harness::{Folder, root};
+use crate::plain::Plain;
 use crate::read_back::added_up;
 
 /// A cloth that the wind lifts off a floor.
@@ -99,4 +100,70 @@ fn the_energy_that_is_printed_adds_up() {
             "nothing was lost {taker}: {takers:?}"
         );
     }
+}
+
+/// A sheet falls on a block, over whose edges it hangs.
+const HUNG: &str = r#"
+base = "fall"
+seconds = 0.6
+up = "z"
+[[collider]]
+body = "block.obj"
+cell_m = 0.02
+thickness_m = 0.01
+"#;
+
+/// The distance of a point from that block, by the formula of a box.
+fn from_block(p: [f64; 3]) -> f64 {
+    let beyond = [0, 1, 2].map(|axis| {
+        let [low, high] = [[0.2, 0.8], [0.2, 0.8], [-0.5, -0.1]][axis];
+        f64::max(low - p[axis], p[axis] - high)
+    });
+    let outside = beyond.iter().map(|b| b.max(0.0).powi(2)).sum::<f64>();
+    let inside = beyond.into_iter().fold(f64::NEG_INFINITY, f64::max);
+    outside.sqrt() + inside.min(0.0)
+}
+
+/// How near a body the cloth ended is that of the file, but for the error of the grid.
+#[test]
+fn the_clearance_that_is_printed_is_that_of_the_cloth() {
+    let folder = Folder::new();
+    folder.write("hung.toml", HUNG);
+    let corner = |i: usize| {
+        let at = |axis: usize| [[0.2, 0.8], [0.2, 0.8], [-0.5, -0.1]][axis][i >> axis & 1];
+        format!("v {} {} {}\n", at(0), at(1), at(2))
+    };
+    let mut block: String = (0..8).map(corner).collect();
+    block += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+    folder.write("block.obj", block);
+    let report = folder.report("tear sheet.obj --scene hung.toml -o hung.obj");
+    let plain = Plain::read(&folder.read("hung.obj"));
+    let vertices = (0..plain.vertices.len()).map(|v| from_block(plain.at(v)));
+    let edges = plain
+        .triangles()
+        .into_iter()
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let middles = edges.map(|ends| {
+        let [from, to] = ends.map(|v| plain.at(v as usize));
+        from_block([0, 1, 2].map(|axis| 0.5 * (from[axis] + to[axis])))
+    });
+    let [vertex, middle] = [
+        vertices.fold(f64::INFINITY, f64::min),
+        middles.fold(f64::INFINITY, f64::min),
+    ];
+    let body = &report["bodies"][0];
+    let said = |key: &str| body[key].as_f64().expect("metres");
+    let error = said("error_worst_m");
+    assert!(
+        (said("nearest_vertex_m") - vertex).abs() < error,
+        "{vertex}, {body}"
+    );
+    assert!(
+        (said("nearest_middle_m") - middle).abs() < error,
+        "{middle}, {body}"
+    );
+    assert!(
+        middle < vertex - 0.001,
+        "{middle}, {vertex}: an edge of the block is a chord away"
+    );
 }

@@ -327,8 +327,8 @@ fn take_out(system: &mut System, contact: &Contact, depth: f64, per_s: f64) -> f
     let corners = contact.corners;
     let [x, before] = [&system.positions, &system.scratch.before];
     let [from_s, to_s] = system.scratch.span_s;
-    let went = corners.mean(|corner| x[corner] - before[corner]);
-    let went = went - contact.velocity * (to_s - from_s);
+    let carried = contact.velocity * (to_s - from_s);
+    let went = corners.mean(|corner| x[corner] - before[corner]) - carried;
     let [way, lifted, speed] = contact.way_out(went, depth, per_s);
     let share = change(system, corners, |x, v, share| {
         *x += way * share;
