@@ -68,7 +68,7 @@ def test_a_scene_file_that_is_not_there_is_an_os_error(sheet, tmp_path):
 
 def test_a_wind_that_begins_later_is_left_to_the_program(sheet, tmp_path):
     path = tmp_path / "scene.toml"
-    rest = "gravity_m_per_s2 = 0\n[[hold]]\nacross = [0, 1]\nalong = [1, 1]\n[wind]\nvelocity_m_per_s = [0, 0, 9]\n"
+    rest = "gravity_m_per_s2 = 0\nripple_m = 0\n[[hold]]\nacross = [0, 1]\nalong = [1, 1]\n[wind]\nvelocity_m_per_s = [0, 0, 9]\n"
     path.write_text(rest + "from_s = 5\n")
     sim = tearmesh.Simulation.of_scene(*sheet, path)
     sim.advance(0.1)
