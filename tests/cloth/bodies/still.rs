@@ -122,12 +122,12 @@ fn shapes() -> Vec<(&'static str, Collider)> {
 }
 
 /// The balance of a sheet that fell on a collider, at a part of the default step.
-fn fallen_on(collider: &Collider, method: &Method, parts: u32) -> EnergyBalance {
+fn fallen_on(collider: &Collider, method: Method, parts: u32) -> EnergyBalance {
     let (mesh, positions) = sheet(16, 0.6, 0.03);
     let frame = Frame::new(&mesh, positions.as_slice(), Axis::Y);
     let scene = Scene {
         duration_s: 0.8,
-        solver: method.clone(),
+        solver: method,
         colliders: vec![collider.clone()],
         tearing: None,
         ..Scene::fall(Axis::Y)
@@ -143,7 +143,7 @@ fn fallen_on(collider: &Collider, method: &Method, parts: u32) -> EnergyBalance 
 #[test]
 fn a_still_body_gives_no_energy() {
     for (name, collider) in shapes() {
-        let balances = [1, 2, 4].map(|parts| fallen_on(&collider, &Method::Verlet, parts));
+        let balances = [1, 2, 4].map(|parts| fallen_on(&collider, Method::Verlet, parts));
         let mut taken = Vec::new();
         for (parts, balance) in [1.0, 2.0, 4.0].into_iter().zip(balances) {
             // A warning allows 0.02 at any step.
@@ -161,5 +161,21 @@ fn a_still_body_gives_no_energy() {
         let apart = taken.iter().map(|given| (given - taken[2]).abs());
         let farthest = apart.fold(0.0, f64::max);
         assert!(farthest < 0.1, "{name}: {taken:?}");
+    }
+}
+
+/// Implicit steps lose most of what is put in. What falls on a spike, or on an edge, hangs from corners of faces that
+/// the body holds by their middles: where steps do not know of that, they pull faces in and the body lifts them, which
+/// was eighty times what was put in.
+#[test]
+fn a_still_body_gives_no_energy_to_implicit_steps() {
+    for (name, collider) in shapes() {
+        for parts in [1, 2, 4] {
+            let method = Method::named("implicit").expect("a method");
+            let balance = fallen_on(&collider, method, parts);
+            let given = balance.colliders_j / balance.put_in_j();
+            println!("{name}: {given:+.4}");
+            assert!(given < 0.01, "{name} gives {given} of what is put in");
+        }
     }
 }

@@ -27,10 +27,9 @@ use crate::system::energy;
 use crate::system::load::{Collider, ColliderShape};
 use crate::system::path::Pose;
 
-/// The particles that were in contact in the last substep, with the normals of obstacles.
-pub(crate) fn touching(system: &System) -> impl Iterator<Item = (usize, Vector)> + '_ {
-    let contacts = system.scratch.contacts.iter();
-    contacts.filter_map(|contact| Some((contact.corners.particle()?, contact.normal)))
+/// The contacts of the last substep.
+pub(crate) fn contacts(system: &System) -> &[Contact] {
+    &system.scratch.contacts
 }
 
 /// Notes where a substep begins, if there are colliders; and with which velocities, if the work of contact is to be
@@ -194,9 +193,14 @@ impl Solid<'_> {
                     (Corners::of_particle(i), self.thickness_m)
                 } else {
                     let face = system.model.faces.as_chunks::<3>().0[i - particles];
-                    (Corners::of_face(face), self.body.error_worst_m())
+                    (Corners::of_face(i, face), self.body.error_worst_m())
                 };
-                let (clear_m, by_m) = self.clear(system, corners, apart_m);
+                // Once a substep.
+                let pressed = match round {
+                    0 | 1 => pressed(system, corners),
+                    _ => Pressed::default(),
+                };
+                let (clear_m, by_m) = self.clear(system, corners, apart_m, pressed);
                 moved_m = moved_m.max(by_m);
                 of.until_m[i] = cache.gone_m + clear_m;
             }
@@ -259,15 +263,22 @@ impl Solid<'_> {
     }
 
     /// Moves a particle, or the corners of a face, until it is as far from the surface as it should be, or the
-    /// middle of the face is. Returns how much farther it is, and how far a particle was moved.
-    fn clear(&self, system: &mut System, corners: Corners, apart_m: f64) -> (f64, f64) {
+    /// middle of the face is. It was pressed so in this substep. Returns how much farther it is, and how far a particle
+    /// was moved.
+    fn clear(
+        &self,
+        system: &mut System,
+        corners: Corners,
+        apart_m: f64,
+        pressed: Pressed,
+    ) -> (f64, f64) {
         let mut moved_m = 0.0;
         for look in 0..=Self::LOOKS {
             system.counters.features.collider += 1;
             let x = self.seen(corners.middle(&system.positions), 1);
             let depth = apart_m - self.body.distance_m(x);
             let pressed = match look {
-                0 => pressed(system, corners),
+                0 => pressed,
                 _ => Pressed::default(),
             };
             if depth + pressed.depth_m <= 0.0 {
@@ -286,8 +297,10 @@ impl Solid<'_> {
                 friction: if look == 0 { self.friction } else { 0.0 },
                 pressed,
             };
-            // No corner is moved farther than to the end of its shortest edge, such as a cut leaves.
-            let depth = depth.min(shortest_edge_m(system, corners));
+            // No corner is moved farther than to the end of its shortest edge, such as a cut leaves; and what corners
+            // keep off is a face that touches.
+            let least_m = corners.particle().map_or(0.0, |_| f64::NEG_INFINITY);
+            let depth = depth.max(least_m).min(shortest_edge_m(system, corners));
             moved_m += take_out(system, &contact, depth, self.per_s);
             if look == 0 {
                 system.scratch.contacts.push(contact);
@@ -315,11 +328,10 @@ fn shortest_edge_m(system: &System, corners: Corners) -> f64 {
     lengths.fold(f64::INFINITY, f64::min)
 }
 
-/// How a particle was pressed in this substep.
+/// How a particle, or the middle of a face, was pressed in this substep.
 fn pressed(system: &System, corners: Corners) -> Pressed {
-    let pressed = &system.scratch.pressed;
-    let found = corners.particle().and_then(|i| pressed.get(i).copied());
-    found.unwrap_or_default()
+    let pressed = system.scratch.pressed.get(corners.number).copied();
+    pressed.unwrap_or_default()
 }
 
 /// Moves particles out by a depth. Returns how far one of them was moved, at most.

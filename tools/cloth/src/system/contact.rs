@@ -13,7 +13,7 @@ pub(crate) struct Contact {
     pub(crate) velocity: Vector,
 }
 
-/// How far and how fast a particle would have gone into an obstacle in this substep if its method had not kept
+/// How far and how fast a particle, or the middle of a face, would have gone into an obstacle in this substep if its method had not kept
 /// it out: zero for all methods but implicit ones.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pressed {
@@ -58,6 +58,8 @@ fn rubbed(way: Vector, normal: Vector, most: f64) -> Vector {
 /// A particle, or the three corners of a face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corners {
+    /// The number of the particle; that of the face, with all particles counted before.
+    pub(crate) number: usize,
     list: [u32; 3],
     pub(crate) count: usize,
 }
@@ -65,13 +67,18 @@ pub(crate) struct Corners {
 impl Corners {
     pub(crate) fn of_particle(particle: usize) -> Corners {
         Corners {
+            number: particle,
             list: [particle as u32; 3],
             count: 1,
         }
     }
 
-    pub(crate) fn of_face(list: [u32; 3]) -> Corners {
-        Corners { list, count: 3 }
+    pub(crate) fn of_face(number: usize, list: [u32; 3]) -> Corners {
+        Corners {
+            number,
+            list,
+            count: 3,
+        }
     }
 
     /// The particle, if it is one.

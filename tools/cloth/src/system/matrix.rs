@@ -91,19 +91,14 @@ impl Hessian {
         *sum += if i < j { *block } else { block.transpose() };
     }
 
-    /// Makes a particle this many times as stiff along a direction as it is, its inertia included. Returns the
-    /// stiffness that was added.
-    pub(crate) fn stiffen(
-        &mut self,
-        particle: usize,
-        along: Vector,
-        inertia: f64,
-        times: f64,
-    ) -> f64 {
-        let block = &mut self.diagonal[particle];
-        let stiffness = times * (inertia + block.trace().max(0.0));
-        *block += outer(along, along) * stiffness;
-        stiffness
+    /// Returns how stiff a particle is, in the sum of three directions.
+    pub(crate) fn stiffness(&self, particle: usize) -> f64 {
+        self.diagonal[particle].trace().max(0.0)
+    }
+
+    /// Makes a particle stiffer along a direction.
+    pub(crate) fn stiffen(&mut self, particle: usize, along: Vector, by: f64) {
+        self.diagonal[particle] += outer(along, along) * by;
     }
 
     /// Returns the sum of the diagonal, which is no less than the largest eigenvalue unless one is negative.
