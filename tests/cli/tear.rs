@@ -16,6 +16,16 @@ point = [0, -0.01, 0]
 normal = [0, 1, 0]
 "#;
 
+/// A cloth that is let down: its hold takes what gravity gives.
+const LOWERED: &str = r#"
+base = "fall"
+seconds = 0.5
+[[hold]]
+across = [0, 1]
+along = [1, 1]
+moves = [[0, 0, 0, 0], [0.5, 0, -0.4, 0]]
+"#;
+
 /// In the end what holds bear is what hangs on them.
 #[test]
 fn the_table_of_forces_ends_with_the_weight() {
@@ -71,9 +81,11 @@ fn the_energy_that_is_printed_adds_up() {
         ("flag.obj", "tests/data/pull.toml"),
         ("sheet.obj", "tests/data/folds.toml"),
         ("sheet.obj", "lifted.toml"),
+        ("sheet.obj", "lowered.toml"),
     ];
     let folder = Folder::new();
     folder.write("lifted.toml", LIFTED);
+    folder.write("lowered.toml", LOWERED);
     let mut scenes: Vec<_> = scenes.map(|(mesh, scene)| (mesh, scene.to_owned())).into();
     for (number, scene) in scenes_of_the_guide().into_iter().enumerate() {
         let name = format!("guide-{number}.toml");
@@ -94,7 +106,7 @@ fn the_energy_that_is_printed_adds_up() {
             takers.extend(added_up.0.into_iter().map(str::to_owned));
         }
     }
-    for taker in ["to damping", "to gravity", "to colliders"] {
+    for taker in ["to damping", "to gravity", "to colliders", "to hands"] {
         assert!(
             takers.contains(taker),
             "nothing was lost {taker}: {takers:?}"
