@@ -467,8 +467,8 @@ impl Solver for Implicit {
         // What BDF2 remembers of corners that were pushed out draws them in again, and nothing comes to rest.
         let is_bdf2 = self.settings.method == Method::Bdf2;
         let contacts = collide::contacts(system).iter();
-        let contacts = contacts.filter(|contact| !is_bdf2 || contact.corners.count == 1);
-        refill(&mut self.touching, contacts.flat_map(Touching::all));
+        let known = contacts.filter(|contact| !is_bdf2 || contact.corners.count == 1);
+        refill(&mut self.touching, known.flat_map(Touching::all));
         // A state that is too far away or too fast already is no matter of the method.
         Failure::unless(first(is_beyond, &system.positions, &system.velocities).is_none())?;
         let before = self.stats;

@@ -1,4 +1,4 @@
-//! How particles move between the looks at constraints: what explicit methods and those that project
+//! The motion of particles between two looks at constraints: what explicit methods and those that project
 //! have in common.
 
 use tearmesh::geometry::{Point, Vector};

@@ -300,12 +300,12 @@ impl Solid<'_> {
             // No corner is moved farther than to the end of its shortest edge, such as a cut leaves; and what corners
             // keep off is a face that touches.
             let least_m = corners.particle().map_or(0.0, |_| f64::NEG_INFINITY);
-            let depth = depth.max(least_m).min(shortest_edge_m(system, corners));
-            moved_m += take_out(system, &contact, depth, self.per_s);
+            let out_m = depth.max(least_m).min(shortest_edge_m(system, corners));
+            moved_m += take_out(system, &contact, out_m, self.per_s);
             if look == 0 {
                 system.scratch.contacts.push(contact);
             }
-            if corners.count == 1 && depth < SETTLED * self.body.error_worst_m() {
+            if corners.count == 1 && out_m < SETTLED * self.body.error_worst_m() {
                 break;
             }
         }

@@ -1,4 +1,4 @@
-//! Which steps velocity Verlet takes whole, and with which masses.
+//! The steps that velocity Verlet takes whole, and the masses with which it does.
 //!
 //! A net with the sum S of stiffness at a particle of inverse mass w has r = w S there, and its own
 //! stable step is √(2/r) or a little more. The step that *suits* a system is

@@ -1,4 +1,4 @@
-//! Which constraints a particle has: one list a particle, threaded through the constraints.
+//! The constraints of each particle: one list a particle, threaded through the constraints.
 //!
 //! Adding to a list allocates nothing where room was made, so an edit costs the valence of the
 //! particles that it touches. These are noted, so that what is summed up by particle costs no more.

@@ -1,4 +1,4 @@
-//! What a method does to a cloth that its fabric does not. One rule serves all methods: there is a warning before a run
+//! The warnings about a method: what it does to a cloth that its fabric does not. One rule serves all methods: there is a warning before a run
 //! where the method's own formula has it off by more than [`TOLERABLE_ERROR`] or no formula says how far, and after it
 //! where the balance of energy shows it. No error is foretold in numbers but by such a formula, and tests compare each
 //! number with what Verlet's method gives at a quarter of its step.
@@ -47,11 +47,10 @@ pub(super) fn after(run: &Run, wording: &Wording<'_>) -> Vec<Warning> {
 
 /// XPBD leaves the cloth softer than its fabric by more than is tolerable.
 fn soft(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
-    let softness = run
-        .scene()
-        .solver
-        .softness(run.cloth().system(), run.step_s());
-    let softness = softness.filter(|softness| softness.extra > TOLERABLE_ERROR)?;
+    let (system, solver) = (run.cloth().system(), &run.scene().solver);
+    let softness = solver
+        .softness(system, run.step_s())
+        .filter(|softness| softness.extra > TOLERABLE_ERROR)?;
     let step = short(run.step_s());
     let extra = short((softness.extra * 100.0).round());
     let (suited, most) = (two_digits(softness.step_s), short(TOLERABLE_ERROR * 100.0));
@@ -101,8 +100,8 @@ fn slowest_rad_per_s(run: &Run) -> Option<f64> {
     let g_m_per_s2 = length(run.scene().gravity_m_per_s2);
     let positions = run.cloth().positions();
     let first = run.held.iter().filter(|held| held.is_first());
-    let held = first.flat_map(|held| held.vertices());
-    let held = held.map(|v| positions[v.index()].coords);
+    let vertices = first.flat_map(|held| held.vertices());
+    let held = vertices.map(|v| positions[v.index()].coords);
     let (count, sum) = held.fold((0.0, Vector::zeros()), |(n, sum), x| (n + 1.0, sum + x));
     let middle = Point::from(sum / count);
     let ways = positions.iter().map(|x| length(x - middle));
@@ -118,8 +117,10 @@ fn coarse(run: &Run, pbd: &Pbd, wording: &Wording<'_>) -> Option<Warning> {
     let scene = run.scene();
     let speed_m_per_s = scene.fabric.speed_m_per_s(scene.areal_density_kg_per_m2);
     let system = run.cloth().system();
-    let wanted_s = scene.solver.wanted_step_s(system, speed_m_per_s);
-    let wanted_s = wanted_s.filter(|&wanted_s| run.step_s() > wanted_s)?;
+    let wanted_s = scene
+        .solver
+        .wanted_step_s(system, speed_m_per_s)
+        .filter(|&wanted_s| run.step_s() > wanted_s)?;
     let step = short(run.step_s());
     let sweeps = count(pbd.sweeps as usize, "sweep", "sweeps");
     let and = scene.tearing.map_or("", |_| ", and may tear");
