@@ -17,13 +17,13 @@ use crate::harness::{Folder, files_in, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0x434b_6ddf_bd6b_0777),
-    ("tear.txt", 0x8bba_73da_966e_34a0),
+    ("README.md", 0x1e32_0ec6_b148_119c),
+    ("tear.txt", 0x111e_131c_86e3_56d8),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x5fe7_7fe7_e28c_d583;
+const DIGEST: u64 = 0x125c_c0f9_7bfb_f2e7;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

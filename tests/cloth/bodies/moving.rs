@@ -190,7 +190,7 @@ fn nothing_gets_under_the_skin_of_a_dummy_that_moves() {
             points: points.map(|&p| pose.to_world(p.into()).into()).collect(),
             faces: solid.faces.clone(),
         };
-        is_outside("moved", &moved, &dummy, &sheet);
+        is_outside("moved", (&moved, &dummy), &sheet, 0.0);
     }
     let [x, _] = middle(&sheet);
     let shoulders = motion.at(2.0).to_world(Point::new(0.0, 0.8, 0.0));

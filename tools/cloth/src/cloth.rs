@@ -422,7 +422,7 @@ impl Cloth {
         let bend = &mut self.system.model.bend;
         bend.set_rest_length(id, rest_length_m);
         bend.set_stiffness(id, stiffness.unwrap_or(0.0));
-        self.system.touched();
+        self.system.edited();
     }
 
     /// Adds the bend constraint across an edge, unless there is no distance across it.
@@ -439,7 +439,7 @@ impl Cloth {
             stiffness_n_per_m,
         });
         self.bend_of.join(edge, id);
-        self.system.touched();
+        self.system.edited();
         Some(id)
     }
 }

@@ -25,6 +25,7 @@ pub(crate) mod load;
 pub(crate) mod mass_scaling;
 pub(crate) mod matrix;
 pub(crate) mod model;
+pub(crate) mod net;
 pub(crate) mod pair;
 pub(crate) mod path;
 pub(crate) mod triangle;
@@ -87,8 +88,12 @@ pub struct System {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub(crate) accelerations: Vec<Vector>,
-    /// Whether these are the accelerations now.
+    /// The forces that these are of, without gravity.
+    pub(crate) forces: Vec<Vector>,
+    /// Whether these are the accelerations now, but for particles that an edit has touched.
     pub(crate) is_fresh: bool,
+    /// Whether they are by the weights of now.
+    pub(crate) is_weighed: bool,
     /// The power in watts that damping takes where these are of a guarded step.
     pub(crate) damped_w: f64,
     /// The step in seconds for which they are guarded; zero without guards.
@@ -215,6 +220,7 @@ impl System {
         room_for(&mut scratch.positions, particles);
         room_for(&mut scratch.velocities, particles);
         room_for(&mut scratch.accelerations, particles);
+        room_for(&mut scratch.forces, particles);
         room_for(&mut scratch.before, particles);
         room_for(&mut scratch.unlimited, particles);
         room_for(&mut scratch.contacts, particles);
@@ -381,19 +387,20 @@ impl System {
     /// Whether a particle is held, a wind blows or there is a collider.
     pub(crate) fn is_acted_on(&self) -> bool {
         let loads = &self.model.loads;
-        let blows = loads.wind.is_some_and(|wind| wind.coefficient > 0.0);
-        blows || !loads.colliders.is_empty() || self.model.held.contains(&true)
+        loads.blows() || !loads.colliders.is_empty() || self.model.held.contains(&true)
     }
 
     /// Notes that constraints have changed otherwise than by edits of a mesh.
     fn rebuilt(&mut self) {
-        self.touched();
-        self.guard.suited_s = None;
+        self.edited();
+        self.scratch.is_fresh = false;
+        self.guard.suited_rate = None;
     }
 
-    /// Notes that masses or constraints have changed.
-    pub(crate) fn touched(&mut self) {
-        self.scratch.is_fresh = false;
+    /// Notes that an edit of a mesh changed masses or constraints. Forces that a method has kept are lost only where
+    /// there is wind, whose force on a single particle is not known.
+    pub(crate) fn edited(&mut self) {
+        self.scratch.is_fresh &= !self.model.loads.blows();
         self.scratch.lose_contact();
         self.guard.is_known = false;
     }
@@ -422,6 +429,7 @@ impl System {
         self.model.held[particle] = true;
         self.velocities[particle] = Vector::zeros();
         self.weigh(particle);
+        self.scratch.is_fresh = false;
     }
 
     /// Releases a pinned or grabbed particle.
@@ -433,6 +441,7 @@ impl System {
         self.model.unlead(particle);
         self.model.held[particle] = false;
         self.weigh(particle);
+        self.scratch.is_fresh = false;
     }
 
     /// Leads a particle along a path. The particle moves at once to the point of the path at the
@@ -473,13 +482,13 @@ impl System {
         }
     }
 
-    /// Brings the inverse mass up to date with the mass and with who is held.
+    /// Brings the inverse mass up to date with the mass and with whether the particle is held.
     pub(crate) fn weigh(&mut self, particle: usize) {
         let model = &mut self.model;
         model.inverse_masses[particle] =
             model::inverse(model.masses[particle], model.held[particle]);
         self.guard.changed.mark(particle);
-        self.touched();
+        self.edited();
     }
 
     /// Sets the external loads.
@@ -504,9 +513,9 @@ impl System {
     /// [`SettingError`] if a number of the wind is not finite, or is negative where it must not be.
     pub(crate) fn set_wind(&mut self, wind: Option<Wind>) -> Result<(), SettingError> {
         wind.as_ref().map_or(Ok(()), Wind::check)?;
-        let blows = |wind: Option<Wind>| wind.is_some_and(|wind| wind.coefficient > 0.0);
-        self.scratch.is_fresh &= blows(self.model.loads.wind) == blows(wind);
+        let blew = self.model.loads.blows();
         self.model.loads.wind = wind;
+        self.scratch.is_fresh &= blew == self.model.loads.blows();
         Ok(())
     }
 

@@ -75,7 +75,7 @@ impl Cloth {
             }
         }
         self.relabel_triangles(split.corners, new);
-        self.system.touched();
+        self.system.edited();
     }
 
     fn merge(&mut self, merge: &Merge<'_>, edit: &Edit<'_>) {
@@ -116,6 +116,7 @@ impl Cloth {
         let (particle, toward) = (slide.vertex.index(), slide.toward.index());
         let x = &mut self.system.positions;
         x[particle] = between(x[particle], x[toward], slide.t);
+        self.system.guard.changed.mark(particle);
         self.pass_on(edit);
         self.measure_again(particle);
     }
@@ -148,7 +149,7 @@ impl Cloth {
         }
         self.scratch.ids = ids;
         self.weave_again(particle);
-        self.system.touched();
+        self.system.edited();
     }
 
     fn insert(&mut self, insert: &Insert<'_>, edit: &Edit<'_>) {
@@ -198,7 +199,7 @@ impl Cloth {
             }
             self.weave_face(child.face);
         }
-        self.system.touched();
+        self.system.edited();
         self.scratch = room;
     }
 
@@ -330,6 +331,12 @@ fn push_particle(system: &mut System, from: Mix<VertexId>) {
     if unlimited.len() == system.positions.len() {
         unlimited.push(Blend::blend(from.map(|v| &unlimited[v.index()])));
     }
+    let scratch = &mut system.scratch;
+    for known in [&mut scratch.accelerations, &mut scratch.forces] {
+        if known.len() == system.positions.len() {
+            known.push(Blend::blend(from.map(|v| &known[v.index()])));
+        }
+    }
     system.positions.push(x);
     system.velocities.push(v);
     let model = &mut system.model;
@@ -353,14 +360,22 @@ fn join_particles(system: &mut System, kept: usize, gone: usize, share: f64) {
     };
     model.held[kept] |= model.held[gone];
     let (mass, more) = (model.masses[kept], model.masses[gone]);
-    if model.held[kept] {
-        v[kept] = Vector::zeros();
-    } else if v[kept] != v[gone] {
-        v[kept] = (v[kept] * mass + v[gone] * more) / (mass + more);
+    let is_held = model.held[kept];
+    let joined = |one: Vector, other: Vector| match is_held {
+        true => Vector::zeros(),
+        false if one == other => one,
+        false => (one * mass + other * more) / (mass + more),
+    };
+    v[kept] = joined(v[kept], v[gone]);
+    let scratch = &mut system.scratch;
+    if scratch.unlimited.len() == x.len() {
+        scratch.unlimited.swap_remove(gone);
     }
-    let unlimited = &mut system.scratch.unlimited;
-    if unlimited.len() == x.len() {
-        unlimited.swap_remove(gone);
+    for known in [&mut scratch.accelerations, &mut scratch.forces] {
+        if known.len() == x.len() {
+            known[kept] = joined(known[kept], known[gone]);
+            known.swap_remove(gone);
+        }
     }
     x.swap_remove(gone);
     v.swap_remove(gone);

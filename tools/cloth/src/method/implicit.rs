@@ -256,7 +256,7 @@ impl Implicit {
         self.outside.resize(x.len(), Vector::zeros());
         let Some(ratio) = ratio.filter(|_| model.loads.wind.is_some()) else {
             model.blow(x, v, &mut self.outside, counters);
-            return model.weigh(None, &mut self.outside);
+            return model.weigh(&mut self.outside);
         };
         self.reached.clear();
         self.velocities.clear();
@@ -270,7 +270,7 @@ impl Implicit {
             self.velocities.push(v + sped * ratio);
         }
         model.blow(&self.reached, &self.velocities, &mut self.outside, counters);
-        model.weigh(None, &mut self.outside);
+        model.weigh(&mut self.outside);
     }
 
     /// x*, v* and the forces at `x`; with the velocities now as the first guess.

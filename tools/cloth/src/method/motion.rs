@@ -71,7 +71,7 @@ pub(crate) fn predict(system: &mut System, dt_s: f64) {
         accelerations.clear();
         accelerations.resize(positions.len(), Vector::zeros());
         model.blow(positions, velocities, accelerations, &mut system.counters);
-        model.weigh(None, accelerations);
+        model.weigh(accelerations);
     }
     let (moved, gravity) = (free_step(model, dt_s), model.gravity());
     let particles = positions.iter_mut().zip(&mut scratch.before);

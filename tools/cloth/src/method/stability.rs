@@ -89,7 +89,7 @@ fn refused(
 /// a pass over all constraints if something has changed.
 pub fn recommended_step_s(system: &mut System) -> f64 {
     reach_out(system);
-    system.guard.suited_s.unwrap_or(f64::INFINITY)
+    system.guard.suited_s()
 }
 
 /// Weighs particles for steps of this length.
@@ -97,7 +97,7 @@ pub(crate) fn weigh_for(system: &mut System, dt_s: f64) {
     damp(system);
     let air = dt_s * system.scratch.air_per_s;
     if system.guard.weigh(&system.model, dt_s, air) {
-        system.scratch.is_fresh = false;
+        system.scratch.is_weighed = false;
     }
 }
 

@@ -56,7 +56,7 @@ use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::method::stability::weigh_for;
 use crate::system::System;
 use crate::system::collide;
-use crate::system::force::accelerate;
+use crate::system::force::{accelerate, accelerate_edited};
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
 ///
@@ -106,7 +106,12 @@ impl Solver for Verlet {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half_s = dt_s / 2.0;
         weigh_for(system, dt_s);
-        let began_sane = is_fresh(system, dt_s) || accelerate(system, false, Some(dt_s));
+        let began_sane = if !is_fresh(system, dt_s) {
+            accelerate(system, false, Some(dt_s))
+        } else {
+            accelerate_edited(system, dt_s);
+            true
+        };
         let before_w = system.scratch.damped_w;
         kick_and_drift(system, half_s, dt_s);
         // Forces are then those of where the step ends, and serve the next one.

@@ -199,7 +199,11 @@ impl Constraints {
 
     pub(crate) fn set_rest_length(&mut self, id: ConstraintId, rest_length_m: f64) {
         let (colour, i) = self.slot(id);
-        self.colours[colour].rest[i] = rest_length_m;
+        let colour = &mut self.colours[colour];
+        colour.rest[i] = rest_length_m;
+        for end in colour.ends[i] {
+            self.lists.changed.mark(end as usize);
+        }
     }
 
     pub(crate) fn damping(&self, id: ConstraintId) -> f64 {

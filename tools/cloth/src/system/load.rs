@@ -104,6 +104,11 @@ fn finite(setting: &'static str, v: Vector) -> Result<(), SettingError> {
 }
 
 impl Loads {
+    /// Whether a wind blows that pushes.
+    pub(crate) fn blows(&self) -> bool {
+        self.wind.is_some_and(|wind| wind.coefficient > 0.0)
+    }
+
     /// Refuses the first number that cannot be used.
     pub(crate) fn check(&self) -> Result<(), SettingError> {
         let gravity = self.gravity_m_per_s2.unwrap_or_default();

@@ -36,6 +36,8 @@ use crate::system::incidence::room_for;
 pub(crate) struct MassScaling {
     /// 1/D: zero for particles that are held.
     inverse: Vec<f64>,
+    /// Those of before particles were weighed last.
+    inverse_before: Vec<f64>,
     /// The particles that are carried by their neighbours, and where the legs of each end.
     stars: Vec<(u32, usize)>,
     /// The neighbours of all stars, with their β.
@@ -43,6 +45,8 @@ pub(crate) struct MassScaling {
     is_carried: Vec<bool>,
     /// Whether no two that are carried are neighbours, so that stability is proven.
     pub(crate) is_proven: bool,
+    /// What each particle is to weigh at least, and those that weigh less: how many times less.
+    needs: Vec<f64>,
     light: Vec<(f64, u32)>,
 }
 
@@ -53,7 +57,7 @@ impl MassScaling {
     pub(crate) fn weigh(
         &mut self,
         masses: [&[f64]; 2],
-        stiffness: impl Fn(usize) -> f64,
+        stiffness: impl Iterator<Item = f64>,
         neighbours: impl Fn(usize, &mut dyn FnMut(usize, f64)),
         share: f64,
         dt_s: f64,
@@ -63,12 +67,16 @@ impl MassScaling {
         self.legs.clear();
         self.light.clear();
         self.is_proven = true;
-        let need = |particle: usize| dt_s * dt_s * stiffness(particle) / (2.0 * share);
-        for (particle, (&m, &w)) in masses.iter().zip(inverse_masses).enumerate() {
-            if w > 0.0 && need(particle) > m {
-                self.light.push((need(particle) / m, particle as u32));
+        let needs = stiffness.map(|stiffness| dt_s * dt_s * stiffness / (2.0 * share));
+        self.needs.clear();
+        self.needs.extend(needs);
+        let weights = masses.iter().zip(inverse_masses).zip(&self.needs);
+        for (particle, ((&m, &w), &need)) in weights.enumerate() {
+            if w > 0.0 && need > m {
+                self.light.push((need / m, particle as u32));
             }
         }
+        std::mem::swap(&mut self.inverse, &mut self.inverse_before);
         self.inverse.clear();
         if self.light.is_empty() {
             return;
@@ -81,7 +89,7 @@ impl MassScaling {
         self.light.sort_unstable_by(by_weight);
         for i in 0..self.light.len() {
             let particle = self.light[i].1 as usize;
-            self.carry(particle, need(particle), &neighbours);
+            self.carry(particle, self.needs[particle], &neighbours);
         }
         for (inverse, &w) in self.inverse.iter_mut().zip(inverse_masses) {
             *inverse = if w > 0.0 { 1.0 / *inverse } else { 0.0 };
@@ -91,9 +99,11 @@ impl MassScaling {
     /// Makes room for so many particles, and springs between them.
     pub(crate) fn reserve(&mut self, particles: usize, springs: usize) {
         room_for(&mut self.inverse, particles);
+        room_for(&mut self.inverse_before, particles);
         room_for(&mut self.stars, particles);
         room_for(&mut self.legs, 2 * springs);
         room_for(&mut self.is_carried, particles);
+        room_for(&mut self.needs, particles);
         room_for(&mut self.light, particles);
     }
 
@@ -129,6 +139,46 @@ impl MassScaling {
         self.inverse[particle] = need;
         self.is_carried[particle] = true;
         self.stars.push((particle as u32, self.legs.len()));
+    }
+
+    /// The particles that weigh something else than before they were weighed last, and those that came since.
+    pub(crate) fn reweighed(&self) -> impl Iterator<Item = usize> + '_ {
+        let both = self.inverse.iter().zip(&self.inverse_before).enumerate();
+        let others = both.filter(|(_, (now, before))| now != before);
+        let came = self.inverse_before.len()..self.inverse.len();
+        others.map(|(particle, _)| particle).chain(came)
+    }
+
+    /// Takes over what some particles of another scaling weigh, by their places in a list, and what carries
+    /// them there; and one more, which is held.
+    pub(crate) fn take_part(
+        &mut self,
+        whole: &MassScaling,
+        particles: &[u32],
+        place: impl Fn(u32) -> Option<u32>,
+    ) {
+        self.inverse.clear();
+        let inverse = particles
+            .iter()
+            .map(|particle| whole.inverse[*particle as usize]);
+        self.inverse.extend(inverse.chain([0.0]));
+        self.stars.clear();
+        self.legs.clear();
+        let mut first = 0;
+        for &(particle, end) in &whole.stars {
+            if let Some(particle) = place(particle) {
+                let legs = whole.legs[first..end].iter();
+                let legs = legs.filter_map(|&(other, share)| Some((place(other)?, share)));
+                self.legs.extend(legs);
+                self.stars.push((particle, self.legs.len()));
+            }
+            first = end;
+        }
+    }
+
+    /// One over what each particle weighs in a step; zero for those that are held.
+    pub(crate) fn inverses(&self) -> &[f64] {
+        &self.inverse
     }
 
     /// How many particles are carried.
@@ -199,7 +249,8 @@ mod tests {
             at(particle).for_each(|&([a, b], stiffness)| visit(a + b - particle, stiffness));
         };
         let mut carry = MassScaling::default();
-        carry.weigh([masses, &inverse], sum, neighbours, 0.65, dt_s);
+        let sums = (0..masses.len()).map(sum);
+        carry.weigh([masses, &inverse], sums, neighbours, 0.65, dt_s);
         carry
     }
 

@@ -194,24 +194,40 @@ impl Model {
         self.grabbed.retain(|(led, _)| *led as usize != particle);
     }
 
-    /// Makes accelerations of forces, with gravity, and with what is carried as heavy as that makes it;
-    /// held particles have none.
-    pub(crate) fn weigh(&self, carry: Option<&MassScaling>, forces: &mut [Vector]) {
-        let gravity = self.gravity();
+    /// Makes accelerations of forces, with gravity; held particles have none.
+    pub(crate) fn weigh(&self, forces: &mut [Vector]) {
+        for (a, &w) in forces.iter_mut().zip(&self.inverse_masses) {
+            *a = self.acceleration(*a, w);
+        }
+    }
+
+    /// As [`weigh`](Model::weigh), beside the forces, and with what is carried as heavy as that makes it.
+    pub(crate) fn weigh_carried(
+        &self,
+        carry: Option<&MassScaling>,
+        forces: &[Vector],
+        accelerations: &mut [Vector],
+    ) {
+        let pulled = accelerations.iter_mut().zip(forces);
         let Some(carry) = carry.filter(|carry| carry.len() > 0) else {
-            for (a, &w) in forces.iter_mut().zip(&self.inverse_masses) {
-                *a = if w > 0.0 {
-                    *a * w + gravity
-                } else {
-                    Vector::zeros()
-                };
+            for ((a, force), &w) in pulled.zip(&self.inverse_masses) {
+                *a = self.acceleration(*force, w);
             }
             return;
         };
-        for (a, &mass) in forces.iter_mut().zip(&self.masses) {
-            *a += gravity * mass;
+        let gravity = self.gravity();
+        for ((a, force), &mass) in pulled.zip(&self.masses) {
+            *a = force + gravity * mass;
         }
-        carry.accelerate(forces);
+        carry.accelerate(accelerations);
+    }
+
+    #[inline]
+    fn acceleration(&self, force: Vector, inverse_mass: f64) -> Vector {
+        match inverse_mass > 0.0 {
+            true => force * inverse_mass + self.gravity(),
+            false => Vector::zeros(),
+        }
     }
 
     /// Adds the forces of wind.

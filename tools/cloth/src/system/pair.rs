@@ -127,12 +127,11 @@ fn add_forces_by(
 }
 
 /// Adds the forces on one particle, as `exerted` has them by the ends of a constraint, its force by its
-/// length, and the multiplier that the last step recorded; and the forces of damping at these velocities,
-/// if the method damps.
+/// length, and the multiplier that the last step recorded; and the forces of damping, if the method damps.
 pub(crate) fn add_force_at(
     family: &Constraints,
     x: &[Point],
-    velocities: Option<&[Vector]>,
+    crush: Option<Crush<'_>>,
     particle: usize,
     exerted: impl Fn([usize; 2], f64, f64) -> f64,
     sum: &mut Vector,
@@ -145,10 +144,13 @@ pub(crate) fn add_force_at(
         let length = length(d);
         if length > 0.0 {
             let multiplier = family.multiplier(id);
-            let damped_n = velocities.map_or(0.0, |v| {
-                family.damping(id) * dot(d, v[other] - v[particle]) / length
-            });
-            let pull = exerted([a, b], axial_of(family, &one, x).force, multiplier) + damped_n;
+            let mut pull = exerted([a, b], axial_of(family, &one, x).force, multiplier);
+            if let Some(crush) = crush.filter(|_| family.law.is_none()) {
+                let speed = dot(d, crush.velocities[other] - crush.velocities[particle]) / length;
+                let ratio = length / one.rest_length_m;
+                pull += family.damping(id) * speed;
+                pull += crush.pull(one.stiffness_n_per_m, ratio, speed);
+            }
             *sum += d * (pull / length);
         }
     }

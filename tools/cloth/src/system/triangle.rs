@@ -363,11 +363,11 @@ impl Triangles {
         Pull { is_sane, damped_w }
     }
 
-    /// Adds the forces on one particle, and those of material damping at these velocities, if the method damps.
+    /// Adds the forces on one particle, and those of damping, if the method damps.
     pub(crate) fn add_force_at(
         &self,
         x: &[Point],
-        velocities: Option<&[Vector]>,
+        crush: Option<Crush<'_>>,
         particle: usize,
         sum: &mut Vector,
     ) {
@@ -375,9 +375,8 @@ impl Triangles {
             let t = &self.list[t];
             let w = t.derivatives_at(x);
             *sum += t.forces(w)[corner];
-            if let Some(velocities) = velocities {
-                let dt_s = 0.0; // Without a step nothing is damped for being crushed.
-                let (pulls, _) = t.damping(w, Crush { velocities, dt_s });
+            if let Some(crush) = crush {
+                let (pulls, _) = t.damping(w, crush);
                 *sum += pulls[corner];
             }
         }
