@@ -54,6 +54,12 @@ const KNOWN: &[Known] = &[
         reason: SEWN,
     },
     Known {
+        levels: "seams=sewn heal=cut|all",
+        oracle: "bodies",
+        example: "seams=sewn method=pbd mesh=panels collider=ball unpick=early cut=through heal=cut hand=led",
+        reason: SEWN,
+    },
+    Known {
         levels: "collider=moving hand=led",
         oracle: "bodies",
         example: "method=provot mesh=panels collider=moving hold=still hand=led",

@@ -35,7 +35,7 @@ pub(super) const FACTORS: &[Factor] = &[
     ),
     ("strength", &["even", "uneven"]),
     ("collider", &["none", "plane", "ball", "body", "moving"]),
-    ("friction", &["none", "some"]),
+    ("friction", &["none", "some", "unset"]),
     ("wind", &["still", "steady", "swaying", "later"]),
     ("hold", &["none", "still", "released", "moving", "turning"]),
     ("unpick", &["none", "early", "late"]),
@@ -101,7 +101,7 @@ pub(super) const EXCLUSIONS: &[Exclusion] = &[
         reason: "there is no cut to heal",
     },
     Exclusion {
-        levels: &[("friction", "some"), ("collider", "none")],
+        levels: &[("friction", "!none"), ("collider", "none")],
         reason: "friction is a number of a collider",
     },
     Exclusion {

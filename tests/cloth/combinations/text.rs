@@ -309,12 +309,11 @@ fn collider(case: &Case) -> Option<Table> {
             keys
         }
     };
-    let friction = if case.is("friction", "some") {
-        0.4
-    } else {
-        0.0
-    };
-    keys.push(("friction", number(friction)));
+    match case.get("friction") {
+        "none" => keys.push(("friction", number(0.0))),
+        "some" => keys.push(("friction", number(0.4))),
+        _ => {}
+    }
     Some(("collider", keys))
 }
 
