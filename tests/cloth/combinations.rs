@@ -42,22 +42,9 @@ const KNOWN: &[Known] = &[
     Known {
         levels: "cut=snap0",
         oracle: "frames",
-        example: "mesh=torn cut=snap0 heal=cut hand=led",
-        reason: "an edge of a hair that a cut without snap leaves is soon drawn to a hundred times its length, by \
-                 healing, a hand or weight, which is taken for a blow-up; from then on every frame fails",
-    },
-    Known {
-        levels: "heal=cut|all",
-        oracle: "sewn in",
-        example: "mesh=soup fabric=whole damping=none gravity=aslant threshold=force collider=ball wind=later cut=through \
-                  heal=cut",
-        reason: SEWN,
-    },
-    Known {
-        levels: "seams=sewn heal=cut|all",
-        oracle: "bodies",
-        example: "seams=sewn method=pbd mesh=panels collider=ball unpick=early cut=through heal=cut hand=led",
-        reason: SEWN,
+        example: "mesh=torn gravity=none hold=turning cut=snap0",
+        reason: "an edge of a hair that a cut without snap leaves is soon drawn to a hundred times its length, by a hand or \
+                 weight, which is taken for a blow-up; from then on every frame fails",
     },
     Known {
         levels: "collider=moving hand=led",
@@ -66,9 +53,6 @@ const KNOWN: &[Known] = &[
         reason: "a hand leads its vertex deep into a body, from where no way out is known once it lets go",
     },
 ];
-
-const SEWN: &str =
-    "copies are drawn together at the end of a step, after contact, into what is between them";
 
 /// How often each oracle was applied to something, by sequences.
 #[derive(Default)]

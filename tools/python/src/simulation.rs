@@ -100,9 +100,12 @@ impl Simulation {
                 let cut = self.cuts.iter().position(|&known| known == cut);
                 ("cut", time_s, cut, splits).into_pyobject(py)
             }
-            Event::Healed { sewn, left, time_s } => {
-                ("healed", time_s, sewn, left).into_pyobject(py)
-            }
+            Event::Healed {
+                sewn,
+                left,
+                ended,
+                time_s,
+            } => ("healed", time_s, sewn, left, ended).into_pyobject(py),
             other => (format!("{other:?}"), self.sim.time_s()).into_pyobject(py),
         }
     }

@@ -56,6 +56,7 @@ use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::method::stability::weigh_for;
 use crate::system::System;
 use crate::system::collide;
+use crate::system::drawn::Acts;
 use crate::system::force::{accelerate, accelerate_edited};
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
@@ -106,6 +107,9 @@ impl Solver for Verlet {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half_s = dt_s / 2.0;
         weigh_for(system, dt_s);
+        if is_fresh(system, dt_s) && system.guard.unheeded.list().is_empty() {
+            system.drawn_j += system.scratch.owed_j;
+        }
         let began_sane = if !is_fresh(system, dt_s) {
             accelerate(system, false, Some(dt_s))
         } else {
@@ -129,6 +133,7 @@ impl Solver for Verlet {
             kick(&system.model, &scratch.accelerations, half_s, predicted);
         }
         let is_sane = accelerate(system, blows, Some(dt_s));
+        system.draw(dt_s, Acts::Evenly);
         let accelerations = &system.scratch.accelerations;
         kick(&system.model, accelerations, half_s, &mut system.velocities);
         system.scratch.is_fresh = true;

@@ -38,8 +38,10 @@ pub enum Event {
     Healed {
         /// The number of pairs of copies that were sewn together.
         sewn: usize,
-        /// The number of pairs that a load or a hold kept apart.
+        /// The number of pairs that a load, a hold or a body kept apart, or at which a step failed.
         left: usize,
+        /// The number of pairs that were let go, unpicked, or torn or cut away.
+        ended: usize,
         /// The simulated time, in seconds.
         time_s: f64,
     },

@@ -68,26 +68,16 @@ impl Seams {
         Ok((first as u64, self.links(is_named)))
     }
 
-    /// The parts of a divided edge were torn by what tore the edge, and are of its seam.
-    fn insert(&mut self, insert: &Insert<'_>) {
-        for family in insert.families() {
-            let parent = family[0].parent.half_edges();
-            let before = parent.map(|h| self.of[h.index()]);
-            for child in family {
-                let start = 3 * child.face.index();
-                self.of.resize(self.of.len().max(start + 3), [0; 2]);
-                for corner in 0..3 {
-                    let ends = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
-                    let on = |&h: &usize| ends.into_iter().all(|end| lies_on(end, parent[h]));
-                    self.of[start + corner] = (0..3).find(on).map_or([0; 2], |h| before[h]);
-                }
-            }
-        }
-    }
-
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
         match edit {
-            Edit::Insert(insert) => self.insert(insert),
+            // The parts of a divided edge were torn by what tore the edge, and are of its seam.
+            Edit::Insert(insert) => divided(insert, |parent, children| {
+                let before = parent.map(|h| self.of[h.index()]);
+                for (h, on) in children {
+                    self.of.resize(self.of.len().max(h.index() + 1), [0; 2]);
+                    self.of[h.index()] = on.map_or([0; 2], |side| before[side]);
+                }
+            }),
             Edit::Merge(merge) => {
                 for link in merge.sewn {
                     self.of[link.stayed.index()][0] = 0;
@@ -97,5 +87,27 @@ impl Seams {
             Edit::Split(_) | Edit::Slide(_) => {}
             _ => unreachable!("there is no other edit"),
         }
+    }
+}
+
+/// Visits the faces that were divided: the half-edges of each, and those of its children, with the side of it that each
+/// lies on.
+pub(super) fn divided(
+    insert: &Insert<'_>,
+    mut visit: impl FnMut([HalfEdgeId; 3], &[(HalfEdgeId, Option<usize>)]),
+) {
+    for family in insert.families() {
+        let parent = family[0].parent.half_edges();
+        let children = family.iter().flat_map(|child| {
+            let ends = |corner: usize| [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
+            let is_on = move |side: usize, corner: usize| {
+                let mut ends = ends(corner).into_iter();
+                ends.all(|end| lies_on(end, parent[side]))
+            };
+            let half_edges = child.face.half_edges().into_iter().enumerate();
+            half_edges.map(move |(corner, h)| (h, (0..3).find(|&side| is_on(side, corner))))
+        });
+        let children: Vec<_> = children.collect();
+        visit(parent, &children);
     }
 }
