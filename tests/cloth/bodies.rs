@@ -1,6 +1,6 @@
 //! Contact with friction, and bodies as colliders.
 
-mod moving;
+pub(crate) mod moving;
 mod oracle;
 mod still;
 

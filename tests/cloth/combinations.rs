@@ -47,6 +47,14 @@ const KNOWN: &[Known] = &[
                  weight, which is taken for a blow-up; from then on every frame fails",
     },
     Known {
+        levels: "fabric=edges cut=default|through hand=led",
+        oracle: "frames",
+        example: "seams=sewn mesh=panels fabric=edges gravity=none drag=none collider=moving wind=steady hold=moving \
+                  unpick=early cut=through hand=led",
+        reason: "an edge has one stiffness however short it is, so a hand draws the shortest that a cut leaves to a hundred \
+                 times its length, which is taken for a blow-up",
+    },
+    Known {
         levels: "collider=moving hand=led",
         oracle: "bodies",
         example: "method=provot mesh=panels collider=moving hold=still hand=led",

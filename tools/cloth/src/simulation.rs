@@ -14,7 +14,7 @@ pub(crate) mod error;
 pub(crate) mod hand;
 mod heal;
 mod log;
-mod report;
+pub(crate) mod report;
 mod ripple;
 mod seams;
 
@@ -24,7 +24,7 @@ pub use error::{InputError, ReplayError, SimulationError};
 pub use hand::HandId;
 pub use heal::Wounds;
 pub use log::{InputLog, LogError};
-pub use report::{CutId, Event, Picked, Reached};
+pub use report::{CutId, Event, PairTally, Picked, Reached};
 
 use tearmesh::geometry::{Point, Ray, check_point, cross, length};
 use tearmesh::{
@@ -201,7 +201,7 @@ impl Simulation {
             log: InputLog::new(digest.unwrap_or_default()),
             is_recorded,
         };
-        let (links, system) = (sim.seams.links(|[_, seam]| seam > 0), sim.cloth.system());
+        let (links, system) = (sim.seams.links(|label| label.seam > 0), sim.cloth.system());
         sim.healing.begin(&links, &sim.mesh, system);
         sim.settle();
         Ok(sim)
@@ -400,13 +400,16 @@ impl Simulation {
         }
     }
 
-    /// Leaves the open pairs at the place where a step failed; whether there are any.
+    /// Leaves the open pairs at the place where a step failed, or all if there are none; whether there were any.
     fn leaves(&mut self, error: &StepError) -> bool {
         let Some(failed) = error.failed_at() else {
             return false;
         };
         let failed: Vec<VertexId> = failed.into_iter().filter_map(VertexId::new).collect();
-        let left = self.healing.leave_at(&self.mesh, &failed);
+        let mut left = self.healing.leave_at(&self.mesh, &failed);
+        if left == 0 {
+            left = self.healing.leave_at(&self.mesh, &[]);
+        }
         self.settle();
         left > 0
     }
@@ -465,7 +468,7 @@ impl Simulation {
         self.release_healed();
         self.strengthen();
         if self.healing.open() == 0 {
-            let Ends { sewn, left, ended } = std::mem::take(&mut self.healing.ends);
+            let Ends { sewn, left, ended } = self.healing.over();
             self.events.push(Event::Healed {
                 sewn,
                 left,
@@ -513,10 +516,11 @@ impl Simulation {
         let Some(tear) = &mut self.tear else {
             return;
         };
-        let own = self.strengths.as_slice().iter();
-        let own = own.zip(self.cloth.rest_positions());
-        let gripped = own.map(|(own, at)| own * self.hands.grip(at));
-        let mut strengths: Vec<f64> = gripped.map(|by| by.min(UNTEARABLE)).collect();
+        let mut strengths = self.strengths.as_slice().to_vec();
+        for (v, grip) in self.hands.grips(&self.mesh, self.cloth.rest_corners()) {
+            let strength = &mut strengths[v.index()];
+            *strength = (*strength * grip).min(UNTEARABLE);
+        }
         for v in self.healing.guarded(&self.mesh) {
             strengths[v.index()] = UNTEARABLE;
         }
@@ -568,7 +572,7 @@ impl Simulation {
     }
 
     /// Grabs a vertex, which stays where it is until it is led. The hand grips the cloth around it:
-    /// within this radius, measured at rest, it is eight times as strong as by itself, and twice
+    /// within this radius, measured over the cloth at rest, it is eight times as strong as by itself, and twice
     /// that at half the distance. Without, a pull would tear out no more than the vertex. A radius
     /// of 0 is no grip. Linear.
     ///
@@ -584,8 +588,7 @@ impl Simulation {
         if !(radius_m >= 0.0 && radius_m.is_finite()) {
             return Err(InputError::Number("radius_m", radius_m));
         }
-        let centre = self.cloth.rest_positions()[vertex.index()];
-        let hand = self.hands.grab(vertex, centre, radius_m);
+        let hand = self.hands.grab(vertex, radius_m);
         self.cloth.system_mut().hold(vertex.index());
         self.strengthen();
         self.note("grab", [word(vertex), radius_m.to_bits()]);
@@ -736,10 +739,13 @@ impl Simulation {
         let ends: Vec<VertexId> = links.iter().flat_map(ends).collect();
         let is_cut = |h| links.binary_search(&h).is_ok();
         unshare::by_fan(&mut self.mesh, &ends, is_cut, &mut self.edits);
+        self.seams.unpick(&links);
         self.follow();
         self.settle();
         self.note("unpick", [number]);
-        Ok(self.edits.iter().count() - before)
+        let splits = self.edits.iter().count() - before;
+        self.healing.unpicked += splits;
+        Ok(splits)
     }
 
     /// Has another wind blow from now on, or none. Other loads stay.
@@ -816,6 +822,16 @@ impl Simulation {
     #[must_use]
     pub fn open_pairs(&self) -> usize {
         self.healing.open()
+    }
+
+    /// What became of all pairs that were ever open.
+    pub(crate) fn pairs(&self) -> PairTally {
+        self.healing.tally()
+    }
+
+    /// Whether a link is that of a seam which is open, and which nothing else tore.
+    pub(crate) fn is_open_seam(&self, h: HalfEdgeId) -> bool {
+        self.seams.is_open_seam(h)
     }
 
     /// Returns the log of the inputs so far; `None` unless the definition

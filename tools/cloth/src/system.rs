@@ -125,8 +125,8 @@ pub(crate) struct Scratch {
     pub(crate) contact: ContactCache,
     /// What forces on the two particles of a pair do.
     pub(crate) responses: [Response; 2],
-    /// The work of drawing them in the half of a step that is to come, in joules.
-    pub(crate) owed_j: f64,
+    /// The work of drawing particles in the half of a step that is to come, in joules.
+    pub(crate) owed: Vec<(u32, f64)>,
     /// Where a limiter found the particles.
     pub(crate) unlimited: Vec<Point>,
     /// The velocities that wind blows at, where they are predicted.

@@ -352,7 +352,7 @@ impl Simulation {
     }
 
     /// Returns what happened since the previous call, in order: ("tore", time, vertex, face, force or None), ("cut", time,
-    /// cut, splits), ("healed", time, sewn, left). Vertices and faces are those of that time.
+    /// cut, splits), ("healed", time, sewn, left, ended). Vertices and faces are those of that time.
     fn events<'py>(&mut self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
         let events: Vec<Event> = self.sim.events().collect();
         let events = events.into_iter().map(|event| self.event(py, event));

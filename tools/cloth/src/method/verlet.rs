@@ -107,8 +107,12 @@ impl Solver for Verlet {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half_s = dt_s / 2.0;
         weigh_for(system, dt_s);
-        if is_fresh(system, dt_s) && system.guard.unheeded.list().is_empty() {
-            system.drawn_j += system.scratch.owed_j;
+        if is_fresh(system, dt_s) {
+            // Where forces are taken anew, none draws in this half.
+            let draws = |particle| !system.guard.unheeded.contains(particle);
+            let owed = system.scratch.owed.iter();
+            let owed_j = owed.filter(|(particle, _)| draws(*particle as usize));
+            system.drawn_j += owed_j.map(|(_, joules)| joules).sum::<f64>();
         }
         let began_sane = if !is_fresh(system, dt_s) {
             accelerate(system, false, Some(dt_s))

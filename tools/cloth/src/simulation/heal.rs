@@ -16,7 +16,7 @@ use tearmesh::geometry::{Vector, dot, length};
 use tearmesh::{Edit, HalfEdgeId, Mesh, VertexId};
 
 use super::hand::Hands;
-use super::report::CutId;
+use super::report::{CutId, PairTally};
 use super::seams::divided;
 use crate::cloth::Cloth;
 use crate::cloth::held_set::now;
@@ -117,14 +117,27 @@ pub(crate) struct Ends {
     pub(crate) ended: usize,
 }
 
+impl Ends {
+    fn and(self, more: Ends) -> Ends {
+        Ends {
+            sewn: self.sewn + more.sewn,
+            left: self.left + more.left,
+            ended: self.ended + more.ended,
+        }
+    }
+}
+
 /// The pairs that are still open.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Healing {
     /// The half-edges of torn links whose origin is to meet its other copy.
     heals: BTreeSet<HalfEdgeId>,
     open: Vec<Pair>,
-    /// What became of those that were open, since none was.
-    pub(super) ends: Ends,
+    /// What became of those that were open, since none was, and of all before.
+    ends: Ends,
+    before: Ends,
+    /// How many vertices were split by unpicking.
+    pub(super) unpicked: usize,
     /// Whether strengths and holds are those of before pairs came or went.
     pub(super) has_changed: bool,
 }
@@ -132,6 +145,23 @@ pub(super) struct Healing {
 impl Healing {
     pub(super) fn open(&self) -> usize {
         self.open.len()
+    }
+
+    /// What became of the pairs that were open, of which there is none any more.
+    pub(super) fn over(&mut self) -> Ends {
+        let ends = std::mem::take(&mut self.ends);
+        self.before = self.before.and(ends);
+        ends
+    }
+
+    pub(super) fn tally(&self) -> PairTally {
+        let ends = self.before.and(self.ends);
+        PairTally {
+            sewn: ends.sewn,
+            left: ends.left,
+            unpicked: ends.ended + self.unpicked,
+            open: self.open.len(),
+        }
     }
 
     /// Has the ends of torn links heal; how many pairs that opens.

@@ -47,6 +47,19 @@ pub enum Event {
     },
 }
 
+/// What became of the pairs of copies that were drawn together: see [`Run::pairs`](crate::scene::Run::pairs).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PairTally {
+    /// The number of pairs that were sewn together.
+    pub sewn: usize,
+    /// The number of pairs that a load, a hold or a body kept apart, or at which a step failed.
+    pub left: usize,
+    /// The number of pairs that were unpicked, sewn or not, or cut away.
+    pub unpicked: usize,
+    /// The number of pairs that are still drawn together.
+    pub open: usize,
+}
+
 /// The vertex that a pointer is on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Picked {

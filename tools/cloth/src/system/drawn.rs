@@ -65,7 +65,7 @@ impl System {
     /// Gives each pair its speed for a substep, or less if it is nearer than its way. Particles are as heavy as a step makes
     /// them where the force acts evenly.
     pub(crate) fn draw(&mut self, substep_s: f64, acts: Acts) {
-        self.scratch.owed_j = 0.0;
+        self.scratch.owed.clear();
         if self.model.drawn.is_empty() {
             return;
         }
@@ -117,7 +117,8 @@ impl System {
                         Acts::Evenly => {
                             let all = pulled[particle] * evenly_s + faster;
                             self.drawn_j += dot(momentum, *v + all / 4.0) / 2.0;
-                            self.scratch.owed_j += dot(momentum, *v + all * 0.75) / 2.0;
+                            let owed_j = dot(momentum, *v + all * 0.75) / 2.0;
+                            self.scratch.owed.push((particle as u32, owed_j));
                             pulled[particle] += faster / evenly_s;
                         }
                     }
