@@ -10,6 +10,8 @@
 
 mod buffers;
 pub(crate) mod definition;
+#[cfg(test)]
+mod edited;
 pub(crate) mod error;
 pub(crate) mod hand;
 mod heal;

@@ -15,7 +15,7 @@ pub(crate) mod constraint;
 pub(crate) mod contact;
 pub(crate) mod counters;
 pub(crate) mod crush;
-mod damping;
+pub(crate) mod damping;
 pub(crate) mod drawn;
 pub mod energy;
 pub(crate) mod error;

@@ -8,13 +8,13 @@
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::method::draw::Acts;
 use crate::method::solver::{Failure, Solver, StepError};
 use crate::method::stability::admit;
 use crate::system::System;
 use crate::system::balance::Balance;
 use crate::system::blow_up::{BlowUpSite, first, is_beyond};
 use crate::system::collide;
-use crate::system::drawn::Acts;
 use crate::system::error::SettingError;
 use crate::system::model::{Model, Recorded};
 

@@ -51,12 +51,12 @@
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
 
+use crate::method::draw::Acts;
 use crate::method::motion::{kick, kick_and_drift};
 use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::method::stability::weigh_for;
 use crate::system::System;
 use crate::system::collide;
-use crate::system::drawn::Acts;
 use crate::system::force::{accelerate, accelerate_edited};
 
 /// Velocity Verlet, of second order and symplectic without drag; one force evaluation a step.
