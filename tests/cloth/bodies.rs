@@ -2,6 +2,7 @@
 
 pub(crate) mod moving;
 mod oracle;
+mod sewn;
 mod still;
 
 use std::sync::Arc;

@@ -164,7 +164,7 @@ fn passed_balls(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warnin
 fn unsewn(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
     let pairs = run.pairs();
     let unsewn = pairs.left + pairs.open;
-    let all = count(unsewn + pairs.sewn + pairs.unpicked, "pair", "pairs");
+    let all = count(pairs.opened, "pair", "pairs");
     let sentence = format!(
         "{unsewn} of {all} of the seams are not sewn: {} were kept apart, and {} are still drawn together",
         pairs.left, pairs.open

@@ -43,6 +43,10 @@ pub(super) const SPEED_M_PER_S: f64 = 1.5;
 /// The most that is added to it against what pulls copies apart, in m/s.
 const MORE_MAX_M_PER_S: f64 = 15.0;
 
+/// Copies that a body touches are kept apart by it where they come nearer by less than this part of what they should: else they
+/// slide over it, as the sides of a shoulder seam do.
+const STALLED: f64 = 0.1;
+
 /// The speed at which those are drawn that a body keeps apart, in m/s: the energy of a push at it is a millionth.
 const SLOWEST_M_PER_S: f64 = 1.5e-3;
 
@@ -91,7 +95,7 @@ impl Pair {
         let came_m = dot(self.way - way, self.way) / before_m.max(f64::MIN_POSITIVE);
         let missing_m = wanted_m - came_m;
         self.way = way;
-        if touches && missing_m > 0.5 * wanted_m && !self.waits {
+        if touches && came_m < STALLED * wanted_m && !self.waits {
             self.speed_m_per_s = (0.5 * self.speed_m_per_s).max(SLOWEST_M_PER_S);
         } else {
             self.speed_m_per_s = (2.0 * self.speed_m_per_s).min(SPEED_M_PER_S.min(most_m_per_s));
@@ -157,6 +161,7 @@ impl Healing {
     pub(super) fn tally(&self) -> PairTally {
         let ends = self.before.and(self.ends);
         PairTally {
+            opened: ends.sewn + ends.left + ends.ended + self.open.len(),
             sewn: ends.sewn,
             left: ends.left,
             unpicked: ends.ended + self.unpicked,

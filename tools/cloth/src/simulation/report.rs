@@ -50,7 +50,9 @@ pub enum Event {
 /// What became of the pairs of copies that were drawn together: see [`Run::pairs`](crate::scene::Run::pairs).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PairTally {
-    /// The number of pairs that were sewn together.
+    /// The number of pairs that were ever open.
+    pub opened: usize,
+    /// The number of pairs that were sewn together, unpicked since or not.
     pub sewn: usize,
     /// The number of pairs that a load, a hold or a body kept apart, or at which a step failed.
     pub left: usize,

@@ -96,7 +96,7 @@ pub(super) fn energy(run: &Run) -> report::Energy {
 pub(super) fn pairs(run: &Run) -> report::Seams {
     let pairs = run.pairs();
     report::Seams {
-        pairs: pairs.sewn + pairs.left + pairs.unpicked + pairs.open,
+        pairs: pairs.opened,
         sewn: pairs.sewn,
         left: pairs.left,
         unpicked: pairs.unpicked,
