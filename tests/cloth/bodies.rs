@@ -1,8 +1,7 @@
 //! Contact with friction, and bodies as colliders.
 
-pub(crate) mod moving;
+mod moving;
 mod oracle;
-mod sewn;
 mod still;
 
 use std::sync::Arc;

@@ -18,7 +18,6 @@ mod damping;
 mod defaults;
 mod failures;
 mod follow;
-mod garments;
 mod held;
 mod implicit;
 mod limiter;

@@ -51,7 +51,6 @@
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
 
-use crate::method::draw::Acts;
 use crate::method::motion::{kick, kick_and_drift};
 use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::method::stability::weigh_for;
@@ -107,13 +106,6 @@ impl Solver for Verlet {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half_s = dt_s / 2.0;
         weigh_for(system, dt_s);
-        if is_fresh(system, dt_s) {
-            // Where forces are taken anew, none draws in this half.
-            let draws = |particle| !system.guard.unheeded.contains(particle);
-            let owed = system.scratch.owed.iter();
-            let owed_j = owed.filter(|(particle, _)| draws(*particle as usize));
-            system.drawn_j += owed_j.map(|(_, joules)| joules).sum::<f64>();
-        }
         let began_sane = if !is_fresh(system, dt_s) {
             accelerate(system, false, Some(dt_s))
         } else {
@@ -137,7 +129,6 @@ impl Solver for Verlet {
             kick(&system.model, &scratch.accelerations, half_s, predicted);
         }
         let is_sane = accelerate(system, blows, Some(dt_s));
-        system.draw(dt_s, Acts::Evenly);
         let accelerations = &system.scratch.accelerations;
         kick(&system.model, accelerations, half_s, &mut system.velocities);
         system.scratch.is_fresh = true;
