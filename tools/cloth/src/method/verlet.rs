@@ -106,12 +106,11 @@ impl Solver for Verlet {
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         let half_s = dt_s / 2.0;
         weigh_for(system, dt_s);
-        let began_sane = if !is_fresh(system, dt_s) {
-            accelerate(system, false, Some(dt_s))
-        } else {
+        let is_fresh = is_fresh(system, dt_s);
+        if is_fresh {
             accelerate_edited(system, dt_s);
-            true
-        };
+        }
+        let began_sane = is_fresh || accelerate(system, false, Some(dt_s));
         let before_w = system.scratch.damped_w;
         kick_and_drift(system, half_s, dt_s);
         // Forces are then those of where the step ends, and serve the next one.

@@ -1,4 +1,4 @@
-//! Tests of what steps take in of an edit alone: they edit cloths, which systems know nothing of.
+//! Tests of the parts of a step that take in an edit alone. They edit cloths, of which systems know nothing.
 
 use tearmesh::geometry::{Point, Vector};
 use tearmesh::{Edits, Masses, Mesh, Positions, VertexId, shapes, split};

@@ -114,8 +114,8 @@ pub(crate) struct Guard {
     /// A step that was found unstable, the shortest so far.
     unsound_s: f64,
     pub(crate) net: Net,
-    /// The step and the wind's part of the limit for which modes were measured last, the largest eigenvalue as it was
-    /// then, and the particles that have changed since.
+    /// The step and the wind's part of the limit for which modes were measured last, and the largest eigenvalue as it was
+    /// then; the particles that have changed since. `None` where no measurement was needed.
     measured: Option<([f64; 2], f64)>,
     pub(crate) unmeasured: Dirty,
     pub(crate) part: Part,
@@ -183,15 +183,11 @@ impl Guard {
         self.sum_up(model);
         // To rank all would be a tenth of a step, and it is seldom that fewer than before are as stiff as the one known.
         let known = self.suited_rate.unwrap_or(f64::INFINITY);
-        let count = |is_such: &dyn Fn(f64) -> bool| {
-            let such = self.rates.iter().map(|rate| usize::from(is_such(*rate)));
-            such.sum::<usize>()
-        };
-        let moving = count(&|rate| rate > 0.0);
-        let place = (PERCENTILE * moving.saturating_sub(1) as f64).ceil() as usize;
-        if count(&|rate| rate > 0.0 && rate < known) > place {
+        let moving = self.rates.iter().filter(|rate| **rate > 0.0);
+        let last = moving.clone().count().saturating_sub(1);
+        let place = (PERCENTILE * last as f64).ceil() as usize;
+        if moving.clone().filter(|rate| **rate < known).count() > place {
             self.ranked.clear();
-            let moving = self.rates.iter().filter(|rate| **rate > 0.0);
             self.ranked.extend(moving);
             let (_, rate, _) = self.ranked.select_nth_unstable_by(place, f64::total_cmp);
             self.suited_rate = Some(*rate);
@@ -292,7 +288,8 @@ impl Guard {
         self.weighed = Some([dt_s, air]);
         self.is_sound = self.carry.is_proven;
         if self.is_sound {
-            self.has_measured([dt_s, air], f64::INFINITY);
+            self.measured = None;
+            self.unmeasured.clear();
         } else {
             let reweighed = self.carry.reweighed();
             reweighed.for_each(|particle| self.unmeasured.mark(particle));
@@ -324,17 +321,12 @@ impl Guard {
         }
         self.is_sound = largest <= limit;
         if self.is_sound {
-            self.has_measured([dt_s, air], largest);
+            self.measured = Some(([dt_s, air], largest));
+            self.unmeasured.clear();
         } else {
             self.unsound_s = dt_s;
         }
         self.is_sound
-    }
-
-    /// Notes that no mode is faster in a step, with this part of its limit for the wind.
-    fn has_measured(&mut self, step: [f64; 2], largest: f64) {
-        self.measured = Some((step, largest));
-        self.unmeasured.clear();
     }
 }
 

@@ -36,7 +36,7 @@ use crate::system::incidence::room_for;
 pub(crate) struct MassScaling {
     /// 1/D: zero for particles that are held.
     inverse: Vec<f64>,
-    /// Those of before particles were weighed last.
+    /// The same, before particles were weighed last.
     inverse_before: Vec<f64>,
     /// The particles that are carried by their neighbours, and where the legs of each end.
     stars: Vec<(u32, usize)>,

@@ -1,4 +1,4 @@
-//! The springs of a step and what their particles weigh in it: how fast its fastest mode is.
+//! The net of springs of a step, and its fastest mode.
 //!
 //! The largest eigenvalue λ of M′⁻¹ L, with L the scalar matrix of the springs, is that of the worst of all
 //! configurations. Power iteration finds it from below, by some products with all springs.
@@ -36,8 +36,6 @@ pub(crate) struct Net {
     /// What was found last.
     vector: Vec<f64>,
     product: Vec<f64>,
-    /// How many were made so far.
-    products: u64,
 }
 
 /// Room for the net near an edit: its particles by their places, and the places by particle.
@@ -76,10 +74,7 @@ impl Net {
         if self.vector.len() != model.masses.len() {
             self.begin(model.masses.len());
         }
-        let before = self.products;
-        let largest = self.largest(carry);
-        counters.matrix_products += self.products - before;
-        largest
+        self.largest(carry, &mut counters.matrix_products)
     }
 
     /// A bound of the largest eigenvalue after an edit, by that before and that near it.
@@ -95,10 +90,10 @@ impl Net {
         self.vector.extend(start);
     }
 
-    fn largest(&mut self, carry: &MassScaling) -> f64 {
+    fn largest(&mut self, carry: &MassScaling, products: &mut u64) -> f64 {
         let mut largest = 0.0;
         for _ in 0..PRODUCTS {
-            self.products += 1;
+            *products += 1;
             let (u, product) = (&mut self.vector, &mut self.product);
             for (u, inverse) in u.iter_mut().zip(carry.inverses()) {
                 *u = if *inverse > 0.0 { *u } else { 0.0 };
@@ -183,7 +178,7 @@ impl Part {
             self.places[*particle as usize] = NOWHERE;
         }
         self.net.begin(list.len() + 1);
-        self.net.largest(&self.carry)
+        self.net.largest(&self.carry, &mut 0)
     }
 }
 

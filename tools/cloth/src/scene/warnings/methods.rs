@@ -1,7 +1,9 @@
-//! The warnings about a method: what it does to a cloth that its fabric does not. One rule serves all methods: there is a warning before a run
-//! where the method's own formula has it off by more than [`TOLERABLE_ERROR`] or no formula says how far, and after it
-//! where the balance of energy shows it. No error is foretold in numbers but by such a formula, and tests compare each
-//! number with what Verlet's method gives at a quarter of its step.
+//! The warnings about a method: what it does to a cloth that its fabric does not.
+//!
+//! One rule serves all methods: there is a warning before a run where the method's own formula has it off by more than
+//! [`TOLERABLE_ERROR`] or no formula says how far, and after it where the balance of energy shows it. No error is foretold
+//! in numbers but by such a formula, and tests compare each number with what Verlet's method gives at a quarter of its
+//! step.
 
 use tearmesh::geometry::{Point, Vector, length};
 
