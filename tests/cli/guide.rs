@@ -216,6 +216,7 @@ const REPORTS: &[&str] = &[
     "tear sheet.obj --scene flag --seconds 1.6 --solver provot -o e.obj",
     "tear sheet.obj --scene pin.toml -o e.obj",
     "tear sheet.obj --scene body.toml --seconds 0.01 -o e.obj",
+    "tear panels.obj --scene seam.toml --seconds 0.01 -o e.obj",
 ];
 
 #[test]
@@ -224,6 +225,15 @@ fn the_guide_has_the_keys_of_the_report_and_no_others() {
     folder.add_files("tests/cli/inputs.txt");
     folder.write("pin.toml", "seconds = 0.01\n[[hold]]\nnear = [0, 1]\n");
     let dummy = root().join("tests/data/dummy.obj");
+    let [one, other] = [
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
+        "v 1.1 0 0\nv 1 1.1 0\nv 0.1 1 0\n",
+    ];
+    folder.write("panels.obj", format!("{one}{other}f 1 2 3\nf 4 5 6\n"));
+    folder.write(
+        "seam.toml",
+        "[[seam]]\nname = \"side\"\none = [2, 3]\nother = [4, 6]\n",
+    );
     folder.write("body.toml", format!("[[collider]]\nbody = {dummy:?}\n"));
 
     let mut printed = BTreeSet::new();

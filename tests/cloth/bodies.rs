@@ -1,7 +1,8 @@
 //! Contact with friction, and bodies as colliders.
 
-mod moving;
+pub(crate) mod moving;
 mod oracle;
+mod sewn;
 mod still;
 
 use std::sync::Arc;

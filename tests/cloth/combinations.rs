@@ -42,22 +42,17 @@ const KNOWN: &[Known] = &[
     Known {
         levels: "cut=snap0",
         oracle: "frames",
-        example: "mesh=torn cut=snap0 heal=cut hand=led",
-        reason: "an edge of a hair that a cut without snap leaves is soon drawn to a hundred times its length, by \
-                 healing, a hand or weight, which is taken for a blow-up; from then on every frame fails",
+        example: "mesh=torn gravity=none hold=turning cut=snap0",
+        reason: "an edge of a hair that a cut without snap leaves is soon drawn to a hundred times its length, by a hand or \
+                 weight, which is taken for a blow-up; from then on every frame fails",
     },
     Known {
-        levels: "heal=cut|all",
-        oracle: "sewn in",
-        example: "mesh=soup fabric=whole damping=none gravity=aslant threshold=force collider=ball wind=later cut=through \
-                  heal=cut",
-        reason: SEWN,
-    },
-    Known {
-        levels: "seams=sewn heal=cut|all",
-        oracle: "bodies",
-        example: "seams=sewn method=pbd mesh=panels collider=ball unpick=early cut=through heal=cut hand=led",
-        reason: SEWN,
+        levels: "fabric=edges cut=default|through hand=led",
+        oracle: "frames",
+        example: "seams=sewn mesh=panels fabric=edges gravity=none drag=none collider=moving wind=steady hold=moving \
+                  unpick=early cut=through hand=led",
+        reason: "an edge has one stiffness however short it is, so a hand draws the shortest that a cut leaves to a hundred \
+                 times its length, which is taken for a blow-up",
     },
     Known {
         levels: "collider=moving hand=led",
@@ -66,9 +61,6 @@ const KNOWN: &[Known] = &[
         reason: "a hand leads its vertex deep into a body, from where no way out is known once it lets go",
     },
 ];
-
-const SEWN: &str =
-    "copies are drawn together at the end of a step, after contact, into what is between them";
 
 /// How often each oracle was applied to something, by sequences.
 #[derive(Default)]

@@ -18,6 +18,7 @@ mod damping;
 mod defaults;
 mod failures;
 mod follow;
+mod garments;
 mod held;
 mod implicit;
 mod limiter;

@@ -325,9 +325,13 @@ fn a_cut_that_fell_apart_heals_by_every_method() {
         assert_eq!(pieces(&sim), 2);
         let (sewn, left) = heal(&mut sim, Wounds::Cut(cut));
         check(&mut sim);
-        assert_eq!((left, pieces(&sim)), (0, 1));
+        assert_eq!((left, pieces(&sim)), (0, 1), "{method:?}");
         // What was inserted stays, and what was split is whole.
-        assert_eq!(sim.mesh().vertex_count(), inserted_and_split - sewn);
+        assert_eq!(
+            sim.mesh().vertex_count(),
+            inserted_and_split - sewn,
+            "{method:?}"
+        );
         assert_eq!(torn(&sim), 0);
         if !matches!(method, Method::Pbd(_)) {
             // That stretches by itself until it tears.

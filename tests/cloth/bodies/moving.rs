@@ -13,7 +13,7 @@ use crate::parts::cloths::cloth;
 use crate::parts::{G, METHODS, gravity_along_y, method, near, onto, plane, take};
 
 /// A body that moves, with friction.
-fn moving(body: &Arc<Body>, motion: RigidMotion) -> Collider {
+pub(crate) fn moving(body: &Arc<Body>, motion: RigidMotion) -> Collider {
     let mut collider = Collider::body(body.clone()).with_friction(MU);
     if let ColliderShape::Body { motion: still, .. } = &mut collider.shape {
         *still = motion;
@@ -28,7 +28,7 @@ fn path(count: u32, at: impl Fn(f64) -> Vector) -> Option<Path> {
 }
 
 /// A motion without turns.
-fn sliding(moves: Option<Path>) -> RigidMotion {
+pub(crate) fn sliding(moves: Option<Path>) -> RigidMotion {
     RigidMotion {
         moves,
         ..RigidMotion::default()

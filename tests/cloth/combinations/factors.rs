@@ -40,7 +40,7 @@ pub(super) const FACTORS: &[Factor] = &[
     ("hold", &["none", "still", "released", "moving", "turning"]),
     ("unpick", &["none", "early", "late"]),
     ("cut", &["none", "default", "snap0", "through", "partition"]),
-    ("heal", &["none", "cut", "all"]),
+    ("heal", &["none", "cut", "all", "seam", "ended"]),
     ("hand", &["none", "led"]),
 ];
 
@@ -95,6 +95,15 @@ pub(super) const EXCLUSIONS: &[Exclusion] = &[
         // It follows from the two before it. Said, it spares the search for rows most of its ways back.
         levels: &[("unpick", "!none"), ("mesh", "!panels")],
         reason: "only panels have seams to unpick",
+    },
+    Exclusion {
+        levels: &[("heal", "seam"), ("seams", "none")],
+        reason: "there is no seam to sew",
+    },
+    Exclusion {
+        // As for `unpick`.
+        levels: &[("heal", "seam"), ("mesh", "!panels")],
+        reason: "only panels have seams to sew",
     },
     Exclusion {
         levels: &[("heal", "cut"), ("cut", "none")],

@@ -290,15 +290,11 @@ impl<'c> Judge<'c> {
                 return wrong(name, found, own);
             }
         }
-        // Sewing changes velocities between two steps, where a balance does not look.
-        let is_sewn = self.case.is("seams", "sewn");
         for (name, found, own) in [
             ("drag", balance.drag_j, self.work_j[0]),
             ("wind", balance.wind_j, self.work_j[1]),
         ] {
-            if !is_sewn
-                && (found - own).abs() > AIR * (own.abs() + found.abs()) + 0.03 * put_in + 1e-6
-            {
+            if (found - own).abs() > AIR * (own.abs() + found.abs()) + 0.03 * put_in + 1e-6 {
                 return wrong(name, found, own);
             }
         }

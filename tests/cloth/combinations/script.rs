@@ -299,12 +299,17 @@ impl<'c> Script<'c> {
 
     fn heal(&mut self, frame: u64) -> Result<(), InputError> {
         if frame == HEALED && !self.case.is("heal", "none") {
-            let wounds = match self.case.is("heal", "cut") {
-                true => Wounds::Cut(self.cut.expect("a cut was made")),
-                false => Wounds::All,
+            let wounds = match self.case.get("heal") {
+                "cut" => Wounds::Cut(self.cut.expect("a cut was made")),
+                "seam" => Wounds::Seam("left"),
+                _ => Wounds::All,
             };
             self.sim.heal(wounds)?;
             self.say(frame, "heal", self.case.get("heal"));
+        }
+        if frame == HEALED + 1 && self.case.is("heal", "ended") {
+            self.sim.let_go(Wounds::All)?;
+            self.say(frame, "let_go", "all");
         }
         Ok(())
     }

@@ -134,6 +134,8 @@ pub(crate) struct Tear {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) bodies: Vec<BodyGrid>,
     pub(crate) ripple_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) seams: Option<Seams>,
     pub(crate) time_simulated_s: f64,
     pub(crate) time_planned_s: f64,
     pub(crate) splits: u64,
@@ -166,6 +168,18 @@ pub(crate) struct Tear {
     pub(crate) frames: Option<Frames>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cache: Option<Cache>,
+}
+
+/// What became of the pairs of vertices of the seams.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Seams {
+    pub(crate) pairs: usize,
+    pub(crate) sewn: usize,
+    /// How many a load, a hold or a body kept apart, or a step failed at.
+    pub(crate) left: usize,
+    /// How many were unpicked, sewn or not.
+    pub(crate) unpicked: usize,
+    pub(crate) open: usize,
 }
 
 /// How closely a body of the scene is met: lengths in metres.

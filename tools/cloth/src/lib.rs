@@ -61,8 +61,8 @@ pub use method::verlet::Verlet;
 pub use method::xpbd::{Pbd, Xpbd};
 pub use method::{FRAME_S, Method};
 pub use simulation::{
-    BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, Picked,
-    Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
+    BufferChanges, ClothBuffers, CutId, Event, HandId, InputError, InputLog, LogError, PairTally,
+    Picked, Reached, ReplayError, Simulation, SimulationDef, SimulationError, Wounds,
 };
 pub use system::air;
 pub use system::balance::{Balance, EnergyBalance};

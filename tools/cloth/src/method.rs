@@ -1,6 +1,7 @@
 //! The methods that advance a cloth, as data with their settings; the step that suits each, and how soft
 //! those that sweep leave a cloth at a step.
 
+pub(crate) mod draw;
 pub mod implicit;
 pub(crate) mod motion;
 pub(crate) mod provot;

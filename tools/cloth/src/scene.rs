@@ -200,7 +200,7 @@ pub struct HeldVertices {
     pub turns: Vec<(f64, Vector)>,
     /// The point about which the vertices turn, in metres, before the offset of their path.
     pub about: Point,
-    /// The distance at rest, in metres, up to which the cloth around the vertices is stronger throughout the scene:
+    /// The distance over the cloth at rest, in metres, up to which the cloth around the vertices is stronger throughout the scene:
     /// eight times there, and more the nearer it is, as in a hand. `None` for a cloth that is not gripped, of which a
     /// hold that is small tears out what it holds.
     pub grip_m: Option<f64>,

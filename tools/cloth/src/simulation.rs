@@ -16,7 +16,7 @@ pub(crate) mod error;
 pub(crate) mod hand;
 mod heal;
 mod log;
-mod report;
+pub(crate) mod report;
 mod ripple;
 mod seams;
 
@@ -26,16 +26,16 @@ pub use error::{InputError, ReplayError, SimulationError};
 pub use hand::HandId;
 pub use heal::Wounds;
 pub use log::{InputLog, LogError};
-pub use report::{CutId, Event, Picked, Reached};
+pub use report::{CutId, Event, PairTally, Picked, Reached};
 
 use tearmesh::geometry::{Point, Ray, check_point, cross, length};
 use tearmesh::{
-    Cursor, CutMethod, CutReport, Edits, FaceId, Follower as _, Masses, Mesh, Mix, PerVertex,
-    Positions, Scissor, VertexId, engine::pick, mend, unshare,
+    Cursor, CutMethod, CutReport, Edits, FaceId, Follower as _, HalfEdgeId, Masses, Mesh, Mix,
+    PerVertex, Positions, Scissor, VertexId, engine::pick, mend, unshare,
 };
 
 use self::hand::Hands;
-use self::heal::Healing;
+use self::heal::{Ends, Healing};
 use self::log::Record;
 use self::ripple::Ripple;
 use self::seams::Seams;
@@ -203,10 +203,9 @@ impl Simulation {
             log: InputLog::new(digest.unwrap_or_default()),
             is_recorded,
         };
-        let (links, system) = (sim.seams.links(|[_, seam]| seam > 0), sim.cloth.system());
-        if sim.healing.begin(links.into_iter(), &sim.mesh, system) > 0 {
-            sim.strengthen();
-        }
+        let (links, system) = (sim.seams.links(|label| label.seam > 0), sim.cloth.system());
+        sim.healing.begin(&links, &sim.mesh, system);
+        sim.settle();
         Ok(sim)
     }
 
@@ -276,8 +275,22 @@ impl Simulation {
             }
             ("release", &[hand]) => self.release(HandId(number(hand)?))?,
             ("cut", words) => drop(self.cut(&Scissor::from_words(words).ok_or(None)?)?),
-            ("heal", &[]) => drop(self.heal(Wounds::All)?),
-            ("heal", &[cut]) => drop(self.heal(Wounds::Cut(CutId(number(cut)?)))?),
+            ("heal" | "let_go", words) => {
+                let name;
+                let wounds = match *words {
+                    [] => Wounds::All,
+                    [cut] => Wounds::Cut(CutId(number(cut)?)),
+                    [seam, 1] => {
+                        name = self.seams.name(seam).ok_or(None)?;
+                        Wounds::Seam(&name)
+                    }
+                    _ => return Err(None),
+                };
+                match record.verb {
+                    "heal" => self.heal(wounds)?,
+                    _ => self.let_go(wounds)?,
+                };
+            }
             ("unpick", &[seam]) => drop(self.unpick(&self.seams.name(seam).ok_or(None)?)?),
             ("wind", &[]) => self.set_wind(None)?,
             ("wind", &[x, y, z, coefficient]) => self.set_wind(Some(Wind {
@@ -372,9 +385,35 @@ impl Simulation {
                 None => displace(system),
             }
         }
-        let substeps = system.step_observed(&mut *self.solver, self.step_s, balance)?;
-        self.log.steps += 1;
-        Ok(substeps)
+        loop {
+            let system = self.cloth.system_mut();
+            self.healing.draw(system);
+            let balance = balance.as_deref_mut();
+            let taken = system.step_observed(&mut *self.solver, self.step_s, balance);
+            system.model.drawn.clear();
+            match taken.map_err(|error| (self.leaves(&error), error)) {
+                Err((true, _)) => {}
+                Err((false, error)) => return Err(error),
+                Ok(substeps) => {
+                    self.log.steps += 1;
+                    return Ok(substeps);
+                }
+            }
+        }
+    }
+
+    /// Leaves the open pairs at the place where a step failed, or all if there are none; whether there were any.
+    fn leaves(&mut self, error: &StepError) -> bool {
+        let Some(failed) = error.failed_at() else {
+            return false;
+        };
+        let failed: Vec<VertexId> = failed.into_iter().filter_map(VertexId::new).collect();
+        let mut left = self.healing.leave_at(&self.mesh, &failed);
+        if left == 0 {
+            left = self.healing.leave_at(&self.mesh, &[]);
+        }
+        self.settle();
+        left > 0
     }
 
     /// Tears what is overstretched, if anything is, once somebody has looked at the cloth.
@@ -403,31 +442,41 @@ impl Simulation {
 
     /// Draws the open pairs together, leaves those whose time is over, and sews those that met.
     pub(crate) fn heal_step(&mut self) {
-        if self.healing.open.is_empty() {
+        if self.healing.open() == 0 {
             return;
         }
         let tearing = self.tear.as_ref().map(|tear| *tear.tearing());
         let threshold = tearing.unwrap_or_default().threshold;
-        let cloth = &mut self.cloth;
-        self.healing.draw(&self.mesh, cloth, threshold, self.step_s);
-        let mut has_changed = self.healing.leave(self.time_s());
+        let (mesh, cloth) = (&self.mesh, &self.cloth);
+        let abilities = self.solver.abilities();
+        self.healing
+            .look((mesh, cloth), threshold, self.step_s, abilities);
+        self.healing.leave(mesh, cloth.system().elapsed_s());
         while let Some(ends) = self.healing.met(self.cloth.system(), &self.hands) {
             let [one, other] = ends;
             let weights = ends.map(|v| self.cloth.masses().at(v));
             let merged = mend::merge(&mut self.mesh, one, other, weights, &mut self.edits);
             merged.expect("I8: both sides of a torn link have one root, and masses are weights");
-            self.healing.sewn += 1;
             self.follow();
-            has_changed = true;
         }
-        if has_changed {
-            self.release_healed();
-            self.strengthen();
+        self.settle();
+    }
+
+    /// Has strengths, holds and events follow what became of open pairs.
+    fn settle(&mut self) {
+        if !std::mem::take(&mut self.healing.has_changed) {
+            return;
         }
-        if self.healing.open.is_empty() {
-            let [sewn, left] = [&mut self.healing.sewn, &mut self.healing.left].map(std::mem::take);
-            let time_s = self.time_s();
-            self.events.push(Event::Healed { sewn, left, time_s });
+        self.release_healed();
+        self.strengthen();
+        if self.healing.open() == 0 {
+            let Ends { sewn, left, ended } = self.healing.over();
+            self.events.push(Event::Healed {
+                sewn,
+                left,
+                ended,
+                time_s: self.time_s(),
+            });
         }
     }
 
@@ -443,6 +492,7 @@ impl Simulation {
         self.seen = self.edits.cursor();
         let others = (&mut self.strengths, &mut self.buffers.draw);
         self.edits.replay(&mut (&mut self.cloth, others));
+        self.healing.renew(&self.mesh, self.cloth.system());
         if let Some(tear) = &mut self.tear {
             self.edits.replay(tear);
         }
@@ -468,10 +518,11 @@ impl Simulation {
         let Some(tear) = &mut self.tear else {
             return;
         };
-        let own = self.strengths.as_slice().iter();
-        let own = own.zip(self.cloth.rest_positions());
-        let gripped = own.map(|(own, at)| own * self.hands.grip(at));
-        let mut strengths: Vec<f64> = gripped.map(|by| by.min(UNTEARABLE)).collect();
+        let mut strengths = self.strengths.as_slice().to_vec();
+        for (v, grip) in self.hands.grips(&self.mesh, self.cloth.rest_corners()) {
+            let strength = &mut strengths[v.index()];
+            *strength = (*strength * grip).min(UNTEARABLE);
+        }
         for v in self.healing.guarded(&self.mesh) {
             strengths[v.index()] = UNTEARABLE;
         }
@@ -523,7 +574,7 @@ impl Simulation {
     }
 
     /// Grabs a vertex, which stays where it is until it is led. The hand grips the cloth around it:
-    /// within this radius, measured at rest, it is eight times as strong as by itself, and twice
+    /// within this radius, measured over the cloth at rest, it is eight times as strong as by itself, and twice
     /// that at half the distance. Without, a pull would tear out no more than the vertex. A radius
     /// of 0 is no grip. Linear.
     ///
@@ -539,8 +590,7 @@ impl Simulation {
         if !(radius_m >= 0.0 && radius_m.is_finite()) {
             return Err(InputError::Number("radius_m", radius_m));
         }
-        let centre = self.cloth.rest_positions()[vertex.index()];
-        let hand = self.hands.grab(vertex, centre, radius_m);
+        let hand = self.hands.grab(vertex, radius_m);
         self.cloth.system_mut().hold(vertex.index());
         self.strengthen();
         self.note("grab", [word(vertex), radius_m.to_bits()]);
@@ -627,24 +677,47 @@ impl Simulation {
     /// other while time passes, and become one where they meet; edges within two rings of an open
     /// pair do not tear. Vertices that a cut inserted stay.
     ///
-    /// Once no pair is open, an [`Event::Healed`] says how many were sewn. A pair that loads or holds
-    /// keep apart for 5 s more than its way takes is left. Linear.
+    /// Once no pair is open, an [`Event::Healed`] says how many were sewn. A pair that loads, holds or a body
+    /// keep apart for 5 s more than its way takes is left, and so is one at which a step fails, which is then
+    /// taken without it. Linear.
     ///
     /// # Errors
     ///
-    /// [`InputError::NoCut`] if there was no such cut.
-    pub fn heal(&mut self, wounds: Wounds) -> Result<usize, InputError> {
+    /// [`InputError::NoCut`] or [`InputError::NoSeam`] if there was no such cut, or is no such seam.
+    pub fn heal(&mut self, wounds: Wounds<'_>) -> Result<usize, InputError> {
+        let (links, words) = self.links(wounds)?;
         let (mesh, system) = (&self.mesh, self.cloth.system());
-        let (links, number) = match wounds {
-            Wounds::All => (mesh.half_edges().collect(), None),
-            Wounds::Cut(cut) => (self.seams.of_cut(cut)?, Some(cut.0.into())),
-        };
-        let opened = self.healing.begin(links.into_iter(), mesh, system);
-        if opened > 0 {
-            self.strengthen();
-        }
-        self.note("heal", number);
+        let opened = self.healing.begin(&links, mesh, system);
+        self.settle();
+        self.note("heal", words);
         Ok(opened)
+    }
+
+    /// Ends the healing of wounds: their pairs are drawn no more, and stay apart. Returns the number of pairs that were
+    /// open. Linear.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`heal`](Simulation::heal).
+    pub fn let_go(&mut self, wounds: Wounds<'_>) -> Result<usize, InputError> {
+        let (links, words) = self.links(wounds)?;
+        let (mesh, system) = (&self.mesh, self.cloth.system());
+        let ended = self.healing.end(&links, mesh, system);
+        self.settle();
+        self.note("let_go", words);
+        Ok(ended)
+    }
+
+    /// The half-edges of wounds, and what names these in a log.
+    fn links(&self, wounds: Wounds<'_>) -> Result<(Vec<HalfEdgeId>, Vec<u64>), InputError> {
+        Ok(match wounds {
+            Wounds::All => (self.mesh.half_edges().collect(), Vec::new()),
+            Wounds::Cut(cut) => (self.seams.of_cut(cut)?, vec![cut.0.into()]),
+            Wounds::Seam(name) => {
+                let (number, links) = self.seams.named(name)?;
+                (links, vec![number, 1])
+            }
+        })
     }
 
     /// Unpicks the seams of this name: tears the cloth along them, as far as they are sewn, and ends their sewing.
@@ -663,15 +736,18 @@ impl Simulation {
     pub(crate) fn unpick_more(&mut self, name: &str) -> Result<usize, InputError> {
         let (number, links) = self.seams.named(name)?;
         let before = self.edits.iter().count();
-        self.healing.end(&links, &self.mesh);
+        self.healing.end(&links, &self.mesh, self.cloth.system());
         let ends = |&h: &_| [self.mesh.origin(h), self.mesh.target(h)];
         let ends: Vec<VertexId> = links.iter().flat_map(ends).collect();
         let is_cut = |h| links.binary_search(&h).is_ok();
         unshare::by_fan(&mut self.mesh, &ends, is_cut, &mut self.edits);
+        self.seams.unpick(&links);
         self.follow();
-        self.strengthen();
+        self.settle();
         self.note("unpick", [number]);
-        Ok(self.edits.iter().count() - before)
+        let splits = self.edits.iter().count() - before;
+        self.healing.unpicked += splits;
+        Ok(splits)
     }
 
     /// Has another wind blow from now on, or none. Other loads stay.
@@ -747,7 +823,17 @@ impl Simulation {
     /// Returns the number of pairs of copies that are still drawn together.
     #[must_use]
     pub fn open_pairs(&self) -> usize {
-        self.healing.open.len()
+        self.healing.open()
+    }
+
+    /// What became of all pairs that were ever open.
+    pub(crate) fn pairs(&self) -> PairTally {
+        self.healing.tally()
+    }
+
+    /// Whether a link is that of a seam which is open, and which nothing else tore.
+    pub(crate) fn is_open_seam(&self, h: HalfEdgeId) -> bool {
+        self.seams.is_open_seam(h)
     }
 
     /// Returns the log of the inputs so far; `None` unless the definition

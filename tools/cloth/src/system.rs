@@ -16,6 +16,7 @@ pub(crate) mod contact;
 pub(crate) mod counters;
 pub(crate) mod crush;
 pub(crate) mod damping;
+pub(crate) mod drawn;
 pub mod energy;
 pub(crate) mod error;
 pub mod force;
@@ -30,6 +31,8 @@ pub(crate) mod pair;
 pub(crate) mod path;
 pub(crate) mod triangle;
 
+use std::collections::BTreeSet;
+
 use tearmesh::Mix;
 use tearmesh::geometry::{Point, Vector, check_point};
 
@@ -41,6 +44,7 @@ use self::error::{SettingError, SystemError};
 use self::guard::Guard;
 use self::incidence::room_for;
 use self::load::{Loads, Wind};
+use self::mass_scaling::Response;
 use self::model::{Model, Recorded};
 use self::path::Path;
 use self::triangle::Triangle;
@@ -82,6 +86,8 @@ pub struct System {
     pub(crate) unstable: Unstable,
     /// What material damping took in all, in joules.
     pub(crate) damped_j: f64,
+    /// What it took to draw pairs together in all, in joules.
+    pub(crate) drawn_j: f64,
 }
 
 /// Room for a step, so that none allocates.
@@ -117,6 +123,10 @@ pub(crate) struct Scratch {
     pub(crate) impulses: Impulses,
     /// How far particles are from bodies.
     pub(crate) contact: ContactCache,
+    /// What forces on the two particles of a pair do.
+    pub(crate) responses: [Response; 2],
+    /// The work of drawing particles in the half of a step that is to come, in joules.
+    pub(crate) owed: Vec<(u32, f64)>,
     /// Where a limiter found the particles.
     pub(crate) unlimited: Vec<Point>,
     /// The velocities that wind blows at, where they are predicted.
@@ -209,6 +219,7 @@ impl System {
             elapsed_s: 0.0,
             unstable: Unstable::default(),
             damped_j: 0.0,
+            drawn_j: 0.0,
         }
     }
 
@@ -662,6 +673,14 @@ impl System {
             Recorded::Limiter => &self.scratch.unlimited,
             _ => &self.positions,
         }
+    }
+
+    /// Returns the particles at which there was contact in the last substep, and those of faces at which there was.
+    pub(crate) fn touching(&self) -> BTreeSet<usize> {
+        let contacts = self.scratch.contacts.iter();
+        contacts
+            .flat_map(|contact| contact.corners.each())
+            .collect()
     }
 
     /// Keeps the state in which a step began, if it is still there. Who changes positions or velocities

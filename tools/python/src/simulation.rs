@@ -100,9 +100,12 @@ impl Simulation {
                 let cut = self.cuts.iter().position(|&known| known == cut);
                 ("cut", time_s, cut, splits).into_pyobject(py)
             }
-            Event::Healed { sewn, left, time_s } => {
-                ("healed", time_s, sewn, left).into_pyobject(py)
-            }
+            Event::Healed {
+                sewn,
+                left,
+                ended,
+                time_s,
+            } => ("healed", time_s, sewn, left, ended).into_pyobject(py),
             other => (format!("{other:?}"), self.sim.time_s()).into_pyobject(py),
         }
     }
@@ -349,7 +352,7 @@ impl Simulation {
     }
 
     /// Returns what happened since the previous call, in order: ("tore", time, vertex, face, force or None), ("cut", time,
-    /// cut, splits), ("healed", time, sewn, left). Vertices and faces are those of that time.
+    /// cut, splits), ("healed", time, sewn, left, ended). Vertices and faces are those of that time.
     fn events<'py>(&mut self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
         let events: Vec<Event> = self.sim.events().collect();
         let events = events.into_iter().map(|event| self.event(py, event));

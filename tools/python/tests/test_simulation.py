@@ -50,7 +50,7 @@ def test_a_cut_falls_off_and_heals(sim):
     assert cut[0] == "cut" and cut[2] == 0 and cut[3] > 10
     assert sim.heal(0) > 10 and sim.open_pairs > 10
     sim.advance(1.5)
-    kind, _, sewn, left = sim.events()[-1]
+    kind, _, sewn, left, _ = sim.events()[-1]
     assert (kind, left) == ("healed", 0) and sewn > 10
     assert sim.open_pairs == 0 and sim.pieces.max() == 0 and sim.heal() == 0
 

@@ -124,13 +124,11 @@ struct Beginning {
 impl Beginning {
     fn of(run: &Run) -> Beginning {
         let pieces = Piece::all(run.mesh(), run.cloth().positions());
-        // A seam that is still open at the end counts as torn.
-        let is_garment = !run.scene().seams.is_empty();
         Beginning {
             vertices: run.mesh().vertex_count(),
             pieces: pieces.len(),
             crumbs: Piece::crumbs(&pieces),
-            torn_m: if is_garment { 0.0 } else { run.torn_length_m() },
+            torn_m: run.torn_length_m(),
         }
     }
 }
@@ -208,6 +206,9 @@ impl Play<'_> {
         session.faults.extend(advice::after(run));
         session.words.extend(tear.bodies.iter().map(summary::body));
         session.words.extend(summary::ripple(run));
+        session
+            .words
+            .extend(tear.seams.as_ref().map(summary::seams));
         let has_cuts = !session.report.cuts.is_empty();
         session.words.push(summary::simulation(&tear, has_cuts));
         session.words.extend(summary::first_tear(&records.tear_log));
@@ -240,6 +241,7 @@ impl Play<'_> {
             dt_s: run.step_s(),
             bodies: summary::bodies(run),
             ripple_m: run.ripple_m(),
+            seams: (!run.scene().seams.is_empty()).then(|| summary::pairs(run)),
             time_simulated_s: run.elapsed_s(),
             time_planned_s: run.scene().duration_s,
             splits: tally.splits,

@@ -262,6 +262,17 @@ pub enum StepLimit {
 }
 
 impl StepError {
+    /// The particles at which a step failed; none of them where it failed as a whole, and `None` where it was
+    /// refused.
+    pub(crate) fn failed_at(&self) -> Option<Vec<usize>> {
+        match self {
+            StepError::BlowUp { at, .. } => Some(at.particles()),
+            StepError::TooFar { particle, .. } => Some(vec![*particle]),
+            StepError::Implicit { .. } => Some(Vec::new()),
+            _ => None,
+        }
+    }
+
     /// The largest number of substeps into which a step is divided.
     pub(crate) const SUBSTEPS_MAX: u32 = 10_000;
 

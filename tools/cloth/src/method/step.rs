@@ -8,6 +8,7 @@
 
 use tearmesh::geometry::{Point, Vector};
 
+use crate::method::draw::Acts;
 use crate::method::solver::{Failure, Solver, StepError};
 use crate::method::stability::admit;
 use crate::system::System;
@@ -69,14 +70,14 @@ impl System {
         let led = self.model.grabbed.iter().map(|(particle, _)| *particle);
         let led = led.map(|particle| (particle, self.velocities[particle as usize]));
         self.scratch.led.extend(led);
-        let (began_s, damped_j) = (self.elapsed_s, self.damped_j);
+        let (began_s, damped_j, drawn_j) = (self.elapsed_s, self.damped_j, self.drawn_j);
         let work = balance.as_ref().map(|balance| balance.work);
         self.model.recorded = Recorded::Nothing;
         self.model.is_damped = solver.abilities().damps;
         let substep_s = dt_s / f64::from(substeps);
         for _ in 0..substeps {
             if let Err(failure) = advance(self, solver, substep_s, balance.as_deref_mut()) {
-                (self.elapsed_s, self.damped_j) = (began_s, damped_j);
+                (self.elapsed_s, self.damped_j, self.drawn_j) = (began_s, damped_j, drawn_j);
                 if let Some((balance, work)) = balance.zip(work) {
                     balance.work = work;
                 }
@@ -128,6 +129,11 @@ fn advance(
     }
     if let Some(balance) = balance.as_deref_mut() {
         balance.before(system);
+    }
+    // A method that carries light particles does it by itself, and so does one that projects.
+    let abilities = solver.abilities();
+    if abilities.takes_all_forces && !abilities.carries_light {
+        system.draw(substep_s, Acts::AtOnce);
     }
     collide::begin(system, substep_s, balance.is_some());
     solver.advance(system, substep_s)?;

@@ -51,6 +51,7 @@
 //! times at half the limit; with the guards both keep what they have. So no step has to be redone
 //! with shorter ones.
 
+use crate::method::draw::Acts;
 use crate::method::motion::{kick, kick_and_drift};
 use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::method::stability::weigh_for;
@@ -108,6 +109,11 @@ impl Solver for Verlet {
         weigh_for(system, dt_s);
         let is_fresh = is_fresh(system, dt_s);
         if is_fresh {
+            // Where forces are taken anew, none draws in this half.
+            let draws = |particle| !system.guard.unheeded.contains(particle);
+            let owed = system.scratch.owed.iter();
+            let owed_j = owed.filter(|(particle, _)| draws(*particle as usize));
+            system.drawn_j += owed_j.map(|(_, joules)| joules).sum::<f64>();
             accelerate_edited(system, dt_s);
         }
         let began_sane = is_fresh || accelerate(system, false, Some(dt_s));
@@ -128,6 +134,7 @@ impl Solver for Verlet {
             kick(&system.model, &scratch.accelerations, half_s, predicted);
         }
         let is_sane = accelerate(system, blows, Some(dt_s));
+        system.draw(dt_s, Acts::Evenly);
         let accelerations = &system.scratch.accelerations;
         kick(&system.model, accelerations, half_s, &mut system.velocities);
         system.scratch.is_fresh = true;

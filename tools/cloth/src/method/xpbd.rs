@@ -85,7 +85,7 @@ impl Solver for Xpbd {
             let begins_s = system.elapsed_s + f64::from(substep) * substep_s;
             system.scratch.span_s = [begins_s, begins_s + substep_s];
             let scale = force_scale(&system.model, substep_s);
-            sweep(system, self.sweeps, [1.0; 2], scale)?;
+            sweep(system, self.sweeps, [1.0; 2], scale, substep_s)?;
         }
         conclude(system, substep_s, Recorded::SpringForces);
         Ok(())
@@ -168,15 +168,21 @@ impl Solver for Pbd {
 
     fn advance(&mut self, system: &mut System, dt_s: f64) -> Result<(), Failure> {
         predict(system, dt_s);
-        sweep(system, self.sweeps, self.fractions(), 0.0)?;
+        sweep(system, self.sweeps, self.fractions(), 0.0, dt_s)?;
         conclude(system, dt_s, Recorded::RigidForces);
         Ok(())
     }
 }
 
 /// Sweeps over all constraints: a part of the errors of stretch and of bend constraints, with the
-/// compliances of a step by `scale`. What blew up is left as it is.
-fn sweep(system: &mut System, sweeps: u32, fractions: [f64; 2], scale: f64) -> Result<(), Failure> {
+/// compliances of a step by `scale`; and over pairs that are drawn together. What blew up is left as it is.
+fn sweep(
+    system: &mut System,
+    sweeps: u32,
+    fractions: [f64; 2],
+    scale: f64,
+    substep_s: f64,
+) -> Result<(), Failure> {
     let (model, counters) = (&mut system.model, &mut system.counters);
     for sweep in 0..sweeps.max(1) {
         let project = match sweep {
@@ -199,6 +205,10 @@ fn sweep(system: &mut System, sweeps: u32, fractions: [f64; 2], scale: f64) -> R
                 let is_sane = project(colour, weights, correction, x);
                 Failure::unless(is_sane)?;
             }
+        }
+        let (weights, x) = (&model.inverse_masses, &mut system.positions);
+        for pair in &model.drawn {
+            system.drawn_j += pair.project(&system.scratch.before, substep_s, weights, x);
         }
     }
     Ok(())

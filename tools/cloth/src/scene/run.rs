@@ -25,7 +25,8 @@ use crate::method::solver::{Quality, Solver, StepError};
 use crate::simulation::Simulation;
 use crate::simulation::definition::SimulationDef;
 use crate::simulation::error::{InputError, SimulationError};
-use crate::simulation::hand::grip;
+use crate::simulation::hand::gripped;
+use crate::simulation::report::PairTally;
 use crate::system::Unstable;
 use crate::system::balance::{Balance, EnergyBalance};
 use crate::system::blow_up::BlowUpSite;
@@ -516,10 +517,17 @@ impl Run {
         self.held[hold].now().vertices()
     }
 
-    /// Returns the length at rest of all torn edges, each counted once, in metres.
+    /// Returns what became of the pairs of vertices of the seams.
+    #[must_use]
+    pub fn pairs(&self) -> PairTally {
+        self.sim.pairs()
+    }
+
+    /// Returns the length at rest of all torn edges, each counted once, in metres; without those of seams that are not
+    /// sewn yet, or unpicked.
     #[must_use]
     pub fn torn_length_m(&self) -> f64 {
-        let torn = |h: &_| self.mesh().ghost_pair(*h).is_some();
+        let torn = |h: &_| self.mesh().ghost_pair(*h).is_some() && !self.sim.is_open_seam(*h);
         let torn = self.mesh().half_edges().filter(torn);
         torn.map(|h| self.cloth().side_length(h)).sum::<f64>() / 2.0
     }
@@ -552,10 +560,11 @@ impl Scene {
         }
         for (number, region, radius_m) in grips {
             let held = held::vertices_in(region, ("hold", number), mesh, points, frame)?;
-            for (strength, &at) in strengths.iter_mut().zip(points) {
-                let distances = held.iter().map(|v| length(at - points[v.index()]));
-                let nearest_m = distances.fold(f64::INFINITY, f64::min);
-                *strength = grip(nearest_m, radius_m).map_or(*strength, |grip| grip.max(*strength));
+            let length_m =
+                |h| length(points[mesh.target(h).index()] - points[mesh.origin(h).index()]);
+            for (v, grip) in gripped(mesh, length_m, &held, radius_m) {
+                let strength = &mut strengths[v.index()];
+                *strength = strength.max(grip);
             }
         }
         Ok(strengths)

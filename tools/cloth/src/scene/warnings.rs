@@ -32,6 +32,7 @@ impl Warning {
     pub fn after(run: &Run, wording: &Wording<'_>) -> Vec<Warning> {
         let mut warnings = Vec::new();
         warnings.extend(passed_balls(run, wording));
+        warnings.extend(unsewn(run, wording));
         warnings.extend(methods::after(run, wording));
         warnings
     }
@@ -157,6 +158,22 @@ fn passed_balls(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warnin
         let suited = two_digits(run.step_s() * radius_m / farthest_m / 2.0);
         Warning::new("W-SIM-COLLIDER", sentence, format!("{} {suited}", wording.step))
     })
+}
+
+/// Seams are open at the end.
+fn unsewn(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
+    let pairs = run.pairs();
+    let unsewn = pairs.left + pairs.open;
+    let all = count(pairs.opened, "pair", "pairs");
+    let sentence = format!(
+        "{unsewn} of {all} of the seams are not sewn: {} were kept apart, and {} are still drawn together",
+        pairs.left, pairs.open
+    );
+    let help = format!(
+        "a larger {}, or free what a body, a hold or a load keeps apart",
+        wording.duration
+    );
+    (unsewn > 0).then(|| Warning::new("W-SIM-UNSEWN", sentence, help))
 }
 
 /// Vertices begin inside a body.

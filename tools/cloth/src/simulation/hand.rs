@@ -6,8 +6,10 @@
 //! around a point that is pulled grows with 1/distance. And a hand that jumps where a pointer jumps
 //! stretches edges in no time, and tears them falsely; so it has a largest speed.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use tearmesh::geometry::{Point, length};
-use tearmesh::{Edit, VertexId};
+use tearmesh::{Edit, HalfEdgeId, Mesh, VertexId};
 
 use crate::cloth::held_set::HeldSet;
 use crate::method::FRAME_S;
@@ -33,8 +35,6 @@ const SPEED_MAX_M_PER_S: f64 = 3.0;
 pub(super) struct Hand {
     pub(super) id: HandId,
     pub(super) set: HeldSet,
-    /// The place of the vertex at rest when it was grabbed: the middle of the grip.
-    centre: Point,
     radius_m: f64,
 }
 
@@ -46,14 +46,13 @@ pub(super) struct Hands {
 }
 
 impl Hands {
-    /// A new hand that grips around a place at rest.
-    pub(super) fn grab(&mut self, v: VertexId, centre: Point, radius_m: f64) -> HandId {
+    /// A new hand that grips around a vertex.
+    pub(super) fn grab(&mut self, v: VertexId, radius_m: f64) -> HandId {
         let id = HandId(self.next);
         self.next += 1;
         self.hands.push(Hand {
             id,
             set: HeldSet::new(vec![v]),
-            centre,
             radius_m,
         });
         id
@@ -74,11 +73,17 @@ impl Hands {
         self.hands.iter().find(has).map(|hand| hand.id)
     }
 
-    /// How many times as strong as by itself the cloth is at a place at rest.
-    pub(super) fn grip(&self, at: Point) -> f64 {
-        let grips = self.hands.iter();
-        let grips = grips.filter_map(|hand| grip(length(at - hand.centre), hand.radius_m));
-        grips.fold(1.0, f64::max)
+    /// The vertices that are gripped, and how many times as strong as by itself the cloth is there.
+    pub(super) fn grips(&self, mesh: &Mesh, rest: &[Point]) -> BTreeMap<VertexId, f64> {
+        let length_m = |h: HalfEdgeId| length(rest[h.next().index()] - rest[h.index()]);
+        let mut grips = BTreeMap::new();
+        for hand in &self.hands {
+            for (v, grip) in gripped(mesh, length_m, hand.set.vertices(), hand.radius_m) {
+                let most = grips.entry(v).or_insert(1.0_f64);
+                *most = most.max(grip);
+            }
+        }
+        grips
     }
 
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
@@ -87,10 +92,61 @@ impl Hands {
     }
 }
 
-/// How many times as strong a grip of this radius makes the cloth at a distance at rest; `None` beyond its radius.
-pub(crate) fn grip(distance_m: f64, radius_m: f64) -> Option<f64> {
-    let is_gripped = distance_m <= radius_m && radius_m > 0.0;
-    is_gripped.then(|| GRIP_STRENGTH * (radius_m / distance_m.max(radius_m * GRIP_CORE)))
+/// The vertices within this radius of some, and how many times as strong the cloth is there, the nearer the stronger. The
+/// distance is that of the shortest way over the mesh, by the lengths of the edges at rest: two panels may rest in one
+/// place. On a flat mesh it is exact.
+pub(crate) fn gripped(
+    mesh: &Mesh,
+    length_m: impl Fn(HalfEdgeId) -> f64,
+    from: &[VertexId],
+    radius_m: f64,
+) -> Vec<(VertexId, f64)> {
+    // Lengths are not negative, so their bits ascend as they do.
+    let mut next: BTreeSet<(u64, VertexId)> = from.iter().map(|v| (0, *v)).collect();
+    let mut nearest: BTreeMap<VertexId, f64> = from.iter().map(|v| (*v, 0.0)).collect();
+    while let Some((_, v)) = next.pop_first() {
+        for corner in mesh.corners_of(v) {
+            let sides = [corner, corner.next(), corner.prev()];
+            let [to_one, across, to_other] = sides.map(&length_m);
+            let [one, other] = [corner, corner.next()].map(|h| mesh.target(h));
+            for (to, sides, beside) in [
+                (one, [to_one, across, to_other], other),
+                (other, [to_other, across, to_one], one),
+            ] {
+                let known = |v| nearest.get(&v).copied();
+                let along_m = known(v).map(|at_m| at_m + sides[0]);
+                let over_m = known(v).zip(known(beside));
+                let over_m = over_m.and_then(|distances| over(distances.into(), sides));
+                let nearer_m = [along_m, over_m].into_iter().flatten();
+                let nearer_m = nearer_m.fold(f64::INFINITY, f64::min);
+                let is_nearer = known(to).is_none_or(|known_m| nearer_m < known_m);
+                if is_nearer && nearer_m <= radius_m {
+                    nearest.insert(to, nearer_m);
+                    next.insert((nearer_m.to_bits(), to));
+                }
+            }
+        }
+    }
+    let grip = |distance_m: f64| GRIP_STRENGTH * (radius_m / distance_m.max(radius_m * GRIP_CORE));
+    let gripped = nearest.into_iter().filter(|_| radius_m > 0.0);
+    gripped
+        .map(|(v, distance_m)| (v, grip(distance_m)))
+        .collect()
+}
+
+/// The distance of a corner of a triangle from a place that is so far from its other two corners, straight over the side
+/// between these; none if the straight way does not cross that side. The sides are those from the first of the two to
+/// the corner, from there to the second, and between the two.
+fn over([first_m, second_m]: [f64; 2], [to_m, from_m, between_m]: [f64; 3]) -> Option<f64> {
+    // In the plane of the triangle, with the side between the two on the first axis.
+    let flat = |one: f64, other: f64| {
+        let x = (one * one - other * other + between_m * between_m) / (2.0 * between_m);
+        (x, (one * one - x * x).max(0.0).sqrt())
+    };
+    let ((x, y), (place_x, place_y)) = (flat(to_m, from_m), flat(first_m, second_m));
+    let crossing = place_x + (x - place_x) * place_y / (place_y + y);
+    let is_over = (0.0..=between_m).contains(&crossing);
+    is_over.then(|| (x - place_x).hypot(y + place_y))
 }
 
 /// The path of a hand to a point that was given now: it takes the time of a frame, as a pointer is

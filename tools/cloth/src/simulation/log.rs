@@ -2,7 +2,8 @@
 //!
 //! Results depend on the definition, and on which input came before which step, and on nothing
 //! else. As text, a log is a line for each input: the number of steps taken before it, a verb, and
-//! numbers in hexadecimal, those with a fraction as the bits of an `f64`.
+//! numbers in hexadecimal, those with a fraction as the bits of an `f64`. Wounds that heal or are let go are all without
+//! a number, those of a cut by its number, and those of a seam by its number and 1.
 //!
 //! ```text
 //! tearmesh inputs 1 digest 8c4bd54da2f1c0e3
@@ -55,8 +56,8 @@ pub(super) struct Record {
 }
 
 /// All inputs, and steps that failed, which leave their mark on what a method remembers.
-const VERBS: [&str; 10] = [
-    "hold", "free", "grab", "lead", "release", "cut", "heal", "unpick", "wind", "failed",
+const VERBS: [&str; 11] = [
+    "hold", "free", "grab", "lead", "release", "cut", "heal", "let_go", "unpick", "wind", "failed",
 ];
 
 const HEAD: &str = "tearmesh inputs 1 digest ";

@@ -38,11 +38,28 @@ pub enum Event {
     Healed {
         /// The number of pairs of copies that were sewn together.
         sewn: usize,
-        /// The number of pairs that a load or a hold kept apart.
+        /// The number of pairs that a load, a hold or a body kept apart, or at which a step failed.
         left: usize,
+        /// The number of pairs that were let go, unpicked, or torn or cut away.
+        ended: usize,
         /// The simulated time, in seconds.
         time_s: f64,
     },
+}
+
+/// What became of the pairs of copies that were drawn together: see [`Run::pairs`](crate::scene::Run::pairs).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PairTally {
+    /// The number of pairs that were ever open.
+    pub opened: usize,
+    /// The number of pairs that were sewn together, unpicked since or not.
+    pub sewn: usize,
+    /// The number of pairs that a load, a hold or a body kept apart, or at which a step failed.
+    pub left: usize,
+    /// The number of pairs that were unpicked, sewn or not, or cut away.
+    pub unpicked: usize,
+    /// The number of pairs that are still drawn together.
+    pub open: usize,
 }
 
 /// The vertex that a pointer is on.

@@ -10,11 +10,21 @@ use crate::cloth::seam::{Seam, joined};
 /// Which cut tore each link, and of which seam it is.
 #[derive(Clone, Debug)]
 pub(super) struct Seams {
-    /// By half-edge: the number of the cut that tore its link, and that of its seam, from 1; 0 for none. A link
-    /// is of its seam for good, sewn or not.
-    of: Vec<[u32; 2]>,
+    /// By half-edge.
+    of: Vec<Label>,
     cuts: u32,
     names: Vec<String>,
+}
+
+/// Where a link came from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Label {
+    /// The number of the cut that tore it, from 1; 0 for none.
+    cut: u32,
+    /// The number of its seam, from 1; 0 for none. A link is of its seam for good, sewn or not.
+    pub(super) seam: u32,
+    /// Whether it was sewn, and not unpicked since.
+    is_sewn: bool,
 }
 
 impl Seams {
@@ -27,7 +37,11 @@ impl Seams {
             }
             false => joined(&panels, &seams).map_err(SimulationError::Seams)?,
         };
-        let of = labels.into_iter().map(|seam| [0, seam]).collect();
+        let label = |seam| Label {
+            seam,
+            ..Label::default()
+        };
+        let of = labels.into_iter().map(label).collect();
         let names = seams.into_iter().map(|seam| seam.name).collect();
         Ok((mesh, Seams { of, cuts: 0, names }))
     }
@@ -37,13 +51,13 @@ impl Seams {
         let id = CutId(self.cuts);
         self.cuts += 1;
         for h in cut.seam().flat_map(|line| line.lips.as_flattened()) {
-            self.of[h.index()][0] = self.cuts;
+            self.of[h.index()].cut = self.cuts;
         }
         id
     }
 
-    /// The half-edges with such numbers of a cut and a seam, ascending.
-    pub(super) fn links(&self, has: impl Fn([u32; 2]) -> bool) -> Vec<HalfEdgeId> {
+    /// The half-edges with such labels, ascending.
+    pub(super) fn links(&self, has: impl Fn(Label) -> bool) -> Vec<HalfEdgeId> {
         let all = (0..).map_while(HalfEdgeId::new).zip(&self.of);
         all.filter(|(_, of)| has(**of)).map(|(h, _)| h).collect()
     }
@@ -52,8 +66,21 @@ impl Seams {
     pub(super) fn of_cut(&self, cut: CutId) -> Result<Vec<HalfEdgeId>, InputError> {
         let is_made = cut.0 < self.cuts;
         is_made
-            .then(|| self.links(|of| of[0] == cut.0 + 1))
+            .then(|| self.links(|of| of.cut == cut.0 + 1))
             .ok_or(InputError::NoCut(cut))
+    }
+
+    /// Notes that these links are unpicked.
+    pub(super) fn unpick(&mut self, links: &[HalfEdgeId]) {
+        for h in links {
+            self.of[h.index()].is_sewn = false;
+        }
+    }
+
+    /// Whether a link of a seam is open that nothing else tore: it was never sewn, or was unpicked.
+    pub(super) fn is_open_seam(&self, h: HalfEdgeId) -> bool {
+        let label = self.of[h.index()];
+        label.seam > 0 && label.cut == 0 && !label.is_sewn
     }
 
     pub(super) fn name(&self, seam: u64) -> Option<String> {
@@ -64,38 +91,52 @@ impl Seams {
     pub(super) fn named(&self, name: &str) -> Result<(u64, Vec<HalfEdgeId>), InputError> {
         let first = self.names.iter().position(|known| known == name);
         let first = first.ok_or_else(|| InputError::NoSeam(name.to_owned()))?;
-        let is_named = |[_, seam]: [u32; 2]| seam > 0 && self.names[seam as usize - 1] == name;
+        let is_named = |of: Label| of.seam > 0 && self.names[of.seam as usize - 1] == name;
         Ok((first as u64, self.links(is_named)))
-    }
-
-    /// The parts of a divided edge were torn by what tore the edge, and are of its seam.
-    fn insert(&mut self, insert: &Insert<'_>) {
-        for family in insert.families() {
-            let parent = family[0].parent.half_edges();
-            let before = parent.map(|h| self.of[h.index()]);
-            for child in family {
-                let start = 3 * child.face.index();
-                self.of.resize(self.of.len().max(start + 3), [0; 2]);
-                for corner in 0..3 {
-                    let ends = [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
-                    let on = |&h: &usize| ends.into_iter().all(|end| lies_on(end, parent[h]));
-                    self.of[start + corner] = (0..3).find(on).map_or([0; 2], |h| before[h]);
-                }
-            }
-        }
     }
 
     pub(super) fn follow(&mut self, edit: &Edit<'_>) {
         match edit {
-            Edit::Insert(insert) => self.insert(insert),
+            // The parts of a divided edge were torn by what tore the edge, and are of its seam.
+            Edit::Insert(insert) => divided(insert, |parent, children| {
+                let before = parent.map(|h| self.of[h.index()]);
+                for (h, on) in children {
+                    self.of
+                        .resize(self.of.len().max(h.index() + 1), Label::default());
+                    self.of[h.index()] = on.map_or_else(Label::default, |side| before[side]);
+                }
+            }),
             Edit::Merge(merge) => {
-                for link in merge.sewn {
-                    self.of[link.stayed.index()][0] = 0;
-                    self.of[link.moved.index()][0] = 0;
+                for h in merge.sewn.iter().flat_map(|link| [link.stayed, link.moved]) {
+                    let label = &mut self.of[h.index()];
+                    label.cut = 0;
+                    label.is_sewn = label.seam > 0;
                 }
             }
             Edit::Split(_) | Edit::Slide(_) => {}
             _ => unreachable!("there is no other edit"),
         }
+    }
+}
+
+/// Visits the faces that were divided: the half-edges of each, and those of its children, with the side of it that each
+/// lies on.
+pub(super) fn divided(
+    insert: &Insert<'_>,
+    mut visit: impl FnMut([HalfEdgeId; 3], &[(HalfEdgeId, Option<usize>)]),
+) {
+    for family in insert.families() {
+        let parent = family[0].parent.half_edges();
+        let children = family.iter().flat_map(|child| {
+            let ends = |corner: usize| [corner, (corner + 1) % 3].map(|i| &child.sources[i]);
+            let is_on = move |side: usize, corner: usize| {
+                let mut ends = ends(corner).into_iter();
+                ends.all(|end| lies_on(end, parent[side]))
+            };
+            let half_edges = child.face.half_edges().into_iter().enumerate();
+            half_edges.map(move |(corner, h)| (h, (0..3).find(|&side| is_on(side, corner))))
+        });
+        let children: Vec<_> = children.collect();
+        visit(parent, &children);
     }
 }

@@ -82,7 +82,7 @@ pub struct EnergyBalance {
     /// The work of colliders. It is negative, since impacts are inelastic and friction takes motion, except for what
     /// colliders that move give.
     pub colliders_j: f64,
-    /// The energy that edits (tears, cuts and mends) added.
+    /// The energy that edits (tears, cuts and mends) added, and what draws together what is sewn.
     pub edits_j: f64,
 }
 
@@ -148,6 +148,7 @@ impl Balance {
             began_j: energy::kinetic_j(system) + energy::stored_j(system),
             gravity_j: energy::potential_j(system),
             damping_j: system.damped_j,
+            edits_j: -system.drawn_j,
             ..EnergyBalance::default()
         };
         balance
@@ -170,6 +171,7 @@ impl Balance {
             elastic_j: energy::stored_j(system),
             gravity_j: sums.gravity_j - energy::potential_j(system),
             damping_j: sums.damping_j - system.damped_j,
+            edits_j: sums.edits_j + system.drawn_j,
             ..sums
         }
     }

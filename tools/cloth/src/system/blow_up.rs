@@ -28,6 +28,16 @@ pub enum BlowUpSite {
 }
 
 impl BlowUpSite {
+    /// The particles there.
+    pub(crate) fn particles(&self) -> Vec<usize> {
+        match *self {
+            BlowUpSite::Constraint(ends, _) | BlowUpSite::Bend(ends, _) => ends.to_vec(),
+            BlowUpSite::Triangle(corners, _) => corners.to_vec(),
+            BlowUpSite::Particle(particle) | BlowUpSite::Beyond(particle) => vec![particle],
+            BlowUpSite::Unknown => Vec::new(),
+        }
+    }
+
     /// The length of what became too long, as a multiple of its rest length.
     pub(crate) fn stretch_ratio(&self) -> f64 {
         match *self {

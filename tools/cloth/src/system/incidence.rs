@@ -101,6 +101,10 @@ impl Dirty {
         &self.list
     }
 
+    pub(crate) fn contains(&self, particle: usize) -> bool {
+        self.is_listed.get(particle) == Some(&true)
+    }
+
     pub(crate) fn mark(&mut self, particle: usize) {
         let count = self.is_listed.len().max(particle + 1);
         self.is_listed.resize(count, false);

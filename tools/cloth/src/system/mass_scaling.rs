@@ -50,6 +50,33 @@ pub(crate) struct MassScaling {
     light: Vec<(f64, u32)>,
 }
 
+/// What a force on one particle does to all: numbers by particle, most of which are zero.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Response {
+    pub(crate) of: Vec<f64>,
+    /// Those whose number may not be zero.
+    pub(crate) particles: Vec<u32>,
+}
+
+impl Response {
+    /// Makes all numbers of so many particles zero.
+    pub(crate) fn clear(&mut self, count: usize) {
+        for particle in self.particles.drain(..) {
+            self.of[particle as usize] = 0.0;
+        }
+        self.of.resize(count, 0.0);
+    }
+
+    /// Adds to the number of a particle.
+    pub(crate) fn add(&mut self, particle: usize, more: f64) {
+        let number = &mut self.of[particle];
+        if *number == 0.0 {
+            self.particles.push(particle as u32);
+        }
+        *number += more;
+    }
+}
+
 impl MassScaling {
     /// Weighs particles of these masses for a net with the sum `stiffness` at each of them, so that
     /// Δt² λ is at most 4 `share`. An inverse mass of zero says that a particle is held. `neighbours` visits
@@ -173,6 +200,36 @@ impl MassScaling {
                 self.stars.push((particle, self.legs.len()));
             }
             first = end;
+        }
+    }
+
+    /// Adds the accelerations by a force on one particle, in a list of them by particle and one of those that have any.
+    /// Costs a pass over what is carried.
+    pub(crate) fn add_accelerations(&self, particle: usize, force: f64, to: &mut Response) {
+        to.add(particle, force);
+        let mut first = 0;
+        for &(carried, end) in &self.stars {
+            let force = to.of[carried as usize];
+            if force != 0.0 {
+                for &(other, share) in &self.legs[first..end] {
+                    to.add(other as usize, force * share);
+                }
+            }
+            first = end;
+        }
+        for &particle in &to.particles {
+            to.of[particle as usize] *= self.inverse[particle as usize];
+        }
+        for (i, &(carried, end)) in self.stars.iter().enumerate().rev() {
+            let first = i.checked_sub(1).map_or(0, |i| self.stars[i].1);
+            let legs = &self.legs[first..end];
+            let by_legs = legs
+                .iter()
+                .map(|&(other, share)| to.of[other as usize] * share);
+            let sum: f64 = by_legs.sum();
+            if sum != 0.0 {
+                to.add(carried as usize, sum);
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use super::counters::Counters;
 use crate::system::blow_up::BlowUpSite;
 use crate::system::constraint::Constraints;
 use crate::system::crush::Crush;
+use crate::system::drawn::Drawn;
 use crate::system::load::Loads;
 use crate::system::mass_scaling::MassScaling;
 use crate::system::matrix::{Hessian, Weights};
@@ -32,6 +33,8 @@ pub(crate) struct Model {
     pub(crate) loads: Loads,
     /// Particles and their paths.
     pub(crate) grabbed: Vec<(u32, Path)>,
+    /// The pairs that the next step draws together.
+    pub(crate) drawn: Vec<Drawn>,
     pub(crate) stretch_ratio_max: f64,
     pub(crate) recorded: Recorded,
 }

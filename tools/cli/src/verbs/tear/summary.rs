@@ -92,6 +92,33 @@ pub(super) fn energy(run: &Run) -> report::Energy {
     }
 }
 
+/// What became of the seams.
+pub(super) fn pairs(run: &Run) -> report::Seams {
+    let pairs = run.pairs();
+    report::Seams {
+        pairs: pairs.opened,
+        sewn: pairs.sewn,
+        left: pairs.left,
+        unpicked: pairs.unpicked,
+        open: pairs.open,
+    }
+}
+
+/// The line of the summary about the seams.
+pub(super) fn seams(seams: &report::Seams) -> String {
+    let open = match seams.open {
+        0 => String::new(),
+        open => format!(", {open} still open"),
+    };
+    format!(
+        "seams: {} of {} sewn, {} left, {} unpicked{open}",
+        seams.sewn,
+        count(seams.pairs, "pair", "pairs"),
+        seams.left,
+        seams.unpicked
+    )
+}
+
 /// How closely each body of the scene is met.
 pub(super) fn bodies(run: &Run) -> Vec<report::BodyGrid> {
     let grid = |collider: &Collider| match &collider.shape {
