@@ -167,6 +167,44 @@ fn a_body_too_fast_is_followed_in_parts_or_refused() {
     }
 }
 
+/// A block that comes down on a sheet on a floor, until there is no room between the two.
+#[test]
+fn a_sheet_between_two_colliders_is_pressed_by_both() {
+    let (points, faces) = block([-0.2, 0.1, -0.2], [0.2, 0.4, 0.2]);
+    let body = Arc::new(Body::new(&points, &faces, Some(0.02)).expect("a body"));
+    for name in METHODS {
+        let down = |time_s: f64| Vector::y() * (-0.3 * time_s);
+        let places = [0.0, 1.0].map(|time_s| (time_s, Point::from(down(time_s))));
+        let (mesh, positions) = sheet(6, 0.1, 0.001);
+        let mut sheet = cloth(&mesh, &positions, Fabric::new(100.0));
+        let mut loads = onto(
+            Collider::plane(plane([0.0; 3], Vector::y())),
+            &gravity_along_y(0.0),
+        );
+        loads
+            .colliders
+            .push(moving(&body, sliding(Path::new(places))));
+        let system = sheet.system_mut();
+        system.set_loads(loads).expect("loads");
+        system.when_unstable(Unstable::Substep);
+        let mut solver = method(name, 1);
+        let mut step = |_| sheet.system_mut().step(&mut *solver, 0.005).err();
+        let error = (0..200).find_map(&mut step).expect("there is no room");
+        let StepError::Pressed {
+            particle,
+            colliders,
+            elapsed_s,
+        } = error
+        else {
+            panic!("{name}: {error}");
+        };
+        assert_eq!(colliders, [0, 1], "{name}");
+        let x = sheet.positions()[particle];
+        assert!(x.x.abs().max(x.z.abs()) < 0.3 && x.y < 0.05, "{name}: {x}");
+        assert!(elapsed_s > 0.3, "{name}: {elapsed_s}");
+    }
+}
+
 /// A dummy that walks and turns with a sheet on its shoulders.
 #[test]
 fn nothing_gets_under_the_skin_of_a_dummy_that_moves() {

@@ -284,6 +284,24 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
                 format!("--dt {}{or}", two_digits(limit_s * part)),
             )
         }
+        StepError::TooFar { particle, .. } => {
+            let vertex = particle + 1;
+            let message = format!("vertex {vertex} is so fast that it may pass through a collider");
+            (message, shorter(run))
+        }
+        StepError::Pressed {
+            particle,
+            colliders,
+            ..
+        } => {
+            let scene = &run.scene().colliders;
+            let [one, other] = colliders.map(|i| scene[i].text(i + 1));
+            let vertex = particle + 1;
+            (
+                format!("{one} and {other} leave no room for vertex {vertex} between them"),
+                "`moves` that keep them farther apart".to_owned(),
+            )
+        }
         StepError::Implicit { error, .. } => {
             let (why, or) = unsolved(&error);
             let message = format!("an implicit step of {} s {why}", short(run.step_s()));
@@ -294,11 +312,7 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
                 StepError::BlowUp { at, .. } => format!("the simulation blew up{}", place(at)),
                 ref other => other.to_string(),
             };
-            let help = match run.scene().step_s {
-                Some(_) => format!("--dt {half}, or --solver implicit"),
-                None => "--solver implicit".to_owned(),
-            };
-            (message, help)
+            (message, shorter(run))
         }
     };
     let after = match run.elapsed_s() {
@@ -306,6 +320,15 @@ pub(crate) fn failure(error: &StepError, run: &Run) -> Fault {
         _ => format!("; {}", state_kept(run)),
     };
     Fault::error(error.code(), message + &after).help(help)
+}
+
+/// What helps where a step was too long for what happened in it.
+fn shorter(run: &Run) -> String {
+    let half = two_digits(run.step_s() / 2.0);
+    match run.scene().step_s {
+        Some(_) => format!("--dt {half}, or --solver implicit"),
+        None => "--solver implicit".to_owned(),
+    }
 }
 
 /// Where a simulation blew up.

@@ -200,6 +200,7 @@ impl Play<'_> {
             Ok(ended) => *ended,
             Err(StepError::BlowUp { .. }) => ("blown up", Exit::Simulation),
             Err(StepError::Implicit { .. }) => ("unsolved", Exit::Simulation),
+            Err(StepError::Pressed { .. }) => ("pressed", Exit::Simulation),
             Err(_) => ("unstable", Exit::Simulation),
         };
         let tear = self.numbers(run, &records.tear_log, beginning, status);

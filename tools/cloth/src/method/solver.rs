@@ -237,6 +237,15 @@ pub enum StepError {
         /// The index of the particle.
         particle: usize,
     },
+    /// Two colliders leave no room for a particle between them.
+    Pressed {
+        /// The simulated time of the last good state, in seconds. The system is in that state.
+        elapsed_s: f64,
+        /// The index of the particle.
+        particle: usize,
+        /// The indices of the colliders in [`Loads::colliders`](crate::Loads::colliders).
+        colliders: [usize; 2],
+    },
     /// A cut of the scene is refused on the cloth as it is then. Nothing was cut.
     Cut {
         /// The simulated time of the cut, in seconds.
@@ -267,7 +276,9 @@ impl StepError {
     pub(crate) fn failed_at(&self) -> Option<Vec<usize>> {
         match self {
             StepError::BlowUp { at, .. } => Some(at.particles()),
-            StepError::TooFar { particle, .. } => Some(vec![*particle]),
+            StepError::TooFar { particle, .. } | StepError::Pressed { particle, .. } => {
+                Some(vec![*particle])
+            }
             StepError::Implicit { .. } => Some(Vec::new()),
             _ => None,
         }
@@ -283,6 +294,7 @@ impl StepError {
             StepError::Unstable { .. } | StepError::Substeps { .. } | StepError::TooFar { .. } => {
                 "E-SIM-UNSTABLE"
             }
+            StepError::Pressed { .. } => "E-SIM-PRESSED",
             StepError::Implicit { .. } => "E-SIM-UNSOLVED",
             StepError::Setting(_) => "E-SCENE-RANGE",
             StepError::Cut { .. } => "E-RAY-CROSS",
@@ -342,6 +354,14 @@ impl fmt::Display for StepError {
                 particle,
             } => format!(
                 "particle {particle} is too fast for a collider after {elapsed_s} s, and may pass through it; \
+                 the last good state is kept"
+            ),
+            StepError::Pressed {
+                elapsed_s,
+                particle,
+                colliders: [one, other],
+            } => format!(
+                "the colliders {one} and {other} leave no room for particle {particle} after {elapsed_s} s; \
                  the last good state is kept"
             ),
         };

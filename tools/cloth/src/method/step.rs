@@ -186,9 +186,16 @@ fn go_back(system: &mut System, failure: Failure) -> StepError {
             at: blow_up_site(&system.model, &[began, now]),
         },
         Failure::Implicit(error) => StepError::Implicit { elapsed_s, error },
-        Failure::TooFar { particle } => StepError::TooFar {
-            elapsed_s,
-            particle,
+        Failure::TooFar { particle } => match collide::pressing(system, particle) {
+            Some(colliders) => StepError::Pressed {
+                elapsed_s,
+                particle,
+                colliders,
+            },
+            None => StepError::TooFar {
+                elapsed_s,
+                particle,
+            },
         },
     };
     std::mem::swap(&mut system.positions, &mut system.scratch.positions);

@@ -7,7 +7,6 @@ use super::run::Run;
 use super::warning::{Warning, Wording};
 use crate::method::Method;
 use crate::method::stability::frequency_bound;
-use crate::system::body::Body;
 use crate::system::load::ColliderShape;
 use crate::text::{count, short, two_digits};
 
@@ -190,19 +189,11 @@ fn inside(run: &Run, wording: &Wording<'_>) -> impl Iterator<Item = Warning> {
         let vertices = count(1 + within.count(), "vertex begins", "vertices begin");
         let sentence = format!(
             "{vertices} inside of {}, such as {first}: from deep inside there is no way out",
-            body_of(number, body)
+            collider.text(number)
         );
         let help = "move the mesh or the body in its file";
         Some(Warning::new("W-SIM-INSIDE", sentence, help))
     })
-}
-
-/// A body in words: by the name of its file, where it has one.
-fn body_of(number: usize, body: &Body) -> String {
-    match body.name() {
-        Some(name) => format!("the body `{name}`"),
-        None => format!("the body of collider {number}"),
-    }
 }
 
 /// All vertices are stronger than the cloth: strengths are those of vertices, and on a coarse mesh a small region

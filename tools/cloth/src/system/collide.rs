@@ -54,6 +54,32 @@ pub(crate) fn too_far(system: &System) -> Option<usize> {
     system.scratch.contact.too_far
 }
 
+/// Two colliders that leave no room for a particle where the last substep ended: their surfaces face each other there, and
+/// overlap.
+pub(crate) fn pressing(system: &System, particle: usize) -> Option<[usize; 2]> {
+    let x = system.positions[particle];
+    let ways_out = system.model.loads.colliders.iter().map(|collider| {
+        let ColliderShape::Body { body, .. } = &collider.shape else {
+            let (normal, depth) = collider.shape.way_out(x);
+            return (Some(normal), depth);
+        };
+        let pose = collider.pose(system.scratch.span_s[1]);
+        let seen = pose.to_body(x);
+        let normal = body.outward(seen).map(|normal| pose.turned(normal));
+        (normal, -body.distance_m(seen))
+    });
+    let ways_out: Vec<_> = ways_out.collect();
+    let mut pairs = (0..ways_out.len()).flat_map(|other| (0..other).map(move |one| [one, other]));
+    pairs.find(|pair| {
+        let [(normal, depth), (other, other_depth)] = pair.map(|i| ways_out[i]);
+        // Deep inside nobody knows the way.
+        let faces = normal
+            .zip(other)
+            .is_none_or(|(n, other)| dot(n, other) < 0.0);
+        faces && depth + other_depth > 0.0
+    })
+}
+
 /// Moves the particles out of the colliders if that was not done yet in this substep, and takes their
 /// velocity inward. Returns the work of contact in the substep.
 pub(crate) fn push_out(system: &mut System) -> ContactWork {

@@ -190,6 +190,19 @@ impl Collider {
         })
     }
 
+    /// Returns the collider of this number in words, by the name of its file if it has one.
+    #[must_use]
+    pub fn text(&self, number: usize) -> String {
+        match &self.shape {
+            ColliderShape::Plane(_) => format!("the plane of collider {number}"),
+            ColliderShape::Sphere { .. } => format!("the ball of collider {number}"),
+            ColliderShape::Body { body, .. } => match body.name() {
+                Some(name) => format!("the body `{name}`"),
+                None => format!("the body of collider {number}"),
+            },
+        }
+    }
+
     /// Returns the surface of a body or a ball as it was made, to be drawn: its points, and its faces, anticlockwise
     /// as seen from outside. A plane has none.
     #[must_use]
