@@ -44,12 +44,12 @@ impl Played {
         self.chrome.drawn();
     }
 
-    /// Waits until something is so, for a minute at most.
+    /// Waits until something is so: for five minutes at most, since pictures are drawn by the processor.
     fn wait(&mut self, what: &str, mut is_so: impl FnMut(&mut Played) -> bool) {
         let begun = Instant::now();
         while !is_so(self) {
             let said = self.chrome.hidden_text("say");
-            assert!(begun.elapsed() < Duration::from_secs(60), "{what}: {said}");
+            assert!(begun.elapsed() < Duration::from_secs(300), "{what}: {said}");
             std::thread::sleep(Duration::from_millis(50));
         }
     }

@@ -66,12 +66,12 @@ const MEETS: f64 = 0.05;
 /// The way of a step is at most this part of that edge: by explicit methods, since a short edge would fling what is behind it; by
 /// implicit ones, which take more than a step to move that; and by those that project, which take a stretched edge for
 /// a blow-up at a hundred times its length.
-const WAYS_MAX: [f64; 3] = [0.25, 2.0, 20.0];
+const WAYS_MAX: [f64; 3] = [0.25, 1.0, 20.0];
 
 /// A pair that needs this much longer than its way takes at the steady speed is left, in seconds.
 const PATIENCE_S: f64 = 5.0;
 
-/// A pair waits while an edge at it bears this part of what it takes to tear it.
+/// A pair waits while an edge at it bears this part of what it takes to tear it, and is slower the nearer one is to that.
 const LOAD_MAX: f64 = 0.5;
 
 /// For so long before it is left a pair is not drawn any more, in seconds: what was pulled while it
@@ -95,6 +95,8 @@ struct Pair {
     way: Vector,
     /// Whether the cloth around them is pulled too hard to draw them nearer, or comes to rest.
     waits: bool,
+    /// The part of its speed that the cloth around them leaves it: none where it waits.
+    ease: f64,
     /// Whether they are near enough to be one.
     has_met: bool,
     /// The simulated time at which it is left, in seconds.
@@ -241,6 +243,7 @@ impl Healing {
                 is_kept_apart: false,
                 way,
                 waits: false,
+                ease: 1.0,
                 has_met: gap_m == 0.0,
                 until_s: system.elapsed_s() + gap_m / steady_m_per_s + PATIENCE_S,
             });
@@ -290,8 +293,8 @@ impl Healing {
         let drawn = self.open.iter().filter(|pair| !pair.waits);
         let drawn = drawn.map(|pair| Drawn {
             ends: pair.ends.map(|v| v.index() as u32),
-            speed_m_per_s: pair.speed_m_per_s,
-            more_m_per_s: pair.more_m_per_s,
+            speed_m_per_s: pair.speed_m_per_s * pair.ease,
+            more_m_per_s: pair.more_m_per_s * pair.ease,
         });
         system.model.drawn.clear();
         system.model.drawn.extend(drawn);
@@ -328,6 +331,7 @@ impl Healing {
             let most_m_per_s = way_max * shortest_m / step_s;
             pair.went(way, touches, most_m_per_s, step_s);
             pair.waits = now_s > pair.until_s - REST_S || load > LOAD_MAX;
+            pair.ease = (1.0 - load / LOAD_MAX).max(0.0);
             pair.has_met = pair.gap_m() <= MEETS * shortest_m;
         }
     }
