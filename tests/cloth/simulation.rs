@@ -7,8 +7,8 @@ mod replay;
 use tearmesh::geometry::length;
 use tearmesh::{CutMethod, Edits, FaceId, Mesh, Point, Scissor, Vector, VertexId, shapes};
 use tearmesh_cloth::{
-    CutId, Event, Fabric, HandId, InputError, Method, Simulation, SimulationDef, StepError,
-    Tearing, Unstable, Wounds,
+    CutId, Event, Fabric, HandId, InputError, Method, Quality, Simulation, SimulationDef, Solver,
+    StepError, Tearing, Unstable, Verlet, Wounds,
 };
 
 use crate::follow;
@@ -298,6 +298,31 @@ fn heal(sim: &mut Simulation, wounds: Wounds) -> (usize, usize) {
         }
     }
     panic!("healing ends")
+}
+
+/// Before they are weighed again.
+#[test]
+fn the_quality_of_a_step_is_known_where_what_was_carried_became_one() {
+    let mut sim = hung(10, SimulationDef::default());
+    pass(&mut sim, 0.01);
+    let cut = sim.cut(&across(0.503).with_snap(0.0)).expect("cut");
+    let step_s = sim.step_s();
+    sim.advance(step_s, 1).expect("a step");
+    let before = sim.mesh().vertex_count();
+    sim.heal(Wounds::Cut(cut)).expect("a cut");
+    while sim.mesh().vertex_count() == before {
+        sim.advance(step_s, 1).expect("a step");
+    }
+    let quality = Verlet.quality(sim.cloth().system());
+    let Quality::Carried {
+        carried,
+        mass_ratio_max,
+        ..
+    } = quality
+    else {
+        panic!("{quality:?}")
+    };
+    assert!(carried > 0 && mass_ratio_max > 1.0, "{quality:?}");
 }
 
 #[test]

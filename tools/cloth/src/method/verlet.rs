@@ -146,7 +146,7 @@ impl Solver for Verlet {
         let (carry, model) = (&system.guard.carry, &system.model);
         Quality::Carried {
             carried: carry.len(),
-            mass_ratio_max: carry.mass_ratio_max(&model.masses),
+            mass_ratio_max: carry.mass_ratio_max.max(1.0),
             damping_capped: model.stretch.damping_capped(model.damping_s),
         }
     }

@@ -45,6 +45,9 @@ pub(crate) struct MassScaling {
     is_carried: Vec<bool>,
     /// Whether no two that are carried are neighbours, so that stability is proven.
     pub(crate) is_proven: bool,
+    /// The largest mass of one that is carried, as a multiple of its own when particles were weighed last: since then it may
+    /// have become one with another. At most 1 if there is none.
+    pub(crate) mass_ratio_max: f64,
     /// What each particle is to weigh at least, and those that weigh less: how many times less.
     needs: Vec<f64>,
     light: Vec<(f64, u32)>,
@@ -93,7 +96,7 @@ impl MassScaling {
         self.stars.clear();
         self.legs.clear();
         self.light.clear();
-        self.is_proven = true;
+        (self.is_proven, self.mass_ratio_max) = (true, 1.0);
         let needs = stiffness.map(|stiffness| dt_s * dt_s * stiffness / (2.0 * share));
         self.needs.clear();
         self.needs.extend(needs);
@@ -121,6 +124,9 @@ impl MassScaling {
         for (inverse, &w) in self.inverse.iter_mut().zip(inverse_masses) {
             *inverse = if w > 0.0 { 1.0 / *inverse } else { 0.0 };
         }
+        let carried = self.stars.iter().map(|&(particle, _)| particle as usize);
+        let ratios = carried.map(|particle| 1.0 / (self.inverse[particle] * masses[particle]));
+        self.mass_ratio_max = ratios.fold(1.0, f64::max);
     }
 
     /// Makes room for so many particles, and springs between them.
@@ -241,13 +247,6 @@ impl MassScaling {
     /// How many particles are carried.
     pub(crate) fn len(&self) -> usize {
         self.stars.len()
-    }
-
-    /// The largest mass of one of them in a step, as a multiple of its own; 1 if there is none.
-    pub(crate) fn mass_ratio_max(&self, masses: &[f64]) -> f64 {
-        let carried = self.stars.iter().map(|&(particle, _)| particle as usize);
-        let ratios = carried.map(|particle| 1.0 / (self.inverse[particle] * masses[particle]));
-        ratios.fold(1.0, f64::max)
     }
 
     /// Makes accelerations of forces: M′⁻¹ f. Only where something is carried.
