@@ -12,6 +12,16 @@ use super::oracle::Solid;
 use super::{block, dummy};
 use crate::parts::{G, gravity_along_y, mechanical_j, plane, v};
 
+fn methods() -> [Method; 5] {
+    [
+        Method::Verlet,
+        Method::xpbd(),
+        Method::implicit(),
+        Method::provot(),
+        Method::pbd(),
+    ]
+}
+
 /// Cells of the panels a side.
 const CELLS: u32 = 10;
 
@@ -166,13 +176,7 @@ fn nothing_is_sewn_through_a_body() {
         let cell_m = if name == "dummy" { 0.01 } else { 0.005 };
         let body = Arc::new(super::body(&solid, cell_m));
         let panels = panels(middle, size_m, if name == "dummy" { 0.34 } else { 0.14 });
-        for method in [
-            Method::Verlet,
-            Method::xpbd(),
-            Method::implicit(),
-            Method::provot(),
-            Method::pbd(),
-        ] {
+        for method in methods() {
             let (run, put_in_j) = sewn(&method, &panels, Some(&body));
             let (_, free_j) = sewn(&method, &panels, None);
             let (pairs, x) = (run.pairs(), run.cloth().positions());
@@ -249,13 +253,7 @@ fn no_cut_heals_through_a_body() {
     ] {
         let cell_m = if name == "dummy" { 0.01 } else { 0.005 };
         let body = Arc::new(super::body(&solid, cell_m));
-        for method in [
-            Method::Verlet,
-            Method::xpbd(),
-            Method::implicit(),
-            Method::provot(),
-            Method::pbd(),
-        ] {
+        for method in methods() {
             let (event, sim, rise_j) = healed(&method, Some(&body));
             let (_, _, free_j) = healed(&method, None);
             let name = format!("{name} by {}: {event:?}", method.name());

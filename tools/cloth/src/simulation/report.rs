@@ -1,4 +1,4 @@
-//! What a simulation reports: events, how far it got, and what a pointer is on.
+//! The reports of a simulation: events, how far it got, and the place that a pointer is on.
 
 use tearmesh::engine::RayHit;
 use tearmesh::{HalfEdgeId, VertexId};

@@ -1,4 +1,4 @@
-//! Which cut tore which links of a mesh, and which seam they belong to.
+//! The labels of torn links: the cut that tore each, and the seam that it belongs to.
 
 use tearmesh::{Cut, Edit, HalfEdgeId, Insert, Mesh};
 
