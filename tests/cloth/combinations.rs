@@ -49,7 +49,7 @@ const KNOWN: &[Known] = &[
     Known {
         levels: "fabric=edges cut=default|through hand=led",
         oracle: "frames",
-        example: "seams=sewn mesh=panels fabric=edges gravity=none drag=none collider=moving wind=steady hold=moving \
+        example: "seams=sewn mesh=panels fabric=edges gravity=none ripple=large collider=moving wind=steady hold=moving \
                   unpick=early cut=through hand=led",
         reason: "an edge has one stiffness however short it is, so a hand draws the shortest that a cut leaves to a hundred \
                  times its length, which is taken for a blow-up",

@@ -51,6 +51,11 @@ const MORE_MAX_M_PER_S: f64 = 15.0;
 /// slide over it, as the sides of a shoulder seam do.
 const STALLED: f64 = 0.1;
 
+/// What touches a body is drawn at no more than this part of its steady speed and so many times what it came in the last
+/// step, so that it slides on where it can, and one that is stopped is not pushed at full speed in each step.
+const LEANS: f64 = 0.2;
+const SLIDES: f64 = 8.0;
+
 /// How much of a step counts in the next one, since cloth that is pulled taut round a body trembles.
 const REMEMBERED: f64 = 0.9;
 
@@ -108,7 +113,12 @@ impl Pair {
     /// drawn half as fast, and all else as much faster as is missing.
     fn went(&mut self, way: Vector, touches: bool, most_m_per_s: f64, step_s: f64) {
         let before_m = self.gap_m();
-        let wanted_m = before_m.min(self.speed_m_per_s * step_s);
+        let drawn_m_per_s = if self.waits {
+            0.0
+        } else {
+            self.ease * self.speed_m_per_s
+        };
+        let wanted_m = before_m.min(drawn_m_per_s * step_s);
         // Past each other is too much.
         let came_m = dot(self.way - way, self.way) / before_m.max(f64::MIN_POSITIVE);
         let missing_m = wanted_m - came_m;
@@ -126,6 +136,11 @@ impl Pair {
             (0.5 * self.speed_m_per_s).max(SLOWEST_M_PER_S)
         } else {
             let faster_m_per_s = self.speed_m_per_s * (1.0 + step_s / RECOVERS_S);
+            let slides_m_per_s = match touches {
+                true => LEANS * self.steady_m_per_s + SLIDES * (came_m / step_s).max(0.0),
+                false => f64::INFINITY,
+            };
+            let most_m_per_s = most_m_per_s.min(slides_m_per_s);
             faster_m_per_s.min(self.steady_m_per_s).min(most_m_per_s)
         };
         let most_m_per_s = (most_m_per_s - self.speed_m_per_s).clamp(0.0, MORE_MAX_M_PER_S);
