@@ -17,13 +17,13 @@ use crate::harness::{Folder, files_in, root};
 
 /// Of the lines in which `…` stands for numbers, as the commands answer them, by file.
 const CHAOTIC: [(&str, u64); 2] = [
-    ("README.md", 0x1e32_0ec6_b148_119c),
-    ("tear.txt", 0x111e_131c_86e3_56d8),
+    ("README.md", 0xde26_c2a1_232a_4bd4),
+    ("tear.txt", 0xb8a1_1248_0aec_992e),
 ];
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x125c_c0f9_7bfb_f2e7;
+const DIGEST: u64 = 0xf758_251b_561e_e100;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

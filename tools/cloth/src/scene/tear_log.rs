@@ -16,7 +16,8 @@ use crate::system::force;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TearEvent {
-    /// The time at the end of the step, in seconds.
+    /// The time within the step at which the load of the edge at `place` reached its strength, in seconds. As the
+    /// velocities of its ends have it: the end of the step if it was as large before.
     pub time_s: f64,
     /// The number of vertices that were split.
     pub splits: usize,
@@ -121,17 +122,12 @@ impl TearLog {
         let middle = |x: &[Point], ends: [usize; 2]| between(x[ends[0]], x[ends[1]], 0.5);
         let ends = [mesh.origin(edge), mesh.target(edge)].map(VertexId::index);
         let corners = [edge, edge.next()].map(HalfEdgeId::index);
+        let ago_s = ago_s(run, edge, load);
         if self.events.is_empty() && self.first_n.is_some() {
-            let total_s: f64 = self.recent.iter().map(|(seconds, _)| seconds).sum();
-            let mean = |hold: usize| {
-                let parts = self.recent.iter();
-                let sum = parts.fold(Vector::zeros(), |sum, (s, forces)| sum + forces[hold] * *s);
-                sum / total_s
-            };
-            self.first_n = Some(self.largest(mean));
+            self.first_n = Some(self.largest(|hold| self.mean_n(hold, ago_s)));
         }
         self.events.push(TearEvent {
-            time_s: run.elapsed_s(),
+            time_s: run.elapsed_s() - ago_s,
             splits: tear.splits,
             torn_m: tear.tear_length_m,
             place: middle(cloth.positions(), ends),
@@ -162,7 +158,7 @@ impl TearLog {
         self.recent.push_back((seconds, forces));
         let mut kept_s: f64 = self.recent.iter().map(|(seconds, _)| seconds).sum();
         while let Some((oldest_s, _)) = self.recent.front()
-            && kept_s - oldest_s >= FRAME_S * (1.0 - 1e-9)
+            && kept_s - oldest_s >= FRAME_S + run.step_s()
         {
             kept_s -= oldest_s;
             self.recent.pop_front();
@@ -176,6 +172,19 @@ impl TearLog {
                 forces_n,
             });
         }
+    }
+
+    /// The mean force of a hold over the frame that ended so many seconds before the last step did.
+    fn mean_n(&self, hold: usize, ago_s: f64) -> Vector {
+        let (mut began_s, mut sum, mut sum_s) = (0.0_f64, Vector::zeros(), 0.0);
+        for (seconds, forces) in self.recent.iter().rev() {
+            let ended_s = began_s + seconds;
+            let within_s = ended_s.min(ago_s + FRAME_S) - began_s.max(ago_s);
+            sum += forces[hold] * within_s.max(0.0);
+            sum_s += within_s.max(0.0);
+            began_s = ended_s;
+        }
+        sum / sum_s
     }
 
     /// Returns the steps in which something tore, in ascending order of time.
@@ -218,5 +227,25 @@ impl TearLog {
     fn largest(&self, of: impl Fn(usize) -> Vector) -> f64 {
         let counted = (0..self.counts.len()).filter(|&hold| self.counts[hold]);
         counted.map(|hold| length(of(hold))).fold(0.0, f64::max)
+    }
+}
+
+/// How long before the end of a step an edge that tears had the load 1: strains are in proportion to loads.
+fn ago_s(run: &Run, edge: HalfEdgeId, load: f64) -> f64 {
+    let (mesh, system, step_s) = (run.mesh(), run.cloth().system(), run.step_s());
+    let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(VertexId::index);
+    let rest_m = system
+        .stretches()
+        .get(run.cloth().stretch(edge))
+        .rest_length_m;
+    let way = system.positions()[b] - system.positions()[a];
+    let before = way - (system.velocities()[b] - system.velocities()[a]) * step_s;
+    let [strain, strain_before] = [way, before].map(|way| length(way) / rest_m - 1.0);
+    let load_before = load * strain_before / strain;
+    let is_new = load_before < 1.0 && load > load_before;
+    if is_new {
+        step_s * (load - 1.0) / (load - load_before)
+    } else {
+        0.0
     }
 }
