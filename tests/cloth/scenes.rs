@@ -353,7 +353,7 @@ fn methods_say_where_their_steps_fall_short() {
             // One sweep does not converge.
             ("xpbd", Quality::Residual(newtons)) => assert!(newtons > 1.0),
             ("implicit", Quality::Implicit(solved)) => {
-                assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 1e-3);
+                assert!(solved.residual_max_m_per_s > 0.0 && solved.residual_max_m_per_s < 0.018);
             }
             (
                 "verlet",

@@ -106,7 +106,7 @@ pub(crate) const METHODS: [Method; 19] = [
 pub(crate) const DEFAULTS: [Method; 5] = [
     method(DEFAULT, Family::Verlet, 0),
     method("xpbd", Family::Xpbd, 1),
-    method("implicit", Family::BackwardEuler, 10),
+    method("implicit", Family::BackwardEuler, 1000),
     method("pbd", Family::Pbd, 10),
     method("provot", Family::Provot, 0),
 ];

@@ -8,9 +8,9 @@ pub struct Settings {
     /// The time discretisation.
     pub method: Method,
     /// The accuracy T to which a step must be solved, in m/s per s^(p+1), where p is the order of the
-    /// method: the rms error of the velocity is at most T Δt^(p+1). If forces are small, it is also
-    /// at most a tenth of the rms change of velocity that the forces at the start of the step would
-    /// make, but no less than rounding.
+    /// method: the rms error of the velocity is at most T Δt^(p+1), as far as the last iterations
+    /// say what is left. Where little changes it is also at most a tenth of the change, by energy,
+    /// but no less than rounding. Where something touches a collider a hundredth of both.
     pub tolerance: f64,
     /// The largest number of conjugate gradient iterations per solve.
     pub solver_iterations_max: u32,
@@ -58,7 +58,7 @@ pub struct Stats {
     /// The number of conjugate gradient iterations.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub solver_iterations: u64,
-    /// The largest residual of a part, as a bound on the rms error of the velocity in m/s.
+    /// The largest error that was left in a part, as an estimated bound on the rms error of the velocity in m/s.
     pub residual_max_m_per_s: f64,
 }
 
@@ -66,11 +66,11 @@ pub struct Stats {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
-    /// The residual stayed above the limit that the tolerance sets.
+    /// The error stayed above the limit that the tolerance sets.
     NotConverged {
         /// The bound on the rms error of the velocity that was reached, in m/s.
         residual: f64,
-        /// The bound that the tolerance set, in m/s.
+        /// The bound that the tolerance set, in m/s: a tenth of the change where that is less.
         limit: f64,
         /// The number of conjugate gradient iterations that were spent.
         solver_iterations: u32,

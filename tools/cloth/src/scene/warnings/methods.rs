@@ -248,7 +248,8 @@ fn damped(run: &Run, wording: &Wording<'_>) -> Option<Warning> {
     let solver = wording.solver;
     let or = match run.scene().solver {
         Method::Verlet => String::new(),
-        Method::Implicit(_) => {
+        // Order two changes nothing in when and how cloth tears.
+        Method::Implicit(_) if run.tally().splits == 0 => {
             format!(", `order = \"2\"` in [solver] of a scene file, or {solver} verlet")
         }
         _ => format!(", or {solver} verlet"),
