@@ -1,4 +1,4 @@
-//! How exactly a step has to be solved by default: never so loosely that what acts is not felt.
+//! The accuracy to which a step is solved by default: never so loose that what acts is not felt.
 
 use super::dense::jacobian;
 use super::matrix::{crumpled, dense_step};
@@ -33,7 +33,7 @@ fn what_hangs_rests_where_forces_balance_at_every_step() {
     }
 }
 
-/// The energy of a change of velocities in a step of h: ½ of it is what the step minimises.
+/// The square of a change of velocities in the energy norm of a step of h.
 fn energy(scene: &Scene, hessian: &[Vec<f64>], h: f64, change: &[Vector]) -> f64 {
     let all: Vec<f64> = change.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
     let row = |r: usize| -> f64 {

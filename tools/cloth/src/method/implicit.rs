@@ -159,8 +159,8 @@ impl Touching {
 /// The part of its change that a step misses, at most, by energy.
 const MISSING_MAX: f64 = 0.1;
 
-/// How much less of both may be left where something touches: what goes into a body is pushed out, which makes
-/// energy (twentieths of what was put in, where a sheet falls on a box).
+/// The part of both that may be left where something touches: what goes into a body is pushed out, which makes
+/// energy (5 % of what was put in, where a sheet falls on a box).
 const IN_CONTACT: f64 = 0.01;
 
 /// The part of its rest length by which an edge may end longer than a linearised step knows of. (At

@@ -16,8 +16,8 @@ use crate::system::force;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TearEvent {
-    /// The time within the step at which the load of the edge at `place` reached its strength, in seconds. As the
-    /// velocities of its ends have it: the end of the step if it was as large before.
+    /// The time at which the load of the edge at `place` reached its strength, in seconds, by the velocities of its
+    /// ends: within the step, or at its end if the load was as large before.
     pub time_s: f64,
     /// The number of vertices that were split.
     pub splits: usize,
@@ -230,7 +230,7 @@ impl TearLog {
     }
 }
 
-/// How long before the end of a step an edge that tears had the load 1: strains are in proportion to loads.
+/// The time since an edge that tears had the load 1, at the end of a step: loads are in proportion to strains.
 fn ago_s(run: &Run, edge: HalfEdgeId, load: f64) -> f64 {
     let (mesh, system, step_s) = (run.mesh(), run.cloth().system(), run.step_s());
     let [a, b] = [mesh.origin(edge), mesh.target(edge)].map(VertexId::index);

@@ -56,7 +56,7 @@ const STALLED: f64 = 0.1;
 const LEANS: f64 = 0.2;
 const SLIDES: f64 = 8.0;
 
-/// How much of a step counts in the next one, since cloth that is pulled taut round a body trembles.
+/// The part of a step that counts in the next one, since cloth that is pulled taut round a body trembles.
 const REMEMBERED: f64 = 0.9;
 
 /// The speed of a pair that is no longer kept apart doubles in this time, in seconds.

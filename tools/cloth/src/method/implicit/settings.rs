@@ -10,7 +10,7 @@ pub struct Settings {
     /// The accuracy T to which a step must be solved, in m/s per s^(p+1), where p is the order of the
     /// method: the rms error of the velocity is at most T Δt^(p+1), as far as the last iterations
     /// say what is left. Where little changes it is also at most a tenth of the change, by energy,
-    /// but no less than rounding. Where something touches a collider a hundredth of both.
+    /// but no less than rounding. Where something touches a collider it is a hundredth of that.
     pub tolerance: f64,
     /// The largest number of conjugate gradient iterations per solve.
     pub solver_iterations_max: u32,
