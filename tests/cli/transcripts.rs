@@ -23,7 +23,7 @@ const CHAOTIC: [(&str, u64); 2] = [
 
 /// Of all files that the transcripts' commands leave behind: meshes, reports, frames, charts. A
 /// commit that changes it says which bytes moved, and why.
-const DIGEST: u64 = 0x6c45_ed09_31f5_cd4c;
+const DIGEST: u64 = 0xbfbc_8afa_3e74_69e8;
 
 #[test]
 fn transcripts_are_answered_to_the_letter() {

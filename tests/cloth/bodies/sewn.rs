@@ -212,14 +212,10 @@ fn healed(method: &Method, body: Option<&Arc<Body>>) -> (Event, Simulation, f64)
     sim.advance(0.25, 10_000).expect("steps");
     sim.heal(Wounds::Cut(cut)).expect("a cut");
     let began_j = energy_j(&sim);
-    // From then on pairs are drawn no more, and what they held falls and catches at the body.
-    let rests_s = sim.time_s() + 4.5;
     let (mut most_j, mut healed) = (0.0_f64, None);
     while sim.time_s() < 7.0 {
         sim.advance(1.0 / 60.0, 10_000).expect("steps");
-        if sim.time_s() < rests_s {
-            most_j = most_j.max(energy_j(&sim) - began_j);
-        }
+        most_j = most_j.max(energy_j(&sim) - began_j);
         healed = healed.or_else(|| {
             sim.events()
                 .find(|event| matches!(event, Event::Healed { .. }))
@@ -243,6 +239,7 @@ fn no_cut_heals_through_a_body() {
         solid.points.iter_mut().for_each(|p| p[1] -= down_m);
         solid
     };
+    let mut failed = Vec::new();
     for (name, solid) in [
         ("plate", solid([-0.5, -0.5, -0.01], [0.5, -0.02, 0.01])),
         ("rod", moved(rod(0.025, 0.5), 0.045)),
@@ -258,10 +255,10 @@ fn no_cut_heals_through_a_body() {
             println!("{name}, {rise_j} J, without {free_j} J");
             nothing_is_inside(&name, &solid, sim.mesh(), sim.cloth().positions());
             // Ten millijoules lift the sheet by four centimetres.
-            assert!(
-                rise_j < 10.0 * free_j.max(0.01),
-                "{name}: {rise_j} J, {free_j} J without"
-            );
+            if rise_j >= 10.0 * free_j.max(0.01) {
+                failed.push(format!("{name}: {rise_j} J, {free_j} J without"));
+            }
         }
     }
+    assert!(failed.is_empty(), "{failed:#?}");
 }

@@ -3,9 +3,11 @@
 use super::dense::jacobian;
 use super::matrix::{crumpled, dense_step};
 use super::{G, Scene, step};
+use crate::parts::cloths::loaded;
 use crate::parts::nets::chain;
-use crate::parts::{implicit_to, near, run};
+use crate::parts::{gravity_along_y, implicit_to, near, run, take};
 use tearmesh::Vector;
+use tearmesh_cloth::Fabric;
 use tearmesh_cloth::implicit::Method;
 
 const METHODS: [Method; 2] = [Method::BackwardEuler, Method::Bdf2];
@@ -29,6 +31,24 @@ fn what_hangs_rests_where_forces_balance_at_every_step() {
             let mut system = chain(20.0);
             run(&mut system, implicit_to(method, tolerance), dt_s, steps);
             near(-system.positions()[10].z, 1.107_91, 1e-9);
+        }
+    }
+}
+
+/// All of it falls alike, and nothing is left to solve.
+#[test]
+fn what_falls_freely_is_not_strained_at_any_tolerance() {
+    for (method, tolerance) in METHODS.into_iter().flat_map(|m| TOLERANCES.map(|t| (m, t))) {
+        for (dt_s, _) in STEPS {
+            let (_, mut cloth) = loaded(4, Fabric::new(300.0), gravity_along_y(0.0));
+            let system = cloth.system_mut();
+            take(system, &mut implicit_to(method, tolerance), dt_s, 10);
+            let strains = system
+                .stretches()
+                .iter()
+                .map(|id| system.stretch_ratio(id) - 1.0);
+            let most = strains.fold(0.0, |most: f64, strain| most.max(strain.abs()));
+            assert!(most < 1e-12, "{method:?} {tolerance} {dt_s}: {most}");
         }
     }
 }

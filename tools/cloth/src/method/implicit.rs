@@ -58,15 +58,18 @@
 //! as long as the last has its limit at μ = 2 (1 + ω)/(1 + 2ω). Springs only raise it.
 
 pub(crate) mod settings;
+mod stage;
+mod touching;
 
 use tearmesh::geometry::{Point, Vector, dot, length};
 
 pub use self::settings::{Method, Settings, Stats, StepError};
+use self::stage::Stage;
+use self::touching::Touching;
 use crate::method::solver::{Abilities, Failure, Quality, Solver};
 use crate::system::System;
 use crate::system::blow_up::{first, is_beyond};
 use crate::system::collide;
-use crate::system::contact::{Contact, Corners, Pressed};
 use crate::system::error::SettingError;
 use crate::system::matrix::{Hessian, Pcg, Solution, Stop, Weights};
 use crate::system::model::Model;
@@ -134,28 +137,6 @@ pub struct Implicit {
     touching: Vec<Touching>,
 }
 
-/// A particle, or a corner of a face, that was in contact as the step began.
-#[derive(Clone, Copy, Debug)]
-struct Touching {
-    of: Corners,
-    particle: usize,
-    normal: Vector,
-    /// What keeps it out.
-    stiffness: f64,
-}
-
-impl Touching {
-    fn all(contact: &Contact) -> impl Iterator<Item = Touching> + use<> {
-        let (of, normal) = (contact.corners, contact.normal);
-        of.each().map(move |particle| Touching {
-            of,
-            particle,
-            normal,
-            stiffness: 0.0,
-        })
-    }
-}
-
 /// The part of its change that a step misses, at most, by energy.
 const MISSING_MAX: f64 = 0.1;
 
@@ -171,11 +152,6 @@ const OVERSHOOT: f64 = 0.3;
 /// were pushed once come to twice their energy by steps of a thousand times the explicit limit; at .002
 /// more of these are divided into the shortest parts.)
 const MADE: f64 = 0.003;
-
-/// How many times as stiff a particle is towards an obstacle as otherwise, and the corners of a face of which the middle
-/// touches one. (What is only pushed out after a long step is drawn in by all that hangs from it, and out again: a sheet
-/// on a body never comes to rest, and a spike gives eighty times what was put in.)
-const KEPT_OUT: f64 = 1e3;
 
 impl Implicit {
     /// Returns an implicit method with these settings.
@@ -237,10 +213,14 @@ impl Implicit {
         // no shorter one would lower.
         system.model.count_visits(1, &mut system.counters);
         let to_j = system.model.elastic_j(&self.reached);
-        if !is_last && self.makes_energy(system, to_j) {
+        if !is_last && self.makes_energy(system, stage, to_j) {
             return Ok(false);
         }
-        self.press(system, stage);
+        let ways = self.reached.iter().zip(&system.positions);
+        refill(&mut self.shift, ways.map(|(to, x)| to - x));
+        for at in &mut self.touching {
+            at.press(system, stage, (&self.shift, &self.velocities));
+        }
         self.history.note(system, &self.reached, &self.velocities);
         self.history.time_step_s = dt_s;
         system.positions.copy_from_slice(&self.reached);
@@ -277,7 +257,7 @@ impl Implicit {
         model.weigh(&mut self.outside);
     }
 
-    /// x*, v* and the forces at `x`; with the velocities now as the first guess.
+    /// x* and v*; with the velocities now as the first guess, and the momentum of the answer.
     fn begin(&mut self, system: &System, ratio: Option<f64>, dt_s: f64) -> Stage {
         let (x, v) = (&system.positions, &system.velocities);
         let model = &system.model;
@@ -298,24 +278,28 @@ impl Implicit {
                 }
             }
         }
-        let guess = self.start.iter().zip(v).map(|(s, v)| s + v * h);
-        refill(&mut self.shift, guess.zip(x).map(|(y, x)| y - x));
         let dragged = 1.0 + h * model.drag_per_s();
         // The order is that of the method asked for, also where it starts.
         let by_order = match self.settings.method {
             Method::BackwardEuler => self.settings.tolerance * dt_s * dt_s,
             Method::Bdf2 => self.settings.tolerance * dt_s * dt_s * dt_s,
         };
-        Stage {
+        let stage = Stage {
+            dt_s,
             h,
             dragged,
             error_max: by_order * dragged / h,
-        }
+        };
+        self.keep_momentum(model.weights(), stage);
+        let guess = self.start.iter().zip(&self.velocities);
+        let guess = guess.map(|(s, v)| s + v * h);
+        refill(&mut self.shift, guess.zip(x).map(|(y, x)| y - x));
+        stage
     }
 
     /// The velocities that solve the linearised equation.
     fn solve(&mut self, system: &mut System, stage: Stage) -> Solution {
-        let (x, v) = (&system.positions, &system.velocities);
+        let (x, v) = (&system.positions, &self.velocities);
         let (model, weights) = (&system.model, system.model.weights());
         let loads = self.outside.iter().zip(weights.masses);
         refill(&mut self.forces, loads.map(|(g, m)| g * *m));
@@ -335,19 +319,20 @@ impl Implicit {
         let solution = loop {
             self.hessian.clear();
             let clamped = model.add_hessian(x, is_clamped, &mut self.hessian);
-            // All by what they are without contact, as a particle may be a corner of many faces.
             for at in &mut self.touching {
-                let inertia = stage.dragged * weights.masses[at.particle] / (stage.h * stage.h);
-                at.stiffness = KEPT_OUT * (inertia + self.hessian.stiffness(at.particle));
+                at.measure((&*system, &self.hessian), weights, stage);
             }
             for at in &self.touching {
-                self.hessian.stiffen(at.particle, at.normal, at.stiffness);
+                at.stiffen(&mut self.hessian);
             }
             let pcg = &mut self.pcg;
             self.hessian.product(&self.shift, &mut pcg.b);
             for (i, b) in pcg.b.iter_mut().enumerate() {
                 let change = v[i] * stage.dragged - self.start_velocities[i];
                 *b = self.forces[i] - *b - change * (weights.masses[i] / stage.h);
+            }
+            for at in &self.touching {
+                at.carry(stage, &mut pcg.b);
             }
             let solution = pcg.solve(
                 &self.hessian,
@@ -375,25 +360,10 @@ impl Implicit {
         solution
     }
 
-    /// Notes how far those in contact would have gone.
-    fn press(&self, system: &mut System, stage: Stage) {
-        let count = system.positions.len() + system.model.faces.len() / 3;
-        for at in &self.touching {
-            let way = self.reached[at.particle] - system.positions[at.particle];
-            let force = at.stiffness * -dot(at.normal, way).min(0.0);
-            let impulse = force * stage.h / stage.dragged;
-            let speed = impulse * system.model.inverse_masses[at.particle] / at.of.count as f64;
-            system.scratch.pressed.resize(count, Pressed::default());
-            let pressed = &mut system.scratch.pressed[at.of.number];
-            pressed.depth_m += speed * stage.h;
-            pressed.speed_m_per_s += speed;
-        }
-    }
-
     /// Whether the step ends with more energy than there was and was put in, by gravity, by wind and by
     /// those that are held; by more than a part of what moves and changes hands, and than what rounding of
     /// positions makes. `to_j` is the elastic energy at its end.
-    fn makes_energy(&mut self, system: &mut System, to_j: f64) -> bool {
+    fn makes_energy(&mut self, system: &mut System, stage: Stage, to_j: f64) -> bool {
         let (x, v) = (&system.positions, &system.velocities);
         let (model, weights) = (&system.model, system.model.weights());
         model.count_visits(1, &mut system.counters);
@@ -421,6 +391,8 @@ impl Implicit {
             }
             work_j += dot(load, moved[i]);
         }
+        let carried = self.touching.iter().map(|at| at.work_j(stage, moved));
+        work_j += carried.sum::<f64>();
         let grain_m = f64::EPSILON * x.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
         let stiffness = self.hessian.trace().max(0.0);
         let rounding_j =
@@ -436,7 +408,8 @@ impl Implicit {
         // By lowest particle: the momentum that is missing; the mass, or NaN where something is
         // held.
         let missing = &mut self.shift;
-        missing.fill(Vector::zeros());
+        missing.clear();
+        missing.resize(pieces.len(), Vector::zeros());
         self.piece_masses.clear();
         self.piece_masses.resize(pieces.len(), 0.0);
         for (i, &piece) in pieces.iter().enumerate() {
@@ -445,8 +418,8 @@ impl Implicit {
             missing[piece] += (target - self.velocities[i] * stage.dragged) * m;
             self.piece_masses[piece] += if weights.is_free(i) { m } else { f64::NAN };
         }
-        for at in &self.touching {
-            self.piece_masses[pieces[at.particle] as usize] = f64::NAN;
+        for i in self.touching.iter().flat_map(Touching::corners) {
+            self.piece_masses[pieces[i] as usize] = f64::NAN;
         }
         for (v, &piece) in self.velocities.iter_mut().zip(pieces) {
             let mass = self.piece_masses[piece as usize];
@@ -479,7 +452,8 @@ impl Solver for Implicit {
         let is_bdf2 = self.settings.method == Method::Bdf2;
         let contacts = collide::contacts(system).iter();
         let known = contacts.filter(|contact| !is_bdf2 || contact.corners.count == 1);
-        refill(&mut self.touching, known.flat_map(Touching::all));
+        let known = known.map(|contact| Touching::new(system, contact));
+        refill(&mut self.touching, known);
         // A state that is too far away or too fast already is no matter of the method.
         Failure::unless(first(is_beyond, &system.positions, &system.velocities).is_none())?;
         let before = self.stats;
@@ -498,16 +472,6 @@ impl Solver for Implicit {
     fn quality(&self, _system: &System) -> Quality {
         Quality::Implicit(self.stats)
     }
-}
-
-/// The numbers of a step.
-#[derive(Clone, Copy, Debug)]
-struct Stage {
-    h: f64,
-    /// 1 + h c.
-    dragged: f64,
-    /// The error that the tolerance allows, as an rms acceleration.
-    error_max: f64,
 }
 
 /// What BDF2 remembers of the last step.

@@ -5,6 +5,7 @@
 //! up to μ times the velocity that was lost. Both are needed: a step of Verlet from rest moves a particle in
 //! by g Δt²/2 and gives it the velocity g Δt, one of symplectic Euler moves it by g Δt². So each method
 //! slides by its own rule for a steady acceleration g (sin φ − μ cos φ), and what sticks does not creep.
+//! (Implicit steps rub what they keep out themselves: [`Pressed`].)
 //!
 //! A body that moves takes along what it touches: ways and velocities are those that it sees. It is looked at
 //! as if it stood where it was made.
@@ -99,6 +100,21 @@ pub(crate) fn push_out(system: &mut System) -> ContactWork {
     impulses.work(&system.model.masses, velocities)
 }
 
+/// The velocity of an obstacle in this substep where something touched it in the last.
+pub(crate) fn velocity(system: &System, contact: &Contact) -> Vector {
+    let collider = &system.model.loads.colliders[contact.collider];
+    let ColliderShape::Body { motion, .. } = &collider.shape else {
+        return Vector::zeros();
+    };
+    if motion.is_still() {
+        return Vector::zeros();
+    }
+    let [from_s, to_s] = system.scratch.span_s;
+    let x = contact.corners.middle(&system.positions);
+    let seen = motion.at(from_s).to_body(x);
+    (motion.at(to_s).to_world(seen) - x) / (to_s - from_s)
+}
+
 /// Moves the particles out of the colliders, in a method that goes on from where they are then, and adds what
 /// they move in a second times `per_s` to their velocities. All else of velocities is done at the end of the
 /// substep.
@@ -123,13 +139,14 @@ pub(crate) fn move_out(system: &mut System, per_s: f64) {
         {
             let poses = system.scratch.span_s.map(|time_s| motion.at(time_s));
             let solid = Solid {
+                collider: i,
                 body,
                 thickness_m: *thickness_m,
                 friction: collider.friction,
                 poses: Some(poses).filter(|_| !motion.is_still()),
                 per_s,
             };
-            solid.move_out(i, &mut cache, system);
+            solid.move_out(&mut cache, system);
             continue;
         }
         system.counters.features.collider += system.positions.len() as u64;
@@ -139,9 +156,10 @@ pub(crate) fn move_out(system: &mut System, per_s: f64) {
             }
             let (normal, depth) = collider.shape.way_out(system.positions[particle]);
             let corners = Corners::of_particle(particle);
-            let pressed = pressed(system, corners);
+            let pressed = pressed(system, i, corners);
             if depth + pressed.depth_m > 0.0 {
                 let contact = Contact {
+                    collider: i,
                     corners,
                     normal,
                     friction: collider.friction,
@@ -173,6 +191,7 @@ const SETTLED: f64 = 0.05;
 
 /// A body that keeps cloth away.
 struct Solid<'a> {
+    collider: usize,
     body: &'a Body,
     thickness_m: f64,
     friction: f64,
@@ -189,8 +208,8 @@ impl Solid<'_> {
     const PARTS_MAX: f64 = 64.0;
 
     /// Tests particles, and then the middles of faces, where that is due.
-    fn move_out(&self, collider: usize, cache: &mut ContactCache, system: &mut System) {
-        let of = &mut cache.at[collider];
+    fn move_out(&self, cache: &mut ContactCache, system: &mut System) {
+        let of = &mut cache.at[self.collider];
         let particles = system.positions.len();
         let all = particles + system.model.faces.len() / 3;
         if of.until_m.len() != all {
@@ -223,7 +242,7 @@ impl Solid<'_> {
                 };
                 // Once a substep.
                 let pressed = match round {
-                    0 | 1 => pressed(system, corners),
+                    0 | 1 => pressed(system, self.collider, corners),
                     _ => Pressed::default(),
                 };
                 let (clear_m, by_m) = self.clear(system, corners, apart_m, pressed);
@@ -316,6 +335,7 @@ impl Solid<'_> {
                 break;
             };
             let contact = Contact {
+                collider: self.collider,
                 corners,
                 normal: self.poses.map_or(normal, |poses| poses[1].turned(normal)),
                 velocity: self.velocity(x, system.scratch.span_s),
@@ -354,10 +374,29 @@ fn shortest_edge_m(system: &System, corners: Corners) -> f64 {
     lengths.fold(f64::INFINITY, f64::min)
 }
 
-/// How a particle, or the middle of a face, was pressed in this substep.
-fn pressed(system: &System, corners: Corners) -> Pressed {
-    let pressed = system.scratch.pressed.get(corners.number).copied();
+/// How a particle, or the middle of a face, was kept out of a collider by its method in this substep.
+fn pressed(system: &System, collider: usize, corners: Corners) -> Pressed {
+    let at = place(system, collider, corners);
+    let pressed = system.scratch.pressed.get(at).copied();
     pressed.unwrap_or_default()
+}
+
+/// Notes how a method kept particles out of a collider, in this part of a substep.
+pub(crate) fn press(system: &mut System, contact: &Contact) {
+    let at = place(system, contact.collider, contact.corners);
+    let pressed = &mut system.scratch.pressed;
+    if pressed.len() <= at {
+        pressed.resize(at + 1, Pressed::default());
+    }
+    let before_m = pressed[at].depth_m;
+    pressed[at] = contact.pressed;
+    pressed[at].depth_m += before_m;
+}
+
+/// The place of a particle, or of a face, at a collider in the list of what was pressed.
+fn place(system: &System, collider: usize, corners: Corners) -> usize {
+    let all = system.positions.len() + system.model.faces.len() / 3;
+    collider * all + corners.number
 }
 
 /// Moves particles out by a depth. Returns how far one of them was moved, at most.

@@ -5,6 +5,8 @@ use tearmesh::geometry::{Point, Vector, dot, length};
 /// A particle or a face in contact in the last substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
+    /// The number of the obstacle.
+    pub(crate) collider: usize,
     pub(crate) corners: Corners,
     pub(crate) normal: Vector,
     pub(crate) friction: f64,
@@ -13,21 +15,41 @@ pub(crate) struct Contact {
     pub(crate) velocity: Vector,
 }
 
-/// How far and how fast a particle, or the middle of a face, would have gone into an obstacle in this substep if its method had not kept
-/// it out: zero for all methods but implicit ones.
+/// How a method itself kept a particle, or the middle of a face, out of an obstacle in this substep: not at all but for implicit
+/// ones.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pressed {
+    /// How far it would have gone in.
     pub(crate) depth_m: f64,
-    pub(crate) speed_m_per_s: f64,
+    /// The friction that it can be rubbed by for that, in N.
+    pub(crate) friction_n: f64,
+    /// The velocity that it would have after another substep like this one without friction.
+    pub(crate) free: Vector,
 }
 
 impl Contact {
+    /// The mass with which the particle, or the middle of the face, resists a force.
+    pub(crate) fn mass(&self, inverse_masses: &[f64]) -> f64 {
+        let inverse = self.corners.each().map(|i| inverse_masses[i]);
+        (self.corners.count as f64).powi(2) / inverse.sum::<f64>()
+    }
+
+    /// The part of a way along the obstacle.
+    pub(crate) fn along(&self, way: Vector) -> Vector {
+        way - self.normal * dot(self.normal, way)
+    }
+
     /// The way out of a depth for who went so far along the obstacle in this substep, with a part of the slip
     /// taken back; the part of it that was inside before; and the velocity that the rest adds in a method that takes velocities
     /// from ways, by as many as make a second.
     pub(crate) fn way_out(&self, went: Vector, depth: f64, per_s: f64) -> [Vector; 3] {
-        let most = self.friction * (depth + self.pressed.depth_m);
-        let slip = rubbed(went, self.normal, most);
+        // A method that keeps it out has rubbed it, but for as little as it let in.
+        let let_in_m = match self.pressed.depth_m > 0.0 {
+            true => -dot(self.normal, went),
+            false => 0.0,
+        };
+        let most = self.friction * depth.max(let_in_m).max(0.0);
+        let slip = rubbed(self.along(went), most);
         // What was inside before comes out without a velocity.
         let new = depth.min(-dot(self.normal, went)).max(0.0);
         let way = self.normal * depth.max(0.0) - slip;
@@ -39,14 +61,12 @@ impl Contact {
     pub(crate) fn taken(&self, v: Vector) -> Vector {
         let v = v - self.velocity;
         let into = dot(self.normal, v).min(0.0);
-        let most = self.friction * (self.pressed.speed_m_per_s - into);
-        self.normal * into + rubbed(v, self.normal, most)
+        self.normal * into + rubbed(self.along(v), -into * self.friction)
     }
 }
 
-/// The part of a move along an obstacle that friction takes back: all of it, or so much.
-fn rubbed(way: Vector, normal: Vector, most: f64) -> Vector {
-    let slip = way - normal * dot(normal, way);
+/// The part of a slip that friction takes back: all of it, or so much.
+fn rubbed(slip: Vector, most: f64) -> Vector {
     let distance = length(slip);
     if distance > most {
         slip * (most / distance)

@@ -10,6 +10,7 @@
 //!
 //! Why not compressed rows? Symmetry halves the blocks, and a product reads each of them once.
 
+use crate::system::contact::Corners;
 use tearmesh::DisjointSets;
 use tearmesh::geometry::{Vector, dot};
 use tearmesh::nalgebra::Matrix3;
@@ -96,9 +97,15 @@ impl Hessian {
         self.diagonal[particle].trace().max(0.0)
     }
 
-    /// Makes a particle stiffer along a direction.
-    pub(crate) fn stiffen(&mut self, particle: usize, along: Vector, by: f64) {
-        self.diagonal[particle] += outer(along, along) * by;
+    /// Makes the middle of particles stiffer along a direction, and across it.
+    pub(crate) fn stiffen(&mut self, corners: Corners, along: Vector, [by, across]: [f64; 2]) {
+        let block = outer(along, along) * (by - across) + Block::from_diagonal_element(across);
+        let block = block * (corners.count as f64).powi(-2);
+        for i in corners.each() {
+            for j in corners.each().filter(|&j| i <= j) {
+                self.add([i as u32, j as u32], &block);
+            }
+        }
     }
 
     /// Returns the sum of the diagonal, which is no less than the largest eigenvalue unless one is negative.
