@@ -43,7 +43,7 @@ impl Contact {
     /// taken back; the part of it that was inside before; and the velocity that the rest adds in a method that takes velocities
     /// from ways, by as many as make a second.
     pub(crate) fn way_out(&self, went: Vector, depth: f64, per_s: f64) -> [Vector; 3] {
-        // A method that keeps it out has rubbed it, but for as little as it let in.
+        // A method that keeps it out has rubbed it already, for all but what it let in.
         let let_in_m = match self.pressed.depth_m > 0.0 {
             true => -dot(self.normal, went),
             false => 0.0,

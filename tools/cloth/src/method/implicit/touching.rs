@@ -7,7 +7,7 @@
 //! **Friction** of μN, whatever the slip, has no second derivatives. It is taken for a viscous force μN s/s′ of the slip s,
 //! with N of the last step and s′ the slip to expect after it: what goes on as in the last step is rubbed by μN, and what
 //! would stop is held as stiffly as it is kept out. (N is lagged by Li et al. 2020 too, "Incremental potential contact".)
-//! So friction only takes energy. (Where the slip is taken back after a step instead, light corners at a cut are
+//! So an obstacle at rest only takes energy. (Where the slip is taken back after a step instead, light corners at a cut are
 //! drawn away from what they went along with, which presses them the more: halves of a sheet on the head of a dummy came to thirty
 //! times the energy of halves without one.)
 
@@ -22,7 +22,8 @@ use crate::system::matrix::{Hessian, Weights};
 /// How many times as stiff something is towards an obstacle as otherwise.
 const KEPT_OUT: f64 = 1e3;
 
-/// The part of its slip that something keeps for sure in a step. (What stops sooner is found by the steps after it.)
+/// The least part of its slip that something is expected to keep in a step. (What stops within one is held in the steps after
+/// it.)
 const KEPT_SLIP: f64 = 0.5;
 
 /// A particle, or the middle of a face, that was in contact as a step began.
