@@ -130,8 +130,8 @@ pub struct Implicit {
     /// What a step reaches: x* + h v and v.
     reached: Vec<Point>,
     velocities: Vec<Vector>,
-    /// What the positions differ by from x₀ if velocities do not change; then the momentum that each
-    /// piece misses.
+    /// The momentum that each piece misses; what the positions of a guess of velocities differ by from
+    /// x₀; and what those that a step reaches do.
     shift: Vec<Vector>,
     piece_masses: Vec<f64>,
     touching: Vec<Touching>,
@@ -209,6 +209,8 @@ impl Implicit {
         if overstretches(&system.model, &system.positions, &self.reached) {
             return Ok(false);
         }
+        let ways = self.reached.iter().zip(&system.positions);
+        refill(&mut self.shift, ways.map(|(to, x)| to - x));
         // The shortest part is taken also if it makes energy: what is left then is the solver's error, which
         // no shorter one would lower.
         system.model.count_visits(1, &mut system.counters);
@@ -216,8 +218,6 @@ impl Implicit {
         if !is_last && self.makes_energy(system, stage, to_j) {
             return Ok(false);
         }
-        let ways = self.reached.iter().zip(&system.positions);
-        refill(&mut self.shift, ways.map(|(to, x)| to - x));
         for at in &mut self.touching {
             at.press(system, stage, (&self.shift, &self.velocities));
         }
@@ -368,8 +368,7 @@ impl Implicit {
         let (model, weights) = (&system.model, system.model.weights());
         model.count_visits(1, &mut system.counters);
         let from_j = model.elastic_j(x);
-        let moved = &mut self.shift;
-        refill(moved, self.reached.iter().zip(x).map(|(to, x)| to - x));
+        let moved = &self.shift;
         let pulls = &mut self.pcg.b;
         // The forces that hold still do no work.
         let is_led = |i: usize| !weights.is_free(i) && moved[i] != Vector::zeros();
