@@ -1,8 +1,8 @@
 //! The pass that finds overstretched edges, against the load of every edge, and its cost.
 
-use tearmesh::{Point, Vector};
+use tearmesh::{Point, Vector, VertexId, mend};
 use tearmesh_cloth::{
-    Collider, Fabric, System, Tearing, Threshold, Unstable, Xpbd, recommended_step_s,
+    Collider, Fabric, System, Tear, Tearing, Threshold, Unstable, Xpbd, recommended_step_s,
 };
 
 use crate::parts::cloths::{Torn, sheet};
@@ -75,6 +75,63 @@ fn a_pass_without_a_root_finds_every_overstretched_edge() {
         }
         assert!(over > 100 && splits > 50, "{name}: {over} {splits}");
     }
+}
+
+/// Sews a vertex to one that came of the same, wherever both are now, if any are left that share a torn link.
+fn sew(torn: &mut Torn, random: &mut Random) {
+    let root = |v| torn.mesh.root(v);
+    let vertices: Vec<VertexId> = torn.mesh.vertices().collect();
+    let pairs = vertices.iter().flat_map(|&a| {
+        let others = vertices
+            .iter()
+            .filter(move |&&b| a < b && root(a) == root(b));
+        others.map(move |&b| [a, b])
+    });
+    let mut pairs: Vec<_> = pairs.collect();
+    random.shuffle(&mut pairs);
+    for ends in pairs {
+        let weights = ends.map(|v| torn.cloth.masses().at(v));
+        let [one, other] = ends;
+        if mend::merge(&mut torn.mesh, one, other, weights, &mut torn.edits).is_ok() {
+            break;
+        }
+    }
+}
+
+/// Whatever a hand or an edit did since the step, whichever method took it, and whatever the look before was for.
+#[test]
+fn a_look_finds_what_was_moved_or_sewn_since_the_step() {
+    let mut over = 0;
+    for seed in 0..150 {
+        let mut random = Random(seed);
+        let (mut torn, step_s) = pulled_about(seed);
+        for _ in 0..20 {
+            let name = METHODS[random.below(METHODS.len())];
+            let taken = torn.cloth.step(&mut *method(name, 10), step_s);
+            if taken.is_err() {
+                break;
+            }
+            match random.below(5) {
+                0 => {
+                    let (x, _) = torn.cloth.system_mut().state_mut();
+                    let moved = random.below(x.len());
+                    x[moved] += Vector::new(0.0, 0.04 * random.next(), 0.04 * random.next());
+                }
+                1 => sew(&mut torn, &mut random),
+                2 => {
+                    let ratio = Threshold::Stretch(1.02 + 0.3 * random.next());
+                    torn.tear = Tear::new(&torn.cloth, Tearing::new(ratio)).expect("a ratio");
+                }
+                _ => {}
+            }
+            torn.edits.replay(&mut (&mut torn.cloth, &mut torn.tear));
+            let expected = overstretched(&torn);
+            let report = torn.apply();
+            assert_eq!(report.overstretched, expected, "{name}, sheet {seed}");
+            over += expected;
+        }
+    }
+    assert!(over > 100, "{over}");
 }
 
 /// At rest the force in each link of a chain is the weight below it, in whatever order links are

@@ -29,6 +29,7 @@ pub(crate) mod model;
 pub(crate) mod net;
 pub(crate) mod pair;
 pub(crate) mod path;
+pub(crate) mod pull;
 pub(crate) mod triangle;
 
 use std::collections::BTreeSet;
@@ -100,6 +101,9 @@ pub(crate) struct Scratch {
     pub(crate) is_fresh: bool,
     /// Whether they are by the weights of now.
     pub(crate) is_weighed: bool,
+    /// So many times its rest length no stretch constraint had where these were taken; infinite where that is not
+    /// known.
+    pub(crate) none_reaches: f64,
     /// The power in watts that damping takes where these are of a guarded step.
     pub(crate) damped_w: f64,
     /// The step in seconds for which they are guarded; zero without guards.
@@ -204,6 +208,7 @@ impl System {
         assert_eq!(masses.len(), count, "there is one mass for each point");
         let mut model = Model {
             stretch_ratio_max: 100.0,
+            ratio_watched: f64::INFINITY,
             ..Model::default()
         };
         for mass in masses {
@@ -412,6 +417,7 @@ impl System {
     /// there is wind, whose force on a single particle is not known.
     pub(crate) fn edited(&mut self) {
         self.scratch.is_fresh &= !self.model.loads.blows();
+        self.scratch.none_reaches = f64::INFINITY;
         self.scratch.lose_contact();
         self.guard.is_known = false;
     }
@@ -665,6 +671,13 @@ impl System {
     fn ratio_at(&self, x: &[Point], id: ConstraintId) -> f64 {
         let constraint = self.model.stretch.get(id);
         pair::span(x, constraint.ends) / constraint.rest_length_m
+    }
+
+    /// Whether the forces of now are known to be those of stretch constraints all of which are shorter than so many
+    /// times their rest length; has the next ones take note of it.
+    pub(crate) fn watch(&mut self, ratio: f64) -> bool {
+        self.model.ratio_watched = ratio;
+        self.scratch.is_fresh && self.scratch.none_reaches <= ratio
     }
 
     /// The positions of the last step before a limiter moved any.

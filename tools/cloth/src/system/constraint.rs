@@ -9,6 +9,8 @@
 //! All data of the constraints is stored here in columns, including what a step leaves behind in
 //! them. It stays with its constraint when constraints are added or removed, or get another end.
 
+use std::array::from_ref;
+
 use crate::system::bend::Buckling;
 use crate::system::damping;
 use crate::system::incidence::{Dirty, Incidence, room_for};
@@ -53,6 +55,8 @@ pub struct Constraints {
     free: Vec<u32>,
     /// By id and side.
     lists: Incidence<2>,
+    /// No rest length in metres, and no product of stiffness and rest length in newtons, was ever more.
+    pub(crate) most: [f64; 2],
     /// Room for marking colours.
     taken: Vec<bool>,
 }
@@ -184,7 +188,9 @@ impl Constraints {
         let colour = &mut self.colours[colour];
         colour.stiffness[i] = stiffness_n_per_m;
         colour.compliance[i] = 1.0 / stiffness_n_per_m;
-        for end in colour.ends[i] {
+        let (rest_length_m, ends) = (colour.rest[i], colour.ends[i]);
+        self.note(rest_length_m, stiffness_n_per_m);
+        for end in ends {
             self.lists.changed.mark(end as usize);
         }
     }
@@ -201,7 +207,9 @@ impl Constraints {
         let (colour, i) = self.slot(id);
         let colour = &mut self.colours[colour];
         colour.rest[i] = rest_length_m;
-        for end in colour.ends[i] {
+        let (stiffness_n_per_m, ends) = (colour.stiffness[i], colour.ends[i]);
+        self.note(rest_length_m, stiffness_n_per_m);
+        for end in ends {
             self.lists.changed.mark(end as usize);
         }
     }
@@ -253,6 +261,13 @@ impl Constraints {
         self.lists.swap_remove_particle(particle);
     }
 
+    /// Takes note of a constraint for [`most`](Constraints::most).
+    fn note(&mut self, rest_length_m: f64, stiffness_n_per_m: f64) {
+        let [longest_m, strongest_n] = &mut self.most;
+        *longest_m = longest_m.max(rest_length_m);
+        *strongest_n = strongest_n.max(rest_length_m * stiffness_n_per_m);
+    }
+
     fn slot(&self, id: ConstraintId) -> (usize, usize) {
         let [colour, i] = self.slots[id.index()];
         assert_ne!(colour, NONE, "{id:?} is a constraint");
@@ -277,6 +292,7 @@ impl Constraints {
         if chosen == self.colours.len() {
             self.colours.push(Colour::default());
         }
+        self.note(constraint.rest_length_m, constraint.stiffness_n_per_m);
         let colour = &mut self.colours[chosen];
         self.slots[id as usize] = [chosen as u32, colour.ids.len() as u32];
         colour.push(id, constraint, multiplier);
@@ -300,7 +316,50 @@ impl Constraints {
     }
 }
 
+/// Some springs of one colour, by columns.
+#[derive(Clone, Copy)]
+pub(crate) struct Springs<'a, const N: usize> {
+    pub(crate) ends: &'a [[u32; 2]; N],
+    pub(crate) rest: &'a [f64; N],
+    pub(crate) stiffness: &'a [f64; N],
+    pub(crate) damping: &'a [f64; N],
+}
+
+impl<'a, const N: usize> Springs<'a, N> {
+    /// One by one.
+    pub(crate) fn each(self) -> impl Iterator<Item = Springs<'a, 1>> {
+        (0..N).map(move |i| Springs {
+            ends: from_ref(&self.ends[i]),
+            rest: from_ref(&self.rest[i]),
+            stiffness: from_ref(&self.stiffness[i]),
+            damping: from_ref(&self.damping[i]),
+        })
+    }
+}
+
 impl Colour {
+    /// The springs, so many at a time, and the last ones one by one.
+    pub(crate) fn groups<const N: usize>(
+        &self,
+    ) -> (
+        impl Iterator<Item = Springs<'_, N>>,
+        impl Iterator<Item = Springs<'_, 1>>,
+    ) {
+        let (ends, last_ends) = self.ends.as_chunks::<N>();
+        let (rest, last_rest) = self.rest.as_chunks::<N>();
+        let (stiffness, last_stiffness) = self.stiffness.as_chunks::<N>();
+        let (damping, last_damping) = self.damping.as_chunks::<N>();
+        (
+            springs(ends, rest, stiffness, damping),
+            springs(
+                ones(last_ends),
+                ones(last_rest),
+                ones(last_stiffness),
+                ones(last_damping),
+            ),
+        )
+    }
+
     /// The ends, the rest length and the stiffness of each constraint.
     pub(crate) fn springs(&self) -> impl Iterator<Item = ([usize; 2], f64, f64)> + '_ {
         let numbers = self.rest.iter().zip(&self.stiffness);
@@ -338,6 +397,27 @@ impl Colour {
         self.damping.swap_remove(i);
         self.multipliers.swap_remove(i)
     }
+}
+
+/// Columns, one by one.
+fn ones<T>(column: &[T]) -> &[[T; 1]] {
+    column.as_chunks().0
+}
+
+fn springs<'a, const N: usize>(
+    ends: &'a [[[u32; 2]; N]],
+    rest: &'a [[f64; N]],
+    stiffness: &'a [[f64; N]],
+    damping: &'a [[f64; N]],
+) -> impl Iterator<Item = Springs<'a, N>> {
+    let numbers = rest.iter().zip(stiffness).zip(damping);
+    let springs = ends.iter().zip(numbers);
+    springs.map(|(ends, ((rest, stiffness), damping))| Springs {
+        ends,
+        rest,
+        stiffness,
+        damping,
+    })
 }
 
 #[cfg(test)]

@@ -113,6 +113,10 @@ pub(crate) fn accelerate(system: &mut System, is_predicted: bool, guarded_s: Opt
     scratch.is_weighed = true;
     system.guard.unheeded.clear();
     scratch.guarded_s = guarded_s.unwrap_or(0.0);
+    scratch.none_reaches = match pull.is_short {
+        true => model.ratio_watched,
+        false => f64::INFINITY,
+    };
     scratch.damped_w = pull.damped_w;
     pull.is_sane
 }

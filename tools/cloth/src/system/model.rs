@@ -10,8 +10,9 @@ use crate::system::drawn::Drawn;
 use crate::system::load::Loads;
 use crate::system::mass_scaling::MassScaling;
 use crate::system::matrix::{Hessian, Weights};
-use crate::system::pair::{self, Pull};
+use crate::system::pair;
 use crate::system::path::Path;
+use crate::system::pull::{Pass, Pull};
 use crate::system::triangle::Triangles;
 
 /// All but positions and velocities.
@@ -36,6 +37,8 @@ pub(crate) struct Model {
     /// The pairs that the next step draws together.
     pub(crate) drawn: Vec<Drawn>,
     pub(crate) stretch_ratio_max: f64,
+    /// The ratio of length to rest length from which on stretch constraints are watched for.
+    pub(crate) ratio_watched: f64,
     pub(crate) recorded: Recorded,
 }
 
@@ -168,14 +171,22 @@ impl Model {
         forces: &mut [Vector],
     ) -> Pull {
         let ratio_max = self.stretch_ratio_max;
-        let families = [&self.stretch, &self.bend];
+        let stretch = Pass {
+            ratio_max,
+            ratio_watched: self.ratio_watched,
+            crush,
+            is_damped: self.damping_s > 0.0,
+        };
+        let bend = Pass {
+            ratio_watched: f64::INFINITY,
+            is_damped: false,
+            ..stretch
+        };
+        let passes = [(&self.stretch, stretch), (&self.bend, bend)];
         let [stretch, bend] =
-            families.map(|family| pair::add_forces(family, x, ratio_max, crush, forces));
+            passes.map(|(family, pass)| pair::add_forces(family, pass, x, forces));
         let triangles = self.triangles.add_forces(x, ratio_max, crush, forces);
-        Pull {
-            is_sane: stretch.is_sane & bend.is_sane & triangles.is_sane,
-            damped_w: stretch.damped_w + triangles.damped_w,
-        }
+        stretch.and(bend).and(triangles)
     }
 
     /// The elastic energy of all constraints and triangles, in joules.

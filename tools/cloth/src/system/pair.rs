@@ -8,19 +8,10 @@
 use tearmesh::geometry::{Point, Vector, dot, length};
 
 use crate::system::bend::{Axial, Buckling};
-use crate::system::constraint::{Constraint, Constraints};
+use crate::system::constraint::{Colour, Constraint, Constraints};
 use crate::system::crush::Crush;
 use crate::system::matrix::{Block, Hessian, outer};
-
-/// What a pass over forces finds.
-#[derive(Clone, Copy, Debug)]
-#[must_use]
-pub(crate) struct Pull {
-    /// False where a constraint is longer than allowed, or not a number.
-    pub(crate) is_sane: bool,
-    /// The power that material damping takes, in watts.
-    pub(crate) damped_w: f64,
-}
+use crate::system::pull::{Pass, Pull};
 
 /// Energy, force and slope of one with the ends so far apart.
 #[inline]
@@ -69,61 +60,40 @@ pub(crate) fn energy_at(family: &Constraints, x: &[Point], particle: usize) -> f
 /// where they are crushed by the guard too: a fold is where it is meant to be short.
 pub(crate) fn add_forces(
     family: &Constraints,
+    pass: Pass<'_>,
     x: &[Point],
-    ratio_max: f64,
-    crush: Option<Crush<'_>>,
     forces: &mut [Vector],
 ) -> Pull {
-    let spring = |rest, stiffness: f64, length| Some(stiffness * (length - rest));
-    match family.law {
-        None => add_forces_by(family, spring, x, ratio_max, crush, forces),
-        Some(law) => {
-            let arc = |rest, stiffness, length| {
-                (stiffness > 0.0).then(|| law.axial(rest, stiffness, length).force)
-            };
-            add_forces_by(family, arc, x, ratio_max, None, forces)
-        }
-    }
+    let colours = family.colours.iter();
+    colours.fold(Pull::NOTHING, |found, colour| match family.law {
+        None => pass.add_forces(colour, x, forces, found),
+        Some(law) => found.and(add_bends(colour, law, x, pass.ratio_max, forces)),
+    })
 }
 
-/// [`add_forces`] by one law, which the loop has inlined: the pull by rest length, stiffness and
-/// length. `None` where that does not matter.
-#[inline]
-fn add_forces_by(
-    family: &Constraints,
-    pull: impl Fn(f64, f64, f64) -> Option<f64>,
+/// Adds the forces of bends that buckle.
+fn add_bends(
+    colour: &Colour,
+    law: Buckling,
     x: &[Point],
     ratio_max: f64,
-    crush: Option<Crush<'_>>,
     forces: &mut [Vector],
 ) -> Pull {
-    let (mut is_sane, mut damped_w) = (true, 0.0);
-    for colour in &family.colours {
-        for (([a, b], rest, stiffness), &damping) in colour.springs().zip(&colour.damping) {
-            let d = x[b] - x[a];
-            let length = length(d);
-            let Some(mut pull) = pull(rest, stiffness, length) else {
-                continue;
-            };
-            is_sane &= length <= ratio_max * rest;
-            if length > 0.0 {
-                if let Some(crush) = crush
-                    && (damping > 0.0 || length < Crush::BELOW * rest)
-                {
-                    let speed = dot(d, crush.velocities[b] - crush.velocities[a]) / length;
-                    pull += damping * speed;
-                    damped_w += damping * speed * speed;
-                    if length < Crush::BELOW * rest {
-                        pull += crush.pull(stiffness, length / rest, speed);
-                    }
-                }
-                let force = d * (pull / length);
-                forces[a] += force;
-                forces[b] -= force;
-            }
+    let mut is_sane = true;
+    for ([a, b], rest, stiffness) in colour.springs().filter(|spring| spring.2 > 0.0) {
+        let d = x[b] - x[a];
+        let length = length(d);
+        is_sane &= length <= ratio_max * rest;
+        if length > 0.0 {
+            let force = d * (law.axial(rest, stiffness, length).force / length);
+            forces[a] += force;
+            forces[b] -= force;
         }
     }
-    Pull { is_sane, damped_w }
+    Pull {
+        is_sane,
+        ..Pull::NOTHING
+    }
 }
 
 /// Adds the forces on one particle, as `exerted` has them by the ends of a constraint, its force by its

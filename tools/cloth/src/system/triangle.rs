@@ -31,7 +31,7 @@ use crate::system::crush::Crush;
 use crate::system::damping;
 use crate::system::incidence::{Dirty, Incidence};
 use crate::system::matrix::{Block, Hessian, outer};
-use crate::system::pair::Pull;
+use crate::system::pull::Pull;
 
 /// A triangle that resists stretch and shear.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -360,7 +360,11 @@ impl Triangles {
                 }
             }
         }
-        Pull { is_sane, damped_w }
+        Pull {
+            is_sane,
+            damped_w,
+            ..Pull::NOTHING
+        }
     }
 
     /// Adds the forces on one particle, and those of damping, if the method damps.

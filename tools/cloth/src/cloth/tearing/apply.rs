@@ -238,6 +238,8 @@ impl Tear {
         let least = self.least * self.tearing.weakening.unwrap_or(1.0);
         let bound = self.tearing.threshold.ratio_from(cloth, least);
         cloth.system_mut().counters.visits.detect += cloth.system().stretches().len() as u64;
+        // The forces of a step that ended here may have shown that no edge is so long.
+        let is_short = bound.is_some_and(|ratio| cloth.system_mut().watch(ratio));
         let mut due = std::mem::take(&mut self.due);
         due.clear();
         let judge = |edge: HalfEdgeId| {
@@ -254,6 +256,7 @@ impl Tear {
         };
         match bound {
             None => due.extend(mesh.edges().filter_map(judge)),
+            Some(_) if is_short => {}
             Some(ratio) => find_stretched(cloth.system(), ratio, |id| {
                 due.extend(judge(cloth.edge(id)));
             }),

@@ -73,21 +73,14 @@ impl Threshold {
     /// How many times as long as at rest any edge is at least that has this load, by the strain that
     /// [`strain`] says; `None` where faces decide, or forces that no strain tells. Linear.
     pub(super) fn ratio_from(&self, cloth: &Cloth, load: f64) -> Option<f64> {
-        let springs = cloth.system().stretches().springs();
-        let larger = |most: f64, one: f64| if one > most { one } else { most };
+        let [longest_m, strongest_n] = cloth.system().model.stretch.most;
         let recorded = cloth.system().model.recorded;
         let has_strains = !matches!(recorded, Recorded::RigidForces | Recorded::Limiter);
         let strain = match *self {
             Threshold::Stretch(ratio) => ratio - 1.0,
             Threshold::WarpWeft { warp, weft, .. } => warp.min(weft) - 1.0,
-            Threshold::Toughness(g) => {
-                let longest_m = springs.map(|(_, rest, _)| rest).fold(0.0, larger);
-                strain_borne(g, modulus(cloth), longest_m)
-            }
-            Threshold::Force(newtons) if has_strains => {
-                let forces = springs.map(|(_, rest, stiffness)| stiffness * rest);
-                0.5 * newtons / forces.fold(0.0, larger)
-            }
+            Threshold::Toughness(g) => strain_borne(g, modulus(cloth), longest_m),
+            Threshold::Force(newtons) if has_strains => 0.5 * newtons / strongest_n,
             Threshold::Force(_) | Threshold::PrincipalStretch(_) => return None,
         };
         // The load is computed by another way, which may round down.
