@@ -153,9 +153,9 @@ fn advance(
 
 fn is_finite(system: &System) -> bool {
     // Sums are finite where their parts are, and cheaper to look at.
-    let positions: f64 = system.positions.iter().map(|p| p.x + p.y + p.z).sum();
-    let velocities: f64 = system.velocities.iter().map(|v| v.x + v.y + v.z).sum();
-    (positions + velocities).is_finite()
+    let particles = system.positions.iter().zip(&system.velocities);
+    let sum = particles.fold(Vector::zeros(), |sum, (x, v)| sum + (x.coords + v));
+    (sum.x + sum.y + sum.z).is_finite()
 }
 
 /// A step that is refused in a state that is not finite is so for that: there its limit means
