@@ -11,6 +11,9 @@ use super::properties;
 
 const START: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3\n";
 
+/// A comment that is longer than what the reader looks ahead in a common line.
+const PADDING: &str = "#                                                                \n";
+
 /// What a text says, but for its lines.
 fn meaning(text: &str) -> Result<String, &'static str> {
     let document = match Document::read(text.as_bytes()) {
@@ -100,6 +103,8 @@ proptest! {
             prop_assert_eq!(&meaning(&text), &meant, "{:?} for {:?}", text, plain);
             let cut_off = text.trim_end();
             prop_assert_eq!(&meaning(cut_off), &meant, "{:?} for {:?}", cut_off, plain);
+            let padded = text + PADDING;
+            prop_assert_eq!(&meaning(&padded), &meant, "{:?} for {:?}", padded, plain);
         }
     }
 }
@@ -112,4 +117,39 @@ fn lines_that_blocks_divide_are_read_whole() {
     let (plain, odd) = (lines.clone(), lines.replace(' ', "\t"));
     let both = [plain, odd].map(|lines| meaning(&format!("{START}{lines}")));
     assert!(both[0].is_ok() && both[0] == both[1]);
+}
+
+/// The reader expects the corners of a face to be like those of the face before.
+#[test]
+fn faces_mean_the_same_behind_faces_of_any_form() {
+    let faces = [
+        "1 2 3",
+        "4 2 1 3",
+        "1/1 2/1 3/1",
+        "1/1 2/1 4/1 3/1",
+        "1//1 2//1 3//1",
+        "1/1/1 2/1/1 3/1/1",
+        "1/1/1 2/1/1 4/1/1 3/1/1",
+        "1/1/ 2/1/ 3/1/",
+        "1/ 2/ 3/",
+        "1 2/1 3//1",
+        "1/1 2/1 3",
+        "-1 2 3",
+        "1 2 4 3 5",
+        "1/1 2/1 4/1 3/1 5/1",
+        "1 2",
+        "1/1 2/1 1/1",
+        "1 2 3 2",
+        "1 2 9",
+        "1/1 2/1 3/9",
+    ];
+    let faces = faces.map(|face| format!("f {face}\n"));
+    let pairs = faces
+        .iter()
+        .flat_map(|one| faces.iter().map(move |other| [one, other]));
+    for [one, other] in pairs {
+        let text = format!("v 2 2 0\n{START}{one}{one}{other}{other}{PADDING}");
+        let spelt_oddly = text.replace(' ', "\t");
+        assert_eq!(meaning(&text), meaning(&spelt_oddly), "{text}");
+    }
 }

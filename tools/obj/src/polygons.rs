@@ -1,6 +1,6 @@
 //! The polygons of a file, as the file has them.
 
-use crate::store::{Column, partition_point, push};
+use crate::store::{Column, extend_by_some, partition_point, push};
 
 /// The faces as the file has them, corner by corner.
 #[derive(Clone, Debug, Default)]
@@ -73,6 +73,21 @@ impl Polygons {
             if let Some(normal) = corner.normal {
                 self.normals.set(index, normal);
             }
+        }
+    }
+
+    /// Appends a polygon of up to four corners, whose vertices come first of these, texture
+    /// coordinates next and normals last: all of a kind `are_there`, or none.
+    #[inline(always)]
+    pub(crate) fn append(&mut self, corners: &[[u32; 4]; 3], are_there: [bool; 3], count: usize) {
+        let first = self.vertices.len();
+        push(&mut self.starts, first as u32);
+        extend_by_some(&mut self.vertices, &corners[0], count);
+        if are_there[1] {
+            self.texture.extend_by_some(first, &corners[1], count);
+        }
+        if are_there[2] {
+            self.normals.extend_by_some(first, &corners[2], count);
         }
     }
 

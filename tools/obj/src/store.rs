@@ -6,7 +6,7 @@
 
 /// Appends a value. Grows by half where `Vec` doubles: the memory for a file stays within
 /// its bound even at the moment of growth, when old and new storage exist side by side.
-#[inline]
+#[inline(always)]
 pub(crate) fn push<T>(list: &mut Vec<T>, value: T) {
     if list.len() == list.capacity() {
         grow(list, 1);
@@ -21,6 +21,18 @@ pub(crate) fn extend<T: Copy>(list: &mut Vec<T>, values: &[T]) {
         grow(list, values.len());
     }
     list.extend_from_slice(values);
+}
+
+/// Appends the first `count` of four values, growing as [`push`] does. All four are copied, which is a
+/// single instruction, and those in excess dropped.
+#[inline(always)]
+pub(crate) fn extend_by_some(list: &mut Vec<u32>, values: &[u32; 4], count: usize) {
+    let first = list.len();
+    if list.capacity() - first < values.len() {
+        grow(list, values.len());
+    }
+    list.extend_from_slice(values);
+    list.truncate(first + count);
 }
 
 /// Adds half, and at first more: most lists of a file are long, and a few are many and short.
@@ -125,6 +137,16 @@ impl Column {
             push(&mut self.values, Self::NONE);
         }
         push(&mut self.values, value);
+    }
+
+    /// Gives the corners from `first` on, which come after all that have one, the first `count` of these
+    /// indices.
+    #[inline(always)]
+    pub(crate) fn extend_by_some(&mut self, first: usize, values: &[u32; 4], count: usize) {
+        while self.values.len() < first {
+            push(&mut self.values, Self::NONE);
+        }
+        extend_by_some(&mut self.values, values, count);
     }
 
     pub(crate) fn is_empty(&self) -> bool {

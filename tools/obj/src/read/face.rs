@@ -2,10 +2,11 @@
 
 use tearmesh::Mesh;
 
+use super::decimal::{Expected, Word};
 use super::fault::{Fault, Parsed, quoted};
 use super::reader::{Reader, absolute, limit};
 use super::scan::Scan;
-use crate::store::{Kind, extend, push};
+use crate::store::{Kind, push};
 
 /// The most corners of a polygon. The largest that are met in earnest are outlines of letters
 /// and maps with one or two thousand; cutting one of this size takes a few hundredths of
@@ -16,79 +17,104 @@ impl Reader {
     /// Reads what follows the keyword `f` or `fo`.
     #[inline(always)]
     pub(super) fn face(&mut self, scan: &mut Scan<'_>) -> Parsed<()> {
+        match self.usual_face(scan.rest, scan.line.number) {
+            Some(rest) => scan.rest = rest,
+            None => *scan = self.any_face(*scan)?,
+        }
+        Ok(())
+    }
+
+    /// Reads a face as most lines have it, and gives the line end: three or four corners, one blank
+    /// between them, all with the kinds of indices that the face before had. `None`, and nothing is
+    /// changed, if it is another or a wrong one.
+    #[inline(never)]
+    fn usual_face<'l>(&mut self, mut rest: &'l [u8], number: u32) -> Option<&'l [u8]> {
+        let counts = self.document.counts();
+        let [texture, normals] = self.corner_kinds;
+        let (mut corners, mut count) = ([[0; 4]; 3], 0);
+        loop {
+            for (kind, is_there) in [true, texture, normals].into_iter().enumerate() {
+                if kind > 0 && (is_there || kind == 1 && normals) {
+                    rest = rest.strip_prefix(b"/")?;
+                }
+                if is_there {
+                    let expected = &mut self.widths.index[kind];
+                    (corners[kind][count], rest) = usual_index(rest, counts[kind], expected)?;
+                }
+            }
+            count += 1;
+            match *rest {
+                [b' ', ref behind @ ..] if count < 4 => rest = behind,
+                [b'\n' | b'\r', ..] if count > 2 => break,
+                _ => return None,
+            }
+        }
+        let polygons = &mut self.document.polygons;
+        let triangles_before = polygons.vertices.len() - 2 * polygons.len();
+        let is_usual = repeated(&corners[0][..count]).is_none()
+            && triangles_before + count - 3 < Mesh::MAX_FACES;
+        if !is_usual {
+            return None;
+        }
+        polygons.append(&corners, [true, texture, normals], count);
+        self.document.layout.push(Kind::Polygon, number);
+        Some(rest)
+    }
+
+    /// Reads any face.
+    #[inline(never)]
+    fn any_face<'l>(&mut self, mut scan: Scan<'l>) -> Parsed<Scan<'l>> {
         let first = self.document.polygons.vertices.len();
         let mut count = 0;
-        // Four at a time: to append three or four is a few instructions.
-        let mut vertices = [0; 4];
-        while !scan.at_line_end() {
-            if count > 0 && count % vertices.len() == 0 {
-                if count == ARITY_MAX && scan.find_token() {
-                    return Err(too_many_corners(*scan));
-                }
-                extend(&mut self.document.polygons.vertices, &vertices);
+        while scan.find_token() {
+            if count == ARITY_MAX {
+                return Err(too_many_corners(scan));
             }
-            let mut token = scan.at();
-            vertices[count % 4] = match self.usual_reference(scan, Kind::Vertex) {
-                Some(vertex) => vertex,
-                None if !scan.find_token() => break,
-                None => {
-                    token = scan.at();
-                    let (vertex, behind) = self.any_reference(*scan, token, Kind::Vertex)?;
-                    scan.go_to(behind);
-                    vertex
-                }
-            };
+            let corner = scan.at();
+            let vertex = self.reference(&mut scan, corner, Kind::Vertex)?;
+            push(&mut self.document.polygons.vertices, vertex);
+            self.corner_kinds = [false; 2];
             if scan.peek() == Some(b'/') {
                 scan.skip(1);
                 if scan.peek() != Some(b'/') && !scan.at_token_end() {
-                    let texture = self.reference(scan, token, Kind::Texture)?;
+                    let texture = self.reference(&mut scan, corner, Kind::Texture)?;
                     self.document.polygons.texture.set(first + count, texture);
+                    self.corner_kinds[0] = true;
                 }
                 if scan.peek() == Some(b'/') {
                     scan.skip(1);
                     if !scan.at_token_end() {
-                        let normal = self.reference(scan, token, Kind::Normal)?;
+                        let normal = self.reference(&mut scan, corner, Kind::Normal)?;
                         self.document.polygons.normals.set(first + count, normal);
+                        self.corner_kinds[1] = true;
                         if scan.peek() == Some(b'/') {
-                            return Err(malformed(scan.moved_to(token)));
+                            return Err(malformed(scan.moved_to(corner)));
                         }
                     }
                 }
             }
             count += 1;
         }
-        let triangles_before = first - 2 * self.document.polygons.len();
-        let all = &mut self.document.polygons.vertices;
-        match first + count - all.len() {
-            3 => extend(all, &vertices[..3]),
-            4 => extend(all, &vertices),
-            left => extend(all, &vertices[..left]),
-        }
-        let corners = &all[first..];
+        let corners = &self.document.polygons.vertices[first..];
         if corners.len() < 3 {
-            return Err(too_few_corners(*scan, corners.len()));
+            return Err(too_few_corners(scan, corners.len()));
         }
         if let Some((earlier, later)) = repeated(corners) {
-            return Err(repeated_vertex(*scan, corners, earlier, later));
+            return Err(repeated_vertex(scan, corners, earlier, later));
         }
-        let triangles = triangles_before + corners.len() - 3;
+        let triangles = first - 2 * self.document.polygons.len() + count - 3;
         limit(triangles, Mesh::MAX_FACES, "triangles")?;
         push(&mut self.document.polygons.starts, first as u32);
         self.document.layout.push(Kind::Polygon, scan.line.number);
-        Ok(())
-    }
-
-    /// Reads an index of an element that is there, and counts it from 0.
-    #[inline(always)]
-    fn usual_reference(&mut self, scan: &mut Scan<'_>, kind: Kind) -> Option<u32> {
-        let count = self.count(kind);
-        scan.usual_index(count, &mut self.widths.index[kind as usize])
+        Ok(scan)
     }
 
     /// Reads an index of a corner, and counts it from 0; the corner ends behind it, or a `/` comes.
-    #[inline(always)]
     fn reference(&mut self, scan: &mut Scan<'_>, corner: usize, kind: Kind) -> Parsed<u32> {
-        if let Some(index) = self.usual_reference(scan, kind) {
+        let expected = &mut self.widths.index[kind as usize];
+        let usual = usual_index(scan.rest, self.document.counts()[kind as usize], expected);
+        if let Some((index, rest @ [b' ' | b'/' | b'\n' | b'\r', ..])) = usual {
+            scan.rest = rest;
             return Ok(index);
         }
         let (index, behind) = self.any_reference(*scan, corner, kind)?;
@@ -118,6 +144,18 @@ impl Reader {
         }
         Ok((absolute - 1, scan.at()))
     }
+}
+
+/// Reads an index of one of `count` elements, counts it from 0, and gives what comes behind.
+#[inline(always)]
+fn usual_index<'l>(
+    bytes: &'l [u8],
+    count: usize,
+    expected: &mut Expected,
+) -> Option<(u32, &'l [u8])> {
+    let (given, length) = expected.digits(Word::new(*bytes.first_chunk()?));
+    let index = given.wrapping_sub(1);
+    (index < count as u64).then(|| (index as u32, &bytes[length..]))
 }
 
 /// The first corner whose vertex an earlier corner has, after that one.

@@ -18,6 +18,9 @@ pub(super) struct Reader {
     pub(super) tally: ForeignStatements,
     pub(super) record: RecordReader,
     pub(super) widths: Widths,
+    /// Whether the corners of the last face had texture coordinates and normals, which those of the
+    /// next are likely to have.
+    pub(super) corner_kinds: [bool; 2],
     /// How many lines were read.
     pub(super) lines: u32,
 }

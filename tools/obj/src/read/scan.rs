@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::decimal::{Expected, Word, decimal, digits};
+use super::decimal::{Expected, decimal, digits};
 use super::fault::{Fault, Line, Parsed, quoted};
 
 /// A cursor over a logical line.
@@ -236,20 +236,6 @@ impl<'l> Scan<'l> {
             Some(_) => fault.help("OBJ uses `.` as the decimal mark; re-export with the C locale"),
             None => fault,
         }
-    }
-
-    /// Reads an index in front of a blank or a slash, of one of `count` elements, and counts it from 0;
-    /// or nothing.
-    #[inline(always)]
-    pub(super) fn usual_index(&mut self, count: usize, expected: &mut Expected) -> Option<u32> {
-        let (given, length) = expected.digits(Word::new(*self.rest.first_chunk()?));
-        let rest = &self.rest[length..];
-        let index = given.wrapping_sub(1);
-        let is_usual = index < count as u64 && matches!(rest, [b' ' | b'/' | b'\n' | b'\r', ..]);
-        is_usual.then(|| {
-            self.rest = rest;
-            index as u32
-        })
     }
 
     /// Reads a whole number with an optional sign, at most `i64::MAX` in size;
