@@ -103,33 +103,45 @@ impl Word {
     }
 }
 
-/// Reads a number of at most 19 digits, and gives what comes behind; `None` if it takes more effort.
+/// How many bytes a number is read from. That a word lies within them is known without a look at where
+/// the text ends.
+pub(super) const WINDOW: usize = 48;
+
+/// Reads a number of at most 19 digits at the start of a window, and says how long it is; `None` if it
+/// takes more effort.
 #[inline(always)]
-pub(super) fn decimal<'b>(token: &'b [u8], expected: &mut Expected) -> Option<(f64, &'b [u8])> {
-    let (negative, bytes) = match token {
-        [b'-', rest @ ..] => (true, rest),
-        _ => (false, token),
-    };
-    let mut mantissa = 0;
-    let whole = digits(bytes, &mut mantissa);
+pub(super) fn decimal(window: &[u8; WINDOW], expected: &mut Expected) -> Option<(f64, usize)> {
+    // Without a branch: signs are what a processor foresees least.
+    let is_negative = window[0] == b'-';
+    let start = usize::from(is_negative);
+    let (mut at, mut mantissa) = (start, 0);
+    while at < 19 && window[at].is_ascii_digit() {
+        mantissa = 10 * mantissa + u64::from(window[at] - b'0');
+        at += 1;
+    }
+    let whole = at - start;
     let significant = if mantissa == 0 { 0 } else { whole };
-    let mut rest = &bytes[whole..];
     let mut places = 0;
-    if let [b'.', behind @ ..] = rest {
-        places = many_digits(behind, &mut mantissa, expected);
-        rest = &behind[places..];
+    if window[at] == b'.' {
+        at += 1;
+        places = many_digits(&window[at..], &mut mantissa, expected);
+        at += places;
     }
-    if whole + places == 0 || whole > 19 || significant + places > 19 {
-        return None;
-    }
-    let mut exponent = -(places as i32);
-    if let [b'e' | b'E', behind @ ..] = rest {
-        let (power, length) = power(behind)?;
-        exponent += power;
-        rest = &behind[length..];
-    }
-    let value = nearest(mantissa, exponent)?;
-    Some((if negative { -value } else { value }, rest))
+    let has_power = matches!(window.get(at)?, b'e' | b'E');
+    // Below 10^15 all whole numbers are exact, and so are these powers.
+    let value = match whole + places {
+        1..=15 if !has_power => mantissa as i64 as f64 / POWERS[places],
+        0 => return None,
+        _ if significant + places > 19 => return None,
+        _ if has_power => {
+            let (power, length) = power(&window[at + 1..])?;
+            at += 1 + length;
+            nearest(mantissa, power - places as i32)?
+        }
+        _ => nearest(mantissa, -(places as i32))?,
+    };
+    let sign = u64::from(is_negative) << 63;
+    Some((f64::from_bits(value.to_bits() | sign), at))
 }
 
 /// The power of ten behind an `e`, and how long it is.

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::decimal::{Expected, decimal, digits};
+use super::decimal::{Expected, WINDOW, decimal, digits};
 use super::fault::{Fault, Line, Parsed, quoted};
 
 /// A cursor over a logical line.
@@ -172,10 +172,41 @@ impl<'l> Scan<'l> {
         scan.at()..scan.at() + scan.token().len()
     }
 
+    /// Reads the numbers of a statement as most lines have it: as many as are asked for, one blank
+    /// between them and the line end behind, correctly rounded. Does not move if it is another.
+    #[inline(always)]
+    pub(super) fn usual_numbers<const COUNT: usize>(
+        &mut self,
+        places: &mut Expected,
+    ) -> Option<[f64; COUNT]> {
+        let mut rest = self.rest;
+        let mut numbers = [0.0; COUNT];
+        for (at, number) in numbers.iter_mut().enumerate() {
+            if at > 0 {
+                rest = rest.strip_prefix(b" ")?;
+            }
+            let length;
+            (*number, length) = decimal(rest.first_chunk()?, places)?;
+            rest = rest.get(length..)?;
+        }
+        matches!(rest, [b'\n' | b'\r', ..]).then(|| {
+            self.rest = rest;
+            numbers
+        })
+    }
+
     /// Reads a number in front of a blank, correctly rounded, unless that takes more effort.
     #[inline(always)]
     pub(super) fn usual_number(&mut self, places: &mut Expected) -> Option<f64> {
-        let (value, rest) = decimal(self.rest, places)?;
+        let (value, length) = match self.rest.first_chunk() {
+            Some(window) => decimal(window, places)?,
+            None => {
+                let mut window = [0; WINDOW];
+                window[..self.rest.len()].copy_from_slice(self.rest);
+                decimal(&window, places)?
+            }
+        };
+        let rest = self.rest.get(length..)?;
         matches!(rest, [b' ' | b'\n' | b'\r', ..]).then(|| {
             self.rest = rest;
             value
