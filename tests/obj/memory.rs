@@ -9,7 +9,7 @@
 )]
 
 use std::fs::File;
-use std::io::{Write as _, stderr};
+use std::io::{BufReader, Write as _, stderr};
 use std::process::Command;
 
 use super::support::cases::stride;
@@ -25,7 +25,7 @@ fn child() {
     let Some(path) = std::env::var_os(CHILD) else {
         return;
     };
-    let file = File::open(path).expect("the parent wrote it");
+    let file = BufReader::new(File::open(path).expect("the parent wrote it"));
     let document = Document::read(file);
     if let Ok(document) = document
         && let Err(error) = document.mesh()

@@ -131,7 +131,7 @@ fn an_input_that_fails_is_no_fault_of_the_file() {
             Err(std::io::Error::other("the disk is gone"))
         }
     }
-    let error = Document::read(Broken).expect_err("broken");
+    let error = Document::read(std::io::BufReader::new(Broken)).expect_err("broken");
     assert!(matches!(error, ReadError::Input(_)));
     assert_eq!(error.to_string(), "cannot read: the disk is gone");
 }

@@ -4,6 +4,8 @@
 //! else apart. So each text is read as it is, and with tabs, continuations, signs, comments and other
 //! line ends in place of the plain ones; numbers, faces and refusals must be the same.
 
+use std::io::BufReader;
+
 use proptest::prelude::*;
 use tearmesh_obj::Document;
 
@@ -151,5 +153,39 @@ fn faces_mean_the_same_behind_faces_of_any_form() {
         let text = format!("v 2 2 0\n{START}{one}{one}{other}{other}{PADDING}");
         let spelt_oddly = text.replace(' ', "\t");
         assert_eq!(meaning(&text), meaning(&spelt_oddly), "{text}");
+    }
+}
+
+/// The reader takes lines where its input has them, and joins those that pieces of the input divide.
+#[test]
+fn inputs_mean_the_same_in_pieces_of_any_size() {
+    let long = format!(
+        "f 1 2 \\\n{}3\r\n# {}\n",
+        " \\\r\n".repeat(300),
+        "x".repeat(3000)
+    );
+    let rest = [
+        "f 1 2 3\r\n",
+        "\r\r\n\nvt 1\\\r\n 2\r\r",
+        &long,
+        "f 1 2 9",
+        "f 2 3 4\\\n",
+        "v 1 \\",
+        "\r",
+    ];
+    let starts = ["", "\u{feff}", "\u{feff}\u{feff}"];
+    for text in starts
+        .iter()
+        .flat_map(|start| rest.map(|rest| format!("{start}{START}{rest}")))
+    {
+        let whole = format!("{:?}", Document::read(text.as_bytes()));
+        for size in [1, 2, 3, 5, 7, 64, 1000] {
+            let pieces = BufReader::with_capacity(size, text.as_bytes());
+            assert_eq!(
+                format!("{:?}", Document::read(pieces)),
+                whole,
+                "{size} of {text:?}"
+            );
+        }
     }
 }

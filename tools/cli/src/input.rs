@@ -3,13 +3,16 @@
 pub(crate) mod named;
 
 use std::fs::File;
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use tearmesh_obj::{Document, ReadError};
 
 use crate::exit::Stop;
 use crate::say::Fault;
+
+/// How much of a file is read at once: what the reader of OBJ takes for a block.
+const BUFFER: usize = 64 << 10;
 
 /// The input, and how it is called in messages and in the report.
 pub(crate) struct Input {
@@ -58,11 +61,11 @@ impl Input {
     }
 
     /// The bytes, from the beginning.
-    pub(crate) fn open(&self) -> Result<Box<dyn Read + '_>, Stop> {
+    pub(crate) fn open(&self) -> Result<Box<dyn BufRead + '_>, Stop> {
         match &self.source {
             Source::Bytes(bytes) => Ok(Box::new(&bytes[..])),
             Source::File(path) => match File::open(path) {
-                Ok(file) => Ok(Box::new(BufReader::new(file))),
+                Ok(file) => Ok(Box::new(BufReader::with_capacity(BUFFER, file))),
                 Err(error) => Err(cannot_read(&self.name, &error).into()),
             },
         }

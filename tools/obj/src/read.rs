@@ -4,8 +4,9 @@
 //! files merely differ (line ends, blanks, signs, trailing slashes). What is not
 //! understood is kept as bytes, and reported.
 //!
-//! One pass over the input in blocks of whole lines, of 64 KiB or one line; nothing is allocated
-//! for a line, and where it ends is found as it is read. Several hundred megabytes a second.
+//! One pass over the input in blocks of whole lines, of 64 KiB or one line, which lie where the input
+//! has them; nothing is allocated for a line, and where it ends is found as it is read. Several
+//! hundred megabytes a second.
 
 mod decimal;
 mod face;
@@ -24,7 +25,7 @@ mod tally;
 pub(crate) mod text;
 mod words;
 
-use std::io::Read;
+use std::io::BufRead;
 
 use self::fault::{Fault, Line, Parsed};
 use self::foreign::binary;
@@ -39,7 +40,8 @@ use crate::store::Kind;
 use crate::triangulate::triangles;
 
 impl Document {
-    /// Reads an OBJ file. The input need not be buffered.
+    /// Reads an OBJ file. Bytes in memory are read in place; the buffer of a file should have some tens
+    /// of kilobytes.
     ///
     /// # Errors
     ///
@@ -52,7 +54,7 @@ impl Document {
     /// let error = Document::read(&b"v 0 0 0\nv 1 0,5 0\n"[..]).unwrap_err();
     /// assert_eq!(error.to_string(), "line 2, column 5: cannot read number `0,5`");
     /// ```
-    pub fn read(input: impl Read) -> Result<Document, ReadError> {
+    pub fn read(input: impl BufRead) -> Result<Document, ReadError> {
         let mut source = Source::new(input);
         let mut reader = Reader::default();
         reader.start(&mut source)?;
@@ -66,7 +68,7 @@ impl Document {
 
 impl Reader {
     /// Drops a byte order mark, and recognises what is no OBJ file from its first bytes.
-    fn start(&mut self, source: &mut Source<impl Read>) -> Result<(), ReadError> {
+    fn start(&mut self, source: &mut Source<impl BufRead>) -> Result<(), ReadError> {
         let fault = loop {
             match Opening::of(source.first()?) {
                 Opening::Text => return Ok(()),
