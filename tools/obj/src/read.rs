@@ -18,6 +18,7 @@ mod items;
 mod reader;
 mod record;
 mod restore;
+mod sample;
 mod scan;
 mod source;
 mod statements;
@@ -58,10 +59,12 @@ impl Document {
         let mut source = Source::new(input);
         let mut reader = Reader::default();
         reader.start(&mut source)?;
+        reader.document.make_room(source.first()?);
         while let Some(block) = source.block(reader.number())? {
             reader.block(block)?;
         }
         drop(source); // Its memory is not within the bound for what comes.
+        reader.document.give_back_room();
         reader.finish()
     }
 }

@@ -35,6 +35,11 @@ pub(crate) fn extend_by_some(list: &mut Vec<u32>, values: &[u32; 4], count: usiz
     list.truncate(first + count);
 }
 
+/// Makes room for a number of elements.
+pub(crate) fn reserve<T>(list: &mut Vec<T>, count: usize) {
+    list.reserve_exact(count.saturating_sub(list.len()));
+}
+
 /// Adds half, and at first more: most lists of a file are long, and a few are many and short.
 #[cold]
 fn grow<T>(list: &mut Vec<T>, least: usize) {
@@ -73,7 +78,7 @@ impl Rows {
     pub(crate) const LIMIT: usize = u32::MAX as usize;
 
     /// Appends a row as the row `index`; those between the last one and it are empty.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn set(&mut self, index: usize, row: &[f64]) {
         let end = self.values.len() as u32;
         while self.ends.len() < index {
@@ -83,6 +88,22 @@ impl Rows {
             push(&mut self.values, value);
         }
         push(&mut self.ends, self.values.len() as u32);
+    }
+
+    pub(crate) fn reserve(&mut self, rows: usize, values: usize) {
+        reserve(&mut self.ends, rows);
+        reserve(&mut self.values, values);
+    }
+
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.ends.shrink_to_fit();
+        self.values.shrink_to_fit();
+    }
+
+    /// How many bytes there is room for, of numbers and of ends.
+    #[cfg(test)]
+    pub(crate) fn room(&self) -> [usize; 2] {
+        [8 * self.values.capacity(), 4 * self.ends.capacity()]
     }
 
     /// A row; empty beyond the last one.
@@ -147,6 +168,20 @@ impl Column {
             push(&mut self.values, Self::NONE);
         }
         extend_by_some(&mut self.values, values, count);
+    }
+
+    pub(crate) fn reserve(&mut self, count: usize) {
+        reserve(&mut self.values, count);
+    }
+
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.values.shrink_to_fit();
+    }
+
+    /// How many bytes there is room for.
+    #[cfg(test)]
+    pub(crate) fn room(&self) -> usize {
+        4 * self.values.capacity()
     }
 
     pub(crate) fn is_empty(&self) -> bool {
