@@ -16,13 +16,14 @@ use tearmesh_lab::statistics::median;
 
 use crate::measure::timed_on_cpu;
 use crate::options::Options;
+use crate::process::Program;
 use crate::table::{line, table};
-use bullet::{Bullet, Order, Program};
+use bullet::{Bullet, Order};
 use sheet::{Net, Run, STEP_S, hanging};
 
 /// The contest on sheets of three sizes, and the tables of ours alone.
 pub(crate) fn run(options: &Options) -> String {
-    let program = Program::compile();
+    let program = bullet::compile();
     let mut parts: Vec<String> = [32, 64, 128]
         .into_iter()
         .map(|n| contest(n, &program, options))

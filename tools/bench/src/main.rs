@@ -21,6 +21,7 @@
 //! | `--rounds N` | how often everything is measured (7); the table has medians |
 //! | `--only WORD` | only contestants and files whose name holds the word, for a profiler |
 //! | `--python PATH` | for `cut`: the Python that has the rivals (`python3`) |
+//! | `--fast-obj DIR` | for `read`: the folder with `fast_obj.h` |
 //! | `--record` | also writes the table to `record/<CPU>/<subcommand>.txt` |
 //!
 //! Everything runs on one thread, and what is counted is CPU time. In each round every contestant runs
@@ -34,6 +35,10 @@
 //! round; what it measures is the cutting call alone. `cut` counts CPU time, all threads of a
 //! process together, and confines the rivals to one core; `taskset` gives ours the same one. Its
 //! other tables (snap against quality, methods) are of ours alone, on a smaller sheet.
+//!
+//! `read` has `fast_obj` as a rival, too, if `--fast-obj` says where it is (a clone of
+//! `github.com/thisistherk/fast_obj`). It and ours are processes of their own, which get a file and read it
+//! from memory: a new process each round, for the first time (`fresh`) and then ten times (`in a loop`).
 //!
 //! `cloth` has Bullet as its rival: `apt-get install libbullet-dev pkg-config g++`. A program of a
 //! hundred lines (`rivals/bullet.cpp`) is compiled against it, gets the same net, and steps it;
@@ -62,6 +67,10 @@ use crate::options::Options;
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let subcommand = arguments.next().unwrap_or_default();
+    if subcommand == read::fast_obj::OURS {
+        read::fast_obj::answer(&arguments.next().unwrap_or_default());
+        return ExitCode::SUCCESS;
+    }
     let run: fn(&Options) -> String = match &*subcommand {
         "cloth" => cloth::run,
         "cut" => cut::run,

@@ -8,6 +8,7 @@ pub(crate) struct Options {
     pub(crate) only: Vec<String>,
     pub(crate) record: bool,
     pub(crate) python: String,
+    pub(crate) fast_obj: Option<String>,
 }
 
 impl Options {
@@ -18,6 +19,7 @@ impl Options {
             only: Vec::new(),
             record: false,
             python: "python3".to_owned(),
+            fast_obj: None,
         };
         while let Some(name) = arguments.next() {
             let mut value = || arguments.next().ok_or(format!("{name} needs a value"));
@@ -26,6 +28,7 @@ impl Options {
                 "--rounds" => options.rounds = positive(&value()?)?,
                 "--only" => options.only.push(value()?),
                 "--python" => options.python = value()?,
+                "--fast-obj" => options.fast_obj = Some(value()?),
                 "--record" => options.record = true,
                 _ => return Err(format!("unknown option {name}")),
             }

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::fs;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Output, Stdio};
 
 /// A folder of this process for files, which is removed in the end.
 pub(crate) struct Folder(PathBuf);
@@ -27,6 +27,40 @@ impl Drop for Folder {
         // What cannot be removed is the system's to clear away.
         let _ = fs::remove_dir_all(&self.0);
     }
+}
+
+/// A program of `rivals/`, compiled into a folder of its own.
+pub(crate) struct Program {
+    folder: Folder,
+    name: &'static str,
+}
+
+impl Program {
+    /// Compiles it; or why that cannot be.
+    pub(crate) fn compile(name: &'static str, flags: &[&str]) -> Result<Program, String> {
+        let folder = Folder::new().map_err(|error| error.to_string())?;
+        let source = format!("{}/rivals/{name}.cpp", env!("CARGO_MANIFEST_DIR"));
+        let program = Program { folder, name };
+        let mut compiler = Command::new("c++");
+        compiler.args(["-std=c++17", "-O3", &source]).args(flags);
+        match said(compiler.arg("-o").arg(program.path())) {
+            Some(output) if output.status.success() => Ok(program),
+            Some(output) => {
+                eprint!("{}", String::from_utf8_lossy(&output.stderr));
+                Err("does not compile (see above)".to_owned())
+            }
+            None => Err("not compiled: there is no c++".to_owned()),
+        }
+    }
+
+    pub(crate) fn path(&self) -> PathBuf {
+        self.folder.path(self.name)
+    }
+}
+
+/// What a program says that is asked nothing; `None` if it cannot be run.
+pub(crate) fn said(command: &mut Command) -> Option<Output> {
+    command.stdin(Stdio::null()).output().ok()
 }
 
 /// A rival that is ready.

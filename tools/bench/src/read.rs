@@ -1,5 +1,7 @@
 //! `read`: OBJ bytes in memory to a document in memory.
 
+pub(crate) mod fast_obj;
+
 use tearmesh_obj::Document;
 
 use crate::measure::{Contestant, contest, timed_on_cpu};
@@ -25,7 +27,8 @@ pub(crate) fn run(options: &Options) -> String {
             contest(&sheet, bytes, &READERS, &["obj-rs", "plain"], options)
         )
     });
-    tables.collect::<Vec<_>>().join("\n")
+    let tables: Vec<String> = tables.chain([fast_obj::tables(options)]).collect();
+    tables.join("\n")
 }
 
 const READERS: [Contestant<'_, Sheet>; 7] = [

@@ -9,6 +9,8 @@ pub(crate) enum Dialect {
     Plain,
     /// `v` with all digits of an `f64`, `f 1 2 3`.
     FullDigits,
+    /// `v` and `vt` with six decimals, `f 1/1 2/2 3/3`.
+    Texture,
     /// `v`, `vt` and `vn` with six decimals, `f 1/1/1 2/2/2 3/3/3`.
     TextureAndNormals,
     /// `v` with six decimals, `f 1 2 3 4`.
@@ -27,6 +29,7 @@ impl Dialect {
         match self {
             Dialect::Plain => "v f, triangles, six decimals",
             Dialect::FullDigits => "v f, triangles, all 17 digits",
+            Dialect::Texture => "v/vt, triangles, six decimals",
             Dialect::TextureAndNormals => "v/vt/vn, triangles, six decimals",
             Dialect::Quads => "v f, quads, six decimals",
         }
@@ -68,10 +71,12 @@ impl Sheet {
                 _ => line(format_args!("v {x:.6} {y:.6} {z:.6}")),
             }
         }
-        if dialect == Dialect::TextureAndNormals {
+        if matches!(dialect, Dialect::Texture | Dialect::TextureAndNormals) {
             for (row, column) in points() {
                 line(format_args!("vt {:.6} {:.6}", share(column), share(row)));
             }
+        }
+        if dialect == Dialect::TextureAndNormals {
             for (row, column) in points() {
                 let slope = 0.9 * (9.0 * share(column) + 4.0 * share(row)).cos();
                 let length = (1.0 + slope * slope).sqrt();
@@ -89,6 +94,10 @@ impl Sheet {
                 Dialect::Plain | Dialect::FullDigits => {
                     line(format_args!("f {a} {b} {c}"));
                     line(format_args!("f {a} {c} {d}"));
+                }
+                Dialect::Texture => {
+                    line(format_args!("f {a}/{a} {b}/{b} {c}/{c}"));
+                    line(format_args!("f {a}/{a} {c}/{c} {d}/{d}"));
                 }
                 Dialect::TextureAndNormals => {
                     line(format_args!("f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}"));

@@ -2,49 +2,25 @@
 
 use std::fmt::Write as _;
 use std::io;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Command;
 
 use tearmesh::Point;
 use tearmesh_cloth::System;
 
 use super::sheet::{GRAVITY_M_PER_S2, Run, STEP_S};
-use crate::process::{Folder, Process};
+use crate::process::{Process, Program, said};
 
-/// The folder of the program, which is compiled against the library that is installed.
-pub(super) struct Program(Folder);
-
-impl Program {
-    /// Compiles it; or why that cannot be.
-    pub(super) fn compile() -> Result<Program, String> {
-        let flags = said(Command::new("pkg-config").args(["--cflags", "--libs", "bullet"]));
-        let Some(flags) = flags.filter(|output| output.status.success()) else {
-            return Err("not installed (libbullet-dev, pkg-config)".to_owned());
-        };
-        let flags = String::from_utf8_lossy(&flags.stdout).into_owned();
-        let program = Program(Folder::new().map_err(|error| error.to_string())?);
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("rivals/bullet.cpp");
-        let mut compiler = Command::new("c++");
-        compiler.args(["-std=c++17", "-O3"]).arg(source);
-        compiler.args(flags.split_ascii_whitespace());
-        compiler.arg("-o").arg(program.path());
-        match said(&mut compiler) {
-            Some(output) if output.status.success() => Ok(program),
-            Some(output) => {
-                eprint!("{}", String::from_utf8_lossy(&output.stderr));
-                Err("does not compile (see above)".to_owned())
-            }
-            None => Err("not compiled: there is no c++".to_owned()),
-        }
-    }
-
-    fn path(&self) -> PathBuf {
-        self.0.path("bullet")
-    }
-}
-
-fn said(command: &mut Command) -> Option<Output> {
-    command.stdin(Stdio::null()).output().ok()
+/// Compiles the program against the library that is installed; or why that cannot be.
+pub(super) fn compile() -> Result<Program, String> {
+    let flags = said(Command::new("pkg-config").args(["--cflags", "--libs", "bullet"]));
+    let Some(flags) = flags.filter(|output| output.status.success()) else {
+        return Err("not installed (libbullet-dev, pkg-config)".to_owned());
+    };
+    let flags = String::from_utf8_lossy(&flags.stdout).into_owned();
+    Program::compile(
+        "bullet",
+        &flags.split_ascii_whitespace().collect::<Vec<_>>(),
+    )
 }
 
 /// The order in which Bullet has its links.

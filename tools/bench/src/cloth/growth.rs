@@ -4,10 +4,11 @@
 use tearmesh_cloth::implicit::Settings;
 use tearmesh_cloth::{Cloth, Implicit, Pbd, Solver, Verlet, Xpbd, frequency_bound};
 
-use super::bullet::{Bullet, Order, Program};
+use super::bullet::{Bullet, Order};
 use super::sheet::{STEP_S, hanging, woven};
 use crate::measure::{median_of, timed_on_cpu};
 use crate::options::Options;
+use crate::process::Program;
 use crate::table::{line, table};
 
 /// Vertices a side: about a thousand constraints, ten thousand, a hundred thousand and a million.
