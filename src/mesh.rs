@@ -20,6 +20,7 @@
 
 mod build;
 mod check;
+mod components;
 mod defect;
 mod diagnose;
 mod pieces;
@@ -30,11 +31,11 @@ mod well_formed;
 use std::iter::FusedIterator;
 
 pub use check::{Invariant, Violation};
+pub use components::Components;
 pub use defect::{BuildError, Defect, Faces, Fans, Listed};
 pub use pieces::DerivedMesh;
 pub use torn::TornError;
-pub(crate) use walk::UNSEEN;
-pub use walk::{Components, Corners};
+pub use walk::Corners;
 
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 

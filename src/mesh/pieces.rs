@@ -15,8 +15,7 @@
 //!     ╱ C ╲
 //! ```
 
-use super::walk::Components;
-use super::{Link, Mesh, NO_HALF_EDGE};
+use super::{Components, Link, Mesh, NO_HALF_EDGE};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 
 impl Mesh {

@@ -1,4 +1,4 @@
-//! Walks around a vertex, along the boundary, and over the components.
+//! Walks around a vertex and along the boundary.
 //!
 //! **Round a vertex**, in two forms. Let ρ(h) = opposite(prev h) turn a corner to the
 //! next one round the same vertex, through a pair or a ghost pair.
@@ -163,42 +163,6 @@ impl Mesh {
         loops
     }
 
-    /// Returns the components of the mesh. A component is a maximal set of faces joined by shared edges.
-    ///
-    /// Allocates one number per face; linear.
-    #[must_use]
-    pub fn components(&self) -> Components {
-        let mut of_face = vec![UNSEEN; self.face_count()];
-        let count = self.flood(&mut of_face) as usize;
-        Components { of_face, count }
-    }
-
-    /// Numbers the parts that hang together of the faces that are [`UNSEEN`], and returns how many there
-    /// are.
-    pub(crate) fn flood(&self, of_face: &mut [u32]) -> u32 {
-        let mut count = 0;
-        let mut stack = Vec::new();
-        for seed in self.faces() {
-            if of_face[seed.index()] != UNSEEN {
-                continue;
-            }
-            of_face[seed.index()] = count;
-            stack.push(seed);
-            while let Some(face) = stack.pop() {
-                for h in face.half_edges() {
-                    let Some(pair) = self.pair(h) else { continue };
-                    let of_neighbour = &mut of_face[pair.face().index()];
-                    if *of_neighbour == UNSEEN {
-                        *of_neighbour = count;
-                        stack.push(pair.face());
-                    }
-                }
-            }
-            count += 1;
-        }
-        count
-    }
-
     /// Returns the faces that share an untorn edge with a face: at most three.
     pub fn neighbours(&self, f: FaceId) -> impl FusedIterator<Item = FaceId> + '_ {
         self.half_edges_of(f)
@@ -299,28 +263,3 @@ impl<const GHOSTS: bool> Iterator for Orbit<'_, GHOSTS> {
 }
 
 impl<const GHOSTS: bool> FusedIterator for Orbit<'_, GHOSTS> {}
-
-/// Stands for a face that no part was found for yet: see [`Mesh::flood`].
-pub(crate) const UNSEEN: u32 = u32::MAX;
-
-/// The components of a mesh: see [`Mesh::components`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Components {
-    of_face: Vec<u32>,
-    count: usize,
-}
-
-impl Components {
-    /// Returns the number of components.
-    #[must_use]
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Returns the number of the component that contains a face. Components are numbered from 0, in
-    /// the order of their smallest faces.
-    #[must_use]
-    pub fn of(&self, f: FaceId) -> usize {
-        *f.of(&self.of_face) as usize
-    }
-}

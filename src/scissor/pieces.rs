@@ -13,7 +13,7 @@
 
 use crate::geometry::Side;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
-use crate::mesh::{Mesh, UNSEEN};
+use crate::mesh::Mesh;
 use crate::sets::DisjointSets;
 
 /// The faces near the plane, and the parts of the rest that hang together.
@@ -35,8 +35,6 @@ pub(super) struct Pinch {
     pub(super) at: Vec<VertexId>,
 }
 
-const NEAR: u32 = u32::MAX - 1;
-
 impl PieceCounts {
     /// Looks at a mesh that is to be cut where `touched` faces are. Linear.
     pub(super) fn new(mesh: &Mesh, touched: &[FaceId]) -> PieceCounts {
@@ -52,9 +50,7 @@ impl PieceCounts {
             is_near[across.face().index()] = true;
         }
         let near: Vec<FaceId> = mesh.faces().filter(|f| is_near[f.index()]).collect();
-        let mark = |&is_near: &bool| if is_near { NEAR } else { UNSEEN };
-        let mut part: Vec<u32> = is_near.iter().map(mark).collect();
-        let parts = mesh.flood(&mut part);
+        let (mut part, parts) = mesh.parts_between(&near);
         for (f, node) in near.iter().zip(parts..) {
             part[f.index()] = node;
         }
