@@ -32,6 +32,7 @@ use std::iter::FusedIterator;
 
 pub use check::{Invariant, Violation};
 pub use components::Components;
+pub(crate) use components::{WALL, smallest};
 pub use defect::{BuildError, Defect, Faces, Fans, Listed};
 pub use pieces::DerivedMesh;
 pub use torn::TornError;

@@ -14,37 +14,31 @@ impl Mesh {
     /// Allocates one number per face. O(n log n), and linear unless the faces are in a contrived order.
     #[must_use]
     pub fn components(&self) -> Components {
-        let (of_face, count) = self.parts_between(&[]);
+        let (mut of_face, count) = self.parts_between(&[]);
+        let mut numbered = 0;
+        for f in 0..of_face.len() {
+            // The label of a face is a smaller face of its component, and has been replaced by its number.
+            let label = of_face[f] as usize;
+            if label == f {
+                of_face[f] = numbered;
+                numbered += 1;
+            } else {
+                of_face[f] = of_face[label];
+            }
+        }
         let count = count as usize;
         Components { of_face, count }
     }
 
-    /// The parts of the mesh that hang together without `walls`, which are ascending: the number of its part
-    /// for each face, and how many parts there are. They are numbered in the order of their smallest faces. A
-    /// wall is in no part, and has the number [`WALL`].
+    /// The parts of the mesh that hang together without some faces, the walls: a label for each face, and how
+    /// many parts there are. A label is a smaller face of the same part, or for the smallest the face itself:
+    /// see [`smallest`]. A wall has the label [`WALL`].
     pub(crate) fn parts_between(&self, walls: &[FaceId]) -> (Vec<u32>, u32) {
-        let mut part = self.labels(walls);
-        let mut count = 0;
-        for f in 0..part.len() {
-            // The label of a face is a smaller face of its part, and has been replaced by its number.
-            part[f] = match part[f] {
-                WALL => WALL,
-                label if label as usize == f => {
-                    count += 1;
-                    count - 1
-                }
-                label => part[label as usize],
-            };
-        }
-        (part, count)
-    }
-
-    /// A label for each face: a smaller face of the same part, or for the smallest the face itself.
-    fn labels(&self, walls: &[FaceId]) -> Vec<u32> {
         let mut label = vec![0; self.face_count()];
         for wall in walls {
             label[wall.index()] = WALL;
         }
+        let mut count = 0;
         for (links, f) in self.link.as_chunks::<3>().0.iter().zip(0..) {
             if label[f as usize] == WALL {
                 continue;
@@ -55,25 +49,27 @@ impl Mesh {
             let before = links.map(|link| label[(link.0 / 3).min(f) as usize]);
             let least = before[0].min(before[1]).min(before[2]).min(f);
             label[f as usize] = least;
+            count += u32::from(least == f);
             let [a, b, c] = before.map(|other| (other != least) & (other != f));
             if a | b | c {
                 for other in before.into_iter().filter(|&other| other != WALL) {
-                    join(&mut label, least, other);
+                    count -= u32::from(join(&mut label, least, other));
                 }
             }
         }
-        label
+        (label, count)
     }
 }
 
-/// Joins the sets of two faces under the smallest face of both.
-fn join(label: &mut [u32], a: u32, b: u32) {
+/// Joins the sets of two faces under the smallest face of both; false if they were one.
+fn join(label: &mut [u32], a: u32, b: u32) -> bool {
     let (a, b) = (smallest(label, a), smallest(label, b));
     label[a.max(b) as usize] = a.min(b);
+    a != b
 }
 
-/// The smallest face of a set. Halves the path to it.
-fn smallest(label: &mut [u32], mut f: u32) -> u32 {
+/// The smallest face of the part of a face, which is no wall. Halves the path to it.
+pub(crate) fn smallest(label: &mut [u32], mut f: u32) -> u32 {
     while label[f as usize] != f {
         let above = label[label[f as usize] as usize];
         label[f as usize] = above;
@@ -83,7 +79,7 @@ fn smallest(label: &mut [u32], mut f: u32) -> u32 {
 }
 
 /// Stands for a face that is in no part: see [`Mesh::parts_between`].
-const WALL: u32 = u32::MAX;
+pub(crate) const WALL: u32 = u32::MAX;
 
 /// The components of a mesh: see [`Mesh::components`].
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -13,16 +13,19 @@
 
 use crate::geometry::Side;
 use crate::id::{FaceId, HalfEdgeId, VertexId};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, WALL, smallest};
 use crate::sets::DisjointSets;
 
 /// The faces near the plane, and the parts of the rest that hang together.
 pub(super) struct PieceCounts {
-    /// By face, the part that it is in if it is far away; `parts` and more of those near the plane, in
-    /// their order.
-    part: Vec<u32>,
+    /// By face, an element: the part of a far face that is beside one near the plane, and for a face near the
+    /// plane, its place among those after the number of all faces. Of no other face is the element asked for.
+    element: Vec<u32>,
+    /// The number of parts that are beside faces near the plane.
     parts: u32,
-    /// Ascending.
+    /// The number of parts that are not, which no cut changes.
+    apart: usize,
+    /// The faces near the plane, ascending.
     near: Vec<FaceId>,
 }
 
@@ -36,25 +39,41 @@ pub(super) struct Pinch {
 }
 
 impl PieceCounts {
-    /// Looks at a mesh that is to be cut where `touched` faces are. Linear.
+    /// Looks at a mesh that is to be cut where `touched` faces are. O(n log n), and linear unless the faces are
+    /// in a contrived order.
     pub(super) fn new(mesh: &Mesh, touched: &[FaceId]) -> PieceCounts {
-        let is_marked = corners(mesh, touched);
-        let triangles = mesh.indices().as_chunks::<3>().0.iter();
-        let is_round = |&[a, b, c]: &[u32; 3]| {
-            is_marked[a as usize] | is_marked[b as usize] | is_marked[c as usize]
-        };
-        let mut is_near: Vec<bool> = triangles.map(is_round).collect();
-        // An insertion divides the faces on both sides of a torn edge.
-        let half_edges = touched.iter().flat_map(|f| f.half_edges());
-        for across in half_edges.filter_map(|h| mesh.ghost_pair(h)) {
-            is_near[across.face().index()] = true;
+        let near = round(mesh, touched);
+        let (mut element, all) = mesh.parts_between(&near);
+        let beside = near.iter().flat_map(|&f| mesh.neighbours(f));
+        let beside: Vec<FaceId> = beside.filter(|g| element[g.index()] != WALL).collect();
+        let beside = beside.into_iter();
+        let mut beside: Vec<(u32, FaceId)> = beside
+            .map(|g| (smallest(&mut element, g.to_u32()), g))
+            .collect();
+        beside.sort_unstable();
+        let mut parts = 0;
+        for of_part in beside.chunk_by(|one, other| one.0 == other.0) {
+            for (_, g) in of_part {
+                element[g.index()] = parts;
+            }
+            parts += 1;
         }
-        let near: Vec<FaceId> = mesh.faces().filter(|f| is_near[f.index()]).collect();
-        let (mut part, parts) = mesh.parts_between(&near);
-        for (f, node) in near.iter().zip(parts..) {
-            part[f.index()] = node;
+        for (f, i) in near.iter().zip(0..) {
+            element[f.index()] = element.len() as u32 + i;
         }
-        PieceCounts { part, parts, near }
+        let apart = (all - parts) as usize;
+        PieceCounts {
+            element,
+            parts,
+            apart,
+            near,
+        }
+    }
+
+    /// The faces that the cut may have changed or made, asked after it; ascending.
+    pub(super) fn near_now<'m>(&'m self, mesh: &Mesh) -> impl Iterator<Item = FaceId> + 'm {
+        let made = (self.element.len()..mesh.face_count()).filter_map(FaceId::new);
+        self.near.iter().copied().chain(made)
     }
 
     /// The faces that share a vertex with some that the cut met, once vertices are inserted;
@@ -62,40 +81,33 @@ impl PieceCounts {
     pub(super) fn round(&self, mesh: &Mesh, met: &[FaceId]) -> Vec<FaceId> {
         let is_marked = corners(mesh, met);
         let is_round = |&f: &FaceId| mesh.face_vertices(f).iter().any(|v| is_marked[v.index()]);
-        let made = (self.part.len()..mesh.face_count()).filter_map(FaceId::new);
-        self.near
-            .iter()
-            .copied()
-            .chain(made)
-            .filter(is_round)
-            .collect()
+        self.near_now(mesh).filter(is_round).collect()
     }
 
     /// The pieces of the mesh, as it was looked at or after the cut.
     pub(super) fn count(&self, mesh: &Mesh) -> usize {
-        let first_new = self.part.len(); // That and all beyond were made by the cut.
-        let new = || (first_new..mesh.face_count()).filter_map(FaceId::new);
+        let first_new = self.element.len(); // That and all beyond were made by the cut.
         let first_node = self.parts + self.near.len() as u32;
         let node = |f: FaceId| match f.index().checked_sub(first_new) {
             Some(made) => first_node + made as u32,
             None => self.node(f, 1, 0),
         };
         let mut sets = DisjointSets::new(first_node + (mesh.face_count() - first_new) as u32);
-        for f in self.near.iter().copied().chain(new()) {
+        for f in self.near_now(mesh) {
             for g in mesh.neighbours(f) {
                 sets.join(node(f), node(g));
             }
         }
-        sets.count()
+        self.apart + sets.count()
     }
 
     /// The element that stands for part number `which` of a face. A face near the plane has `each`
     /// parts, and any other face has one.
     fn node(&self, f: FaceId, each: u32, which: u32) -> u32 {
-        let part = self.part[f.index()];
-        match part.checked_sub(self.parts) {
+        let element = self.element[f.index()];
+        match element.checked_sub(self.element.len() as u32) {
             Some(at) => self.parts + each * at + which,
-            None => part,
+            None => element,
         }
     }
 
@@ -145,7 +157,7 @@ impl PieceCounts {
                 }
             }
         }
-        let pieces = sets.count() - missing;
+        let pieces = self.apart + sets.count() - missing;
         (pieces, self.pinched(mesh, &mut sets, signs, passed))
     }
 
@@ -193,6 +205,30 @@ impl PieceCounts {
         pinches.retain(|pinch| !pinch.at.is_empty());
         pinches
     }
+}
+
+/// The faces that share a vertex with some that are to be cut, and those across from them behind a tear, where
+/// an insertion divides faces as well; ascending.
+fn round(mesh: &Mesh, touched: &[FaceId]) -> Vec<FaceId> {
+    let mut is_left = corners(mesh, touched);
+    let half_edges = || touched.iter().flat_map(|f| f.half_edges());
+    let across = half_edges().filter_map(|h| mesh.ghost_pair(h));
+    let mut near: Vec<FaceId> = across.map(HalfEdgeId::face).collect();
+    for h in half_edges() {
+        if !is_left[mesh.origin(h).index()] {
+            continue;
+        }
+        // Once for all copies of the vertex: a walk round each would cost a hub that is torn the square of
+        // its faces.
+        let marked = mesh.orbit(h).filter(|&h| is_left[mesh.origin(h).index()]);
+        near.extend(marked.map(HalfEdgeId::face));
+        for copy in mesh.orbit(h) {
+            is_left[mesh.origin(copy).index()] = false;
+        }
+    }
+    near.sort_unstable();
+    near.dedup();
+    near
 }
 
 /// Whether each vertex is a corner of one of these faces. A walk round a hub that is torn would cost
