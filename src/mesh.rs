@@ -276,6 +276,13 @@ impl Mesh {
         h.of(&self.link).0 > h.to_u32()
     }
 
+    /// For each face in ascending order, which of its half-edges are those by which [`Mesh::edges`] lists
+    /// their edges.
+    pub(crate) fn edges_of_faces(&self) -> impl Iterator<Item = [bool; 3]> + '_ {
+        let links = self.link.as_chunks::<3>().0.iter().zip(0..);
+        links.map(|(links, f)| [0, 1, 2].map(|i| links[i].0 > 3 * f + i as u32))
+    }
+
     /// Reserves memory for `vertices` more vertices, so that this many splits do not reallocate.
     pub fn reserve(&mut self, vertices: usize) {
         self.outgoing.reserve(vertices);

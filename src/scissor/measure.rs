@@ -13,8 +13,9 @@ use super::exact::{self, Trace, with_copies};
 use super::neck::{self, CutNeck};
 use super::pieces::{PieceCounts, Pinch};
 use super::seam::Nodes;
+use super::survey::Survey;
 use crate::edit::{ChildFace, Cursor, Edit, Edits};
-use crate::geometry::{Point, Side, altitude, length};
+use crate::geometry::{Point, Side, length};
 use crate::id::{FaceId, HalfEdgeId, VertexId};
 use crate::mesh::Mesh;
 use crate::place::Positions;
@@ -91,7 +92,7 @@ pub(super) struct CutMeasurer<'w> {
     slit: Vec<FaceId>,
     slit_length: f64,
     pinches: Vec<Pinch>,
-    mean_edge: f64,
+    survey: Survey,
     /// What is known before the cut.
     report: CutReport,
 }
@@ -115,7 +116,7 @@ impl<'w> CutMeasurer<'w> {
             slit: Vec::new(),
             slit_length: 0.0,
             pinches: Vec::new(),
-            mean_edge: mean_edge(mesh, positions),
+            survey: Survey::new(mesh, positions, |f| counts.is_far(f)),
             report: CutReport {
                 pieces_before: counts.count(mesh),
                 nearest_vertex: nearest_vertex(context, mesh, positions),
@@ -260,9 +261,6 @@ impl<'w> CutMeasurer<'w> {
         let nodes = Nodes::new(edits, first_edit, self.context.offsets.len());
         let (mut ends, mut torn): (Vec<VertexId>, Vec<HalfEdgeId>) = Default::default();
         let (pieces, expected) = (self.counts.count(mesh), self.report.pieces_expected);
-        let places = mesh
-            .faces()
-            .map(|f| mesh.face_vertices(f).map(|v| positions.at(v)));
         let mut splits = 0;
         let mut vertices_inserted = 0;
         let mut seam_length = 0.0;
@@ -316,9 +314,12 @@ impl<'w> CutMeasurer<'w> {
             seam_length,
             seam_length_ratio: ratio(seam_length, self.slit_length),
             seam_deviation_max,
-            seam_deviation_max_edges: ratio(seam_deviation_max, self.mean_edge),
+            seam_deviation_max_edges: ratio(seam_deviation_max, self.survey.mean_edge),
             vertices_inserted,
-            altitude_min: places.map(altitude).reduce(f64::min).unwrap_or(0.0),
+            altitude_min: {
+                let near = self.counts.near_now(mesh);
+                self.survey.altitude_min(mesh, positions, near)
+            },
             missed: self.slit.is_empty(),
             tip_overshoots: self.overshoots(mesh, positions, ends),
             aims: {
@@ -407,29 +408,21 @@ fn ends_of(mesh: &Mesh, positions: &Positions, h: HalfEdgeId) -> [Point; 2] {
     [mesh.origin(h), mesh.target(h)].map(|v| positions.at(v))
 }
 
-/// The mean length of the edges.
-fn mean_edge(mesh: &Mesh, positions: &Positions) -> f64 {
-    let (mut sum, mut count) = (0.0, 0u32);
-    for h in mesh.edges() {
-        let [p, q] = ends_of(mesh, positions, h);
-        sum += length(q - p);
-        count += 1;
-    }
-    sum / f64::from(count.max(1))
-}
-
 /// How far the vertex nearest to the slit is from it.
 fn nearest_vertex(context: &CutContext<'_>, mesh: &Mesh, positions: &Positions) -> f64 {
-    let bounds = context.strip.bounds();
-    let with_faces = mesh.vertices().filter(|&v| mesh.half_edge_of(v).is_some());
-    let distances = with_faces.map(|v| {
-        let p = positions.at(v);
-        let off = context.strip.plane.distance(p);
+    let (plane, bounds) = (&context.strip.plane, context.strip.bounds());
+    let mut least = f64::INFINITY;
+    for (v, offset) in mesh.vertices().zip(context.offsets.all()) {
+        let off = offset / plane.offset_of_unit();
+        // What is added to a square makes it no smaller, and the root keeps their order.
+        if off * off >= least || mesh.half_edge_of(v).is_none() {
+            continue;
+        }
         let outside = bounds.map_or(0.0, |sides| {
-            let [a, b] = sides.map(|side| -side.distance(p));
+            let [a, b] = sides.map(|side| -side.distance(positions.at(v)));
             a.max(b).max(0.0)
         });
-        (off * off + outside * outside).sqrt()
-    });
-    distances.fold(f64::INFINITY, f64::min)
+        least = least.min(off * off + outside * outside);
+    }
+    least.sqrt()
 }

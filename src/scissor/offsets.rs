@@ -55,6 +55,11 @@ impl Offsets {
         self.of.len()
     }
 
+    /// The offset of each vertex, as it was computed.
+    pub(super) fn all(&self) -> &[f64] {
+        &self.of
+    }
+
     #[inline]
     pub(super) fn of(&self, v: VertexId) -> f64 {
         let offset = self.of[v.index()];

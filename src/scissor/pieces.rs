@@ -70,6 +70,12 @@ impl PieceCounts {
         }
     }
 
+    /// Whether a cut leaves a face as it is, asked before the cut.
+    #[inline]
+    pub(super) fn is_far(&self, f: FaceId) -> bool {
+        (self.element[f.index()] as usize) < self.element.len()
+    }
+
     /// The faces that the cut may have changed or made, asked after it; ascending.
     pub(super) fn near_now<'m>(&'m self, mesh: &Mesh) -> impl Iterator<Item = FaceId> + 'm {
         let made = (self.element.len()..mesh.face_count()).filter_map(FaceId::new);
