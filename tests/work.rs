@@ -2,6 +2,8 @@
 //!
 //! The fuzz target `cut_mend` uses this too.
 
+use std::collections::BTreeMap;
+
 use tearmesh::{
     Cut, CutError, CutMethod, CutReport, Edit, Edits, Masses, Mesh, PerCorner, Point, Positions,
     Ray, Scissor, Vector, VertexId, mend,
@@ -91,6 +93,7 @@ impl Work {
         scissor: &Scissor,
     ) -> Result<(Cut, CutReport), CutError> {
         let (first, mesh_before) = (self.edits.cursor(), self.mesh.clone());
+        let before = Whole::of(&self.mesh, &self.positions);
         let (mesh, positions) = (&mut self.mesh, &mut self.positions);
         let made = scissor.cut_measured(method, mesh, positions, &mut self.edits);
         let (cut, report) = made.inspect_err(|_| {
@@ -98,6 +101,7 @@ impl Work {
         })?;
         self.follow();
         self.is_sound();
+        Whole::of(&self.mesh, &self.positions).is_reported(&before, &report);
         assert_eq!(report.pieces, self.mesh.components().count());
         let seam: usize = cut.seam().map(|line| 2 * line.lips.len()).sum();
         assert_eq!(report.ghost_pairs, seam);
@@ -184,6 +188,92 @@ impl Work {
         after
             .map(|(after, parent)| after / before[parent])
             .collect()
+    }
+}
+
+/// Measures of a whole mesh, by loops over all of it. They have the bits of those of a report.
+#[derive(Debug)]
+struct Whole {
+    pieces: usize,
+    altitude_min: f64,
+    mean_edge: f64,
+}
+
+impl Whole {
+    fn of(mesh: &Mesh, positions: &Positions) -> Whole {
+        let triangles = triangles(mesh);
+        let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        let (mut altitudes, mut edges): (Vec<f64>, Vec<f64>) = Default::default();
+        // The face of each directed edge. One that is not torn has its two faces in opposite directions.
+        let mut faces: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+        for (&triangle, f) in triangles.iter().zip(0..) {
+            let at = triangle.map(|v| positions.as_slice()[v as usize]);
+            let side = |i: usize, k: usize| {
+                let (from, to) = (at[i % 3], at[k % 3]);
+                [to.x - from.x, to.y - from.y, to.z - from.z]
+            };
+            let (u, v) = (side(0, 1), side(0, 2));
+            let [i, j, k] = [0, 1, 2];
+            let normal = [(j, k), (k, i), (i, j)].map(|(a, b)| u[a] * v[b] - u[b] * v[a]);
+            let longest = [0, 1, 2].map(|i| length(side(i, i + 1)));
+            let longest = longest.into_iter().fold(0.0, f64::max);
+            altitudes.push(if longest > 0.0 {
+                length(normal) / longest
+            } else {
+                0.0
+            });
+            for i in 0..3 {
+                faces.insert([triangle[i], triangle[(i + 1) % 3]], f);
+            }
+        }
+        let mut pieces = 0;
+        let mut seen = vec![false; triangles.len()];
+        for f in 0..triangles.len() {
+            pieces += usize::from(!seen[f]);
+            let mut stack = vec![f];
+            while let Some(f) = stack.pop() {
+                if !std::mem::replace(&mut seen[f], true) {
+                    let across = (0..3).map(|i| [triangles[f][(i + 1) % 3], triangles[f][i]]);
+                    stack.extend(across.filter_map(|edge| faces.get(&edge)));
+                }
+            }
+        }
+        for (&triangle, f) in triangles.iter().zip(0..) {
+            for i in 0..3 {
+                let [from, to] = [triangle[i], triangle[(i + 1) % 3]];
+                if faces.get(&[to, from]).is_none_or(|&other| f < other) {
+                    let [p, q] = [from, to].map(|v| positions.as_slice()[v as usize]);
+                    edges.push(length([q.x - p.x, q.y - p.y, q.z - p.z]));
+                }
+            }
+        }
+        Whole {
+            pieces,
+            altitude_min: altitudes.into_iter().reduce(f64::min).unwrap_or(0.0),
+            mean_edge: edges.iter().fold(0.0, |sum, edge| sum + edge) / edges.len().max(1) as f64,
+        }
+    }
+
+    /// Asserts that a report of a cut has the measures after it, and those `before`.
+    fn is_reported(&self, before: &Whole, report: &CutReport) {
+        let Whole {
+            pieces,
+            altitude_min,
+            ..
+        } = *self;
+        assert_eq!(
+            (report.pieces_before, report.pieces),
+            (before.pieces, pieces)
+        );
+        assert_eq!(report.altitude_min.to_bits(), altitude_min.to_bits());
+        let in_edges = match report.seam_deviation_max / before.mean_edge {
+            ratio if ratio.is_finite() => ratio,
+            _ => 0.0,
+        };
+        assert_eq!(
+            report.seam_deviation_max_edges.to_bits(),
+            in_edges.to_bits()
+        );
     }
 }
 
