@@ -24,6 +24,7 @@ mod partition;
 mod pieces;
 mod seam;
 mod strip;
+mod survey;
 
 pub use aim::CutAim;
 pub use cut::{Cut, CutEnd, CutPieces};

@@ -37,10 +37,13 @@ impl Mesh {
     #[inline]
     #[must_use]
     pub fn corners_of(&self, v: VertexId) -> Corners<'_> {
+        let fan = self.half_edge_of(v);
+        let mut orbit = Orbit::new(self, fan);
+        orbit.at = None;
         Corners {
             vertex: v,
-            orbit: Orbit::new(self, self.half_edge_of(v)),
-            is_here: true,
+            fan,
+            orbit,
         }
     }
 
@@ -176,9 +179,11 @@ impl Mesh {
 #[derive(Clone, Debug)]
 pub struct Corners<'m> {
     vertex: VertexId,
+    /// The next corner, as long as pairs alone have led ahead from the first one: those corners are corners
+    /// of the vertex.
+    fan: Option<HalfEdgeId>,
+    /// The walk beyond the first link that is torn or on the boundary; before that, a walk that is over.
     orbit: Orbit<'m>,
-    /// Whether the corner before is one of the vertex.
-    is_here: bool,
 }
 
 impl Iterator for Corners<'_> {
@@ -186,14 +191,20 @@ impl Iterator for Corners<'_> {
 
     #[inline]
     fn next(&mut self) -> Option<HalfEdgeId> {
-        loop {
-            let by_pair = self.orbit.by_pair;
-            let h = self.orbit.next()?;
-            // Through a pair one comes to a corner of the same vertex, and need not read it.
-            if !by_pair {
-                self.is_here = self.orbit.mesh.origin(h) == self.vertex;
+        if let Some(h) = self.fan {
+            let link = *h.prev().of(&self.orbit.mesh.link);
+            if link.is_pair() {
+                let ahead = HalfEdgeId::from_u32(link.0);
+                self.fan = (ahead != self.orbit.first).then_some(ahead);
+                return Some(h);
             }
-            if self.is_here {
+            self.fan = None;
+            self.orbit.at = Some(h);
+        }
+        loop {
+            let h = self.orbit.next()?;
+            let is_here = self.orbit.mesh.origin(h) == self.vertex;
+            if is_here {
                 return Some(h);
             }
         }
@@ -207,29 +218,26 @@ impl FusedIterator for Corners<'_> {}
 #[derive(Clone, Debug)]
 pub(crate) struct Orbit<'m, const GHOSTS: bool = true> {
     mesh: &'m Mesh,
-    first: Option<HalfEdgeId>,
+    /// Any where there is none.
+    first: HalfEdgeId,
     at: Option<HalfEdgeId>,
     backward: bool,
-    /// Whether a pair leads from the corner before to the one that comes next.
-    by_pair: bool,
 }
 
 impl<'m, const GHOSTS: bool> Orbit<'m, GHOSTS> {
     fn new(mesh: &'m Mesh, first: Option<HalfEdgeId>) -> Self {
         Orbit {
             mesh,
-            first,
+            first: first.unwrap_or(HalfEdgeId::from_u32(0)),
             at: first,
             backward: false,
-            by_pair: false,
         }
     }
 
     #[inline]
-    fn across(&mut self, h: HalfEdgeId) -> Option<HalfEdgeId> {
+    fn across(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         let link = h.of(&self.mesh.link);
-        self.by_pair = link.is_pair();
-        if GHOSTS || self.by_pair {
+        if GHOSTS || link.is_pair() {
             link.opposite()
         } else {
             None
@@ -243,18 +251,15 @@ impl<const GHOSTS: bool> Iterator for Orbit<'_, GHOSTS> {
     #[inline]
     fn next(&mut self) -> Option<HalfEdgeId> {
         let h = self.at?;
-        let first = self.first?;
         self.at = if self.backward {
             self.across(h).map(HalfEdgeId::next)
         } else {
             match self.across(h.prev()) {
-                Some(ahead) if ahead == first => None,
+                Some(ahead) if ahead == self.first => None,
                 Some(ahead) => Some(ahead),
                 None => {
                     self.backward = true;
-                    let behind = self.across(first).map(HalfEdgeId::next);
-                    self.by_pair = false;
-                    behind
+                    self.across(self.first).map(HalfEdgeId::next)
                 }
             }
         };
