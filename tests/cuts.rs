@@ -322,3 +322,28 @@ fn a_face_on_the_plane_has_the_side_of_those_round_it() {
     let sides = cut.pieces(&work.mesh).sides;
     assert_eq!(sides, [Some(Side::Back), Some(Side::Front)]);
 }
+
+/// A crossing on one side of a tear inserts on the other side too, in faces that are nowhere near the plane
+/// once the sides have moved apart.
+#[test]
+fn a_report_counts_faces_that_a_cut_divides_far_from_its_plane() {
+    let along = |point: [f64; 3], normal: [f64; 3]| {
+        let plane = Plane::new(Point::from(point), Vector::from(normal));
+        Scissor::by_plane(plane.expect("a normal"))
+    };
+    for (shift, pieces) in [(0.3, 4), (1.7, 3)] {
+        let (mut mesh, mut positions) = shapes::grid(8, 8);
+        let (apart, mut edits) = (along([0.52, 0.0, 0.0], [1.0, 0.0, 0.0]), Edits::new());
+        let cut = apart.cut(CutMethod::Partition, &mut mesh, &mut positions, &mut edits);
+        cut.expect("positions are in step");
+        let sides = mesh.components();
+        let moved = mesh.vertices().map(|v| {
+            let f = mesh.faces_of(v).next().expect("a vertex has a face");
+            positions.at(v) + Vector::y() * (shift * sides.of(f) as f64)
+        });
+        let moved = Positions::new(moved).expect("coordinates are finite");
+        let mut work = Work::new((mesh, moved));
+        let (_, report) = work.cut(CutMethod::Exact, &along([0.0, 0.43, 0.0], [0.0, 1.0, 0.0]));
+        assert_eq!((report.pieces_before, report.pieces), (2, pieces));
+    }
+}
