@@ -3,7 +3,7 @@
 //! They are found by unions in the order of the faces. A face takes the smallest label among the faces before
 //! it that it shares an edge with. Where these have different labels, their sets are joined. No face is visited
 //! twice and no stack is kept, so the links are read in the order in which they are stored. A flood, which
-//! follows the links instead, takes twice as long on a mesh in order and four times as long on a shuffled one.
+//! follows the links instead, takes four times as long on a mesh in order and three times as long on a shuffled one.
 
 use super::Mesh;
 use crate::id::FaceId;
