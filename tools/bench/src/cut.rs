@@ -2,7 +2,7 @@
 //!
 //! First the contest, on two sizes of sheet; then two tables of ours alone (`cut/tables.rs`).
 
-mod facts;
+pub(crate) mod facts;
 mod rival;
 mod tables;
 mod ways;

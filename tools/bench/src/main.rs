@@ -11,6 +11,7 @@
 //! |---|---|
 //! | `read` | OBJ bytes in memory to a document in memory, beside five crates and a plain loop |
 //! | `write` | a document to OBJ bytes in memory, beside `{}` and shortest digits |
+//! | `build` | faces to a mesh, and walks round all vertices, beside lox and CGAL |
 //! | `cloth` | a step of a hanging sheet, beside Bullet; what size and splits cost |
 //! | `cut` | a plane through a sheet, both sides kept, beside three Python packages |
 //! | `growth` | each stage of a cut as sheets and fans grow tenfold, to `--faces` and to a million |
@@ -40,6 +41,9 @@
 //! `github.com/thisistherk/fast_obj`). It and ours are processes of their own, which get a file and read it
 //! from memory: a new process each round, for the first time (`fresh`) and then ten times (`in a loop`).
 //!
+//! `build` has lox and CGAL as rivals: `apt-get install libcgal-dev g++`. Where a program of fifty lines
+//! (`rivals/cgal.cpp`) cannot be compiled, the table says so.
+//!
 //! `cloth` has Bullet as its rival: `apt-get install libbullet-dev pkg-config g++`. A program of a
 //! hundred lines (`rivals/bullet.cpp`) is compiled against it, gets the same net, and steps it;
 //! where it cannot be compiled, the table says so. A projection is timed by the
@@ -47,6 +51,7 @@
 //! Bullet with its links in the order of the mesh. `longest` is the largest length of an edge in
 //! the end, as a multiple of its rest length. `--faces` does not concern it.
 
+mod build;
 mod cloth;
 mod cut;
 mod growth;
@@ -72,6 +77,7 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let run: fn(&Options) -> String = match &*subcommand {
+        "build" => build::run,
         "cloth" => cloth::run,
         "cut" => cut::run,
         "growth" => growth::run,
@@ -79,7 +85,7 @@ fn main() -> ExitCode {
         "write" => write::run,
         _ => {
             eprintln!(
-                "expected a subcommand: cloth, cut, growth, read or write (see the top of main.rs)"
+                "expected a subcommand: build, cloth, cut, growth, read or write (see the top of main.rs)"
             );
             return ExitCode::FAILURE;
         }

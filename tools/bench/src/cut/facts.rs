@@ -11,11 +11,11 @@ use tearmesh_lab::sheet::wavy;
 use crate::sheet::cells;
 
 /// A mesh, and where its vertices are.
-pub(super) type Sheet = (Mesh, Positions);
+pub(crate) type Sheet = (Mesh, Positions);
 
 /// A wavy sheet of about so many faces, in the order of its rows, as programs write meshes: in the order in which
 /// Delaunay triangles are found, a partition takes a quarter longer.
-pub(super) fn sheet(faces: usize) -> Sheet {
+pub(crate) fn sheet(faces: usize) -> Sheet {
     let (found, positions) = wavy(cells(faces, 2) as u32);
     let mut triangles = found.indices().as_chunks::<3>().0.to_vec();
     for triangle in &mut triangles {
