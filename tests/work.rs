@@ -215,8 +215,8 @@ impl Whole {
             let (u, v) = (side(0, 1), side(0, 2));
             let [i, j, k] = [0, 1, 2];
             let normal = [(j, k), (k, i), (i, j)].map(|(a, b)| u[a] * v[b] - u[b] * v[a]);
-            let longest = [0, 1, 2].map(|i| length(side(i, i + 1)));
-            let longest = longest.into_iter().fold(0.0, f64::max);
+            let lengths = [0, 1, 2].map(|i| length(side(i, i + 1)));
+            let longest = lengths.into_iter().fold(0.0, f64::max);
             altitudes.push(if longest > 0.0 {
                 length(normal) / longest
             } else {

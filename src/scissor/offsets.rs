@@ -1,4 +1,4 @@
-//! How far each vertex is from the cutting plane, once for all.
+//! The distance of each vertex from the cutting plane, computed once for all.
 
 use crate::exact::ROUNDING;
 use crate::geometry::{Plane, Point, max_abs};

@@ -44,10 +44,10 @@ impl PieceCounts {
     pub(super) fn new(mesh: &Mesh, touched: &[FaceId]) -> PieceCounts {
         let near = round(mesh, touched);
         let (mut element, all) = mesh.parts_between(&near);
-        let beside = near.iter().flat_map(|&f| mesh.neighbours(f));
-        let beside: Vec<FaceId> = beside.filter(|g| element[g.index()] != WALL).collect();
-        let beside = beside.into_iter();
-        let mut beside: Vec<(u32, FaceId)> = beside
+        let neighbours = near.iter().flat_map(|&f| mesh.neighbours(f));
+        let far: Vec<FaceId> = neighbours.filter(|g| element[g.index()] != WALL).collect();
+        let mut beside: Vec<(u32, FaceId)> = far
+            .into_iter()
             .map(|g| (smallest(&mut element, g.to_u32()), g))
             .collect();
         beside.sort_unstable();

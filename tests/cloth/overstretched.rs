@@ -81,13 +81,13 @@ fn a_pass_without_a_root_finds_every_overstretched_edge() {
 fn sew(torn: &mut Torn, random: &mut Random) {
     let root = |v| torn.mesh.root(v);
     let vertices: Vec<VertexId> = torn.mesh.vertices().collect();
-    let pairs = vertices.iter().flat_map(|&a| {
+    let siblings = vertices.iter().flat_map(|&a| {
         let others = vertices
             .iter()
             .filter(move |&&b| a < b && root(a) == root(b));
         others.map(move |&b| [a, b])
     });
-    let mut pairs: Vec<_> = pairs.collect();
+    let mut pairs: Vec<_> = siblings.collect();
     random.shuffle(&mut pairs);
     for ends in pairs {
         let weights = ends.map(|v| torn.cloth.masses().at(v));

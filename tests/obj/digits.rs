@@ -105,8 +105,8 @@ fn bytes_beside_digits_are_told_from_them() {
             false => [&of_word, &rest[..]].concat(),
         };
         let vertex = if is_last { 2 } else { 0 };
-        let found = Document::read(&file[..]).ok();
-        let found = found.map(|document| document.positions()[vertex].x.to_bits());
+        let read = Document::read(&file[..]).ok();
+        let found = read.map(|document| document.positions()[vertex].x.to_bits());
         let is = std::str::from_utf8(&word)
             .ok()
             .and_then(|word| word.parse::<f64>().ok());

@@ -145,10 +145,10 @@ fn faces_mean_the_same_behind_faces_of_any_form() {
         "1 2 9",
         "1/1 2/1 3/9",
     ];
-    let faces = faces.map(|face| format!("f {face}\n"));
-    let pairs = faces
+    let lines = faces.map(|face| format!("f {face}\n"));
+    let pairs = lines
         .iter()
-        .flat_map(|one| faces.iter().map(move |other| [one, other]));
+        .flat_map(|one| lines.iter().map(move |other| [one, other]));
     for [one, other] in pairs {
         let text = format!("v 2 2 0\n{START}{one}{one}{other}{other}{PADDING}");
         let spelt_oddly = text.replace(' ', "\t");

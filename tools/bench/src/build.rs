@@ -59,8 +59,8 @@ fn meshes(faces: usize) -> [Triangles; 4] {
 }
 
 fn contest(triangles: &Triangles, program: &Result<Program, String>, options: &Options) -> String {
-    let cgal = program.as_ref().map_err(String::as_str);
-    let cgal = cgal.and_then(|program| Cgal::start(program, triangles).ok_or("does not start"));
+    let start = |program| Cgal::start(program, triangles).ok_or("does not start");
+    let cgal = program.as_ref().map_err(String::as_str).and_then(start);
     let [mut ours, mut fan, mut lox, mut theirs] = [(); 4].map(|()| Times::default());
     let mut checks = Vec::new();
     for _ in 0..options.rounds {

@@ -1,4 +1,4 @@
-//! What has been read so far, how it is counted, and how much there may be.
+//! The state of a reader: what has been read so far, how it is counted, and how much there may be.
 
 use std::ops::Range;
 

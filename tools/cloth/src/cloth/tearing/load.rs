@@ -71,7 +71,7 @@ impl Threshold {
     }
 
     /// How many times as long as at rest any edge is at least that has this load, by the strain that
-    /// [`strain`] says; `None` where faces decide, or forces that no strain tells. Linear.
+    /// [`strain`] says; `None` where faces decide, or forces that no strain tells.
     pub(super) fn ratio_from(&self, cloth: &Cloth, load: f64) -> Option<f64> {
         let [longest_m, strongest_n] = cloth.system().model.stretch.most;
         let recorded = cloth.system().model.recorded;
